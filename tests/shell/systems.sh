@@ -176,9 +176,9 @@ cmp -s first.svg second.svg || fail 'again makes another picture'
 
 # a field: an explicit scheme beyond its limit says so; another V stands behind the name; a ring that is open is refused
 # before it blows up, too
-"$geomint" run phi4 scheme=leapfrog dt=0.11 steps=1 points=800 --json | grep -q '"longest_step":0.0997' ||
+"$geomint" run phi4 scheme=leapfrog dt=0.11 steps=1 half_length=40 points=800 --json | grep -q '"longest_step":0.0997' ||
     fail 'phi4: the longest step is not told'
-"$geomint" run phi4 scheme=leapfrog dt=0.11 until=1000 points=800 --json >out 2>err
+"$geomint" run phi4 scheme=leapfrog dt=0.11 until=1000 half_length=40 points=800 --json >out 2>err
 [ $? = 2 ] && grep -q 'beyond 0.0997.*, the limit of linear theory' out || fail "phi4 beyond the limit: $(cat out err)"
 "$geomint" run klein-gordon V=0 steps=1 --json >out 2>err || fail "klein-gordon V=0: $(cat err)"
 "$geomint" run double-sine-gordon half_length=1 2>err

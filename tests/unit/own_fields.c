@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
+#include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/own/potential.h"
 #include "core/field/problems/sine_gordon.h"
@@ -297,6 +298,57 @@ static void the_quotient_does_not_cancel(void **unused)
     close_typed(&typed);
 }
 
+/* Sums of powers: a^n - b^n over a - b is the sum of a^k b^(n-1-k). V' of degree 11 is the last that six points are
+   exact for; beyond it, and where V is no polynomial, pieces are halved. */
+static void the_quotient_of_powers_is_exact(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        int power;
+    } rows[] = {
+        {"V: u^3", 3},   {"V: (u^2)^2*u/1", 5}, {"V: u^12", 12},         {"V: u^6*u^7", 13},
+        {"V: u^16", 16}, {"V: u^5/u^2", 3},     {"V: exp(4*log(u))", 4}, {"V: u^12 + cos(u) - cos(u)", 12}};
+    static const double pairs[][2] = {{0.2, 1.9}, {1.1, 1.1000001}, {0.5, 3}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct typed typed;
+        char text[128];
+        snprintf(text, sizeof text, "field: u\n%s\nstart: u = 1, u_t = 0\n", rows[i].text);
+        open_typed(&typed, text);
+        const struct gm_wave *wave = gm_field_of(&typed.problem)->wave;
+        for (size_t k = 0; k < GM_COUNT(pairs); k++) {
+            const double a = pairs[k][0], b = pairs[k][1];
+            double exact = 0;
+            for (int j = 0; j < rows[i].power; j++) {
+                exact += pow(a, j) * pow(b, rows[i].power - 1 - j);
+            }
+            const double found = wave->quotient(&typed.problem, a, b);
+            if (!(fabs(found - exact) <= 2e-14 * exact)) {
+                fail_msg("%s, %g to %g: %.17g, not %.17g", rows[i].text, a, b, found, exact);
+            }
+        }
+        close_typed(&typed);
+    }
+}
+
+/* The energy is that of V as it is written: phi^4's of a field at rest in its vacuum is none. */
+static void the_energy_is_of_the_potential_as_written(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"field: u\nV: (u^2 - 1)^2/4\nstart: u = -1, u_t = 0\n",
+                                        "field: u\nV: (u^2 - 1)^2/4 + 3\nstart: u = -1, u_t = 0\n"};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        struct typed typed;
+        double y[SIZE];
+        open_typed(&typed, texts[i]);
+        gm_own_wave_levels(&typed.problem, 0.05, y);
+        const double energy = i == 0 ? 0 : 3 * 2 * HALF;
+        assert_true(fabs(gm_wave_energy(&typed.problem, y) - energy) < 1e-12);
+        assert_true(fabs(gm_wave_cell_energy(&typed.problem, y) - energy) < 1e-12);
+        close_typed(&typed);
+    }
+}
+
 /* Near a vacuum V' is rounding, and the quotient of V(a) - V(b) would be noise over nothing: with x = a - 1,
    y = b - 1 it is (2 + x + y) (2 x + 2 y + x^2 + y^2) / 4 for phi^4. */
 static void the_quotient_holds_at_rest(void **unused)
@@ -488,7 +540,9 @@ int main(void)
         cmocka_unit_test(double_sine_gordon_moves_as_written_by_hand),
         cmocka_unit_test(the_multisymplectic_law_holds),
         cmocka_unit_test(the_quotient_does_not_cancel),
+        cmocka_unit_test(the_quotient_of_powers_is_exact),
         cmocka_unit_test(the_quotient_holds_at_rest),
+        cmocka_unit_test(the_energy_is_of_the_potential_as_written),
         cmocka_unit_test(a_linear_wave_turns_as_by_hand),
         cmocka_unit_test(a_peakon_moves_as_fast_as_it_is_high),
         cmocka_unit_test(what_is_wrong_is_said),

@@ -8,6 +8,7 @@
 #include "core/field/own/potential.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +21,7 @@ struct own {
     struct gm_field facets;
     struct gm_form form;
     struct gm_tape potential, slope, curvature, start, exact;
-    bool has_exact;
+    bool has_exact, brief; /* brief: Gauss's formula on one piece is exact for V' */
 };
 
 static const struct own *own_of(const struct gm_problem *problem)
@@ -61,8 +62,8 @@ static void slopes(const struct gm_problem *problem, const double *u, double *sl
     }
 }
 
-/* Gauss's points and weights on (-1, 1), those above 0. */
-enum { HALF = 3, MOST_PIECES = 16 };
+/* Gauss's points and weights on (-1, 1), those above 0: exact for polynomials of degree EXACT and less. */
+enum { HALF = 3, EXACT = 4 * HALF - 1, MOST_PIECES = 16 };
 static const double abscissas[HALF] = {0.238619186083196908630501721680712,
                                        0.661209386466264513661399595019905,
                                        0.932469514203152027812301554493995};
@@ -75,24 +76,23 @@ static const double weights[HALF] = {0.467913934572691047389870343989551, 0.3607
 static double mean_of(const struct gm_tape *tape, double a, double b, size_t pieces, bool weighted,
                       double *size)
 {
-    enum { EACH = 2 * HALF };
-    double at[MOST_PIECES * EACH] = {0}, value[MOST_PIECES * EACH], sum = 0;
     const double middle = (a + b) / 2, half = (a - b) / 2;
-    /* pairs that lie as far from the middle on either side are added first */
+    double sum = 0;
     for (size_t piece = 0; piece < pieces; piece++) {
+        /* pairs that lie as far from the middle on either side are added first */
+        double from[HALF], at[2 * HALF], value[2 * HALF];
         for (size_t k = 0; k < HALF; k++) {
-            const size_t i = piece * EACH + 2 * k;
-            const double from = (2 * (double)piece + 1 - (double)pieces + abscissas[k]) / (double)pieces;
-            at[i] = middle + half * from;
-            at[i + 1] = middle - half * from;
+            from[k] = (2 * (double)piece + 1 - (double)pieces + abscissas[k]) / (double)pieces;
+            at[2 * k] = middle + half * from[k];
+            at[2 * k + 1] = middle - half * from[k];
         }
-    }
-    gm_tape_values(tape, at, value, pieces * EACH);
-    for (size_t i = 0; i < pieces * EACH; i += 2) {
-        const double share = (at[i] - middle) * (half != 0 ? 1 / half : 0); /* of a, from -1 to 1 */
-        sum += weights[i / 2 % HALF] * (weighted ? (value[i] * (1 + share) + value[i + 1] * (1 - share)) / 2
-                                                 : value[i] + value[i + 1]);
-        *size = fmax(*size, fmax(fabs(value[i]), fabs(value[i + 1])));
+        gm_tape_values(tape, at, value, 2 * HALF);
+        for (size_t k = 0; k < HALF; k++) {
+            const double near_a = value[2 * k], near_b = value[2 * k + 1];
+            sum += weights[k] *
+                   (weighted ? (near_a * (1 + from[k]) + near_b * (1 - from[k])) / 2 : near_a + near_b);
+            *size = fmax(*size, fmax(fabs(near_a), fabs(near_b)));
+        }
     }
     return sum / (2 * (double)pieces);
 }
@@ -101,6 +101,9 @@ static double quotient(const struct gm_problem *problem, double a, double b)
 {
     const struct own *own = own_of(problem);
     double size = 0, last = mean_of(&own->slope, a, b, 1, false, &size), differ = INFINITY;
+    if (own->brief) {
+        return last;
+    }
     for (size_t pieces = 2; pieces <= MOST_PIECES; pieces *= 2) {
         const double mean = mean_of(&own->slope, a, b, pieces, false, &size), before = differ;
         differ = fabs(mean - last);
@@ -122,7 +125,7 @@ static double quotient(const struct gm_problem *problem, double a, double b)
 static double quotient_slope(const struct gm_problem *problem, double a, double b)
 {
     double size = 0;
-    return mean_of(&own_of(problem)->curvature, a, b, 2, true, &size);
+    return mean_of(&own_of(problem)->curvature, a, b, own_of(problem)->brief ? 1 : 2, true, &size);
 }
 
 static const struct gm_wave formulas = {
@@ -142,6 +145,49 @@ static void gradient(const void *parameters, const double *s, double *gradient)
 }
 
 /* ---- what is derived ---- */
+
+/* The degree of a formula as a polynomial in variable 0; INFINITY where it is not written as one, or there is no
+   memory to tell. */
+static double degree_of(const struct gm_formula *graph, gm_node_id formula)
+{
+    double *degrees = malloc((formula + (size_t)1) * sizeof *degrees), degree = INFINITY;
+    for (gm_node_id i = 0; degrees && i <= formula; i++) {
+        const struct gm_node *node = &graph->nodes[i];
+        if (node->operation == GM_CONSTANT || node->operation == GM_VARIABLE) {
+            degrees[i] = node->operation == GM_VARIABLE && node->a == 0;
+            continue;
+        }
+        const double a = degrees[node->a],
+                     b = gm_operation_rows[node->operation].arity == 2 ? degrees[node->b] : 0;
+        switch (node->operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            degrees[i] = fmax(a, b);
+            break;
+        case GM_OPERATION_NEGATE:
+            degrees[i] = a;
+            break;
+        case GM_OPERATION_MULTIPLY:
+            degrees[i] = a + b;
+            break;
+        case GM_OPERATION_WHOLE_POWER:
+            degrees[i] = a == 0                            ? 0
+                         : graph->nodes[node->b].value > 0 ? a * graph->nodes[node->b].value
+                                                           : INFINITY;
+            break;
+        case GM_OPERATION_DIVIDE:
+            degrees[i] = b == 0 ? a : INFINITY;
+            break;
+        default:
+            degrees[i] = a + b == 0 ? 0 : INFINITY;
+        }
+    }
+    if (degrees) {
+        degree = degrees[formula];
+    }
+    free(degrees);
+    return degree;
+}
 
 /* The derivative of a node over one variable. */
 static gm_node_id over(struct gm_own_system *system, gm_node_id node, size_t variable)
@@ -202,6 +248,7 @@ bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system)
     *wave = (struct gm_own_wave){.system = system, .exact = system->variables[0].exact};
     wave->slope = over(system, system->energy, 0);
     wave->curvature = over(system, wave->slope, 0);
+    wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->slope);
     if (!system->graph.failed) {
         derive_start(wave, system);
     }
@@ -222,6 +269,7 @@ bool gm_own_wave_open(struct gm_problem *problem, const struct gm_own_wave *wave
     problem->facets = &own->facets;
     problem->parameters = own;
     own->has_exact = wave->exact != GM_NO_NODE;
+    own->brief = wave->degree <= EXACT;
     return gm_tape_open(&own->potential, &system->graph, &system->energy, 1, 1, values) &&
            gm_tape_open(&own->slope, &system->graph, &wave->slope, 1, 1, values) &&
            gm_tape_open(&own->curvature, &system->graph, &wave->curvature, 1, 1, values) &&

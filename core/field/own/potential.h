@@ -12,6 +12,7 @@ enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far 
 struct gm_own_wave {
     const struct gm_own_system *system;
     gm_node_id slope, curvature; /* V', V'' */
+    double degree;               /* of V' in u; INFINITY: it is written as no polynomial */
     /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
     gm_node_id start[GM_OWN_START], exact;
 };

@@ -44,7 +44,7 @@ static double sinc_slope(double x)
 static double potential(const struct gm_problem *problem, double u)
 {
     (void)problem;
-    return -cos(u);
+    return 1 - cos(u);
 }
 
 static double slope(const struct gm_problem *problem, double u)

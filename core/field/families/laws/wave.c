@@ -43,15 +43,13 @@ double gm_wave_energy(const struct gm_problem *problem, const double *y)
 {
     const struct gm_line *line = &problem->line;
     const double *u = y, *o = y + line->points, gap = y[2 * line->points];
-    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
     struct exact_sum total = {0};
     for (size_t i = 0; i < line->points; i++) {
         const double rate = (u[i] - o[i]) / gap;
         const double slope = (at(line, u, i, 1) - u[i]) * (at(line, o, i, 1) - o[i]) / (line->dx * line->dx);
-        add(&total,
-            (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) - zero +
-                                         gm_field_of(problem)->wave->potential(problem, o[i]) - zero) /
-                                            2);
+        add(&total, (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) +
+                                                 gm_field_of(problem)->wave->potential(problem, o[i])) /
+                                                    2);
     }
     return line->dx * (total.sum + total.lost);
 }
@@ -60,14 +58,13 @@ double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
 {
     const struct gm_line *line = &problem->line;
     const double *u = y, *o = y + line->points, gap = y[2 * line->points];
-    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
     double sum = 0;
     for (size_t i = 0; i < line->points; i++) {
         const double u_next = at(line, u, i, 1), o_next = at(line, o, i, 1);
         const double rate = (u[i] + u_next - o[i] - o_next) / (2 * gap);
         const double slope = (u_next - u[i] + o_next - o[i]) / (2 * line->dx);
         sum += (rate * rate + slope * slope) / 2 +
-               (gm_field_of(problem)->wave->potential(problem, (u[i] + u_next + o[i] + o_next) / 4) - zero);
+               gm_field_of(problem)->wave->potential(problem, (u[i] + u_next + o[i] + o_next) / 4);
     }
     return line->dx * sum;
 }

@@ -8,9 +8,9 @@
    wave problem: two levels, u and the other, o, and the time between them, dt.
        D f = (f_{i+1} - f_i)/dx,   A f = (f_i + f_{i+1})/2 */
 
-/* dx sum [ ((u - o)/dt)^2 / 2 + D u D o / 2 + (V(u) + V(o)) / 2 - V(0) ] */
+/* dx sum [ ((u - o)/dt)^2 / 2 + D u D o / 2 + (V(u) + V(o)) / 2 ] */
 double gm_wave_energy(const struct gm_problem *problem, const double *y);
-/* dx sum over cells [ (A(u - o)/dt)^2 / 2 + (D(u + o)/2)^2 / 2 + V(A(u + o)/2) - V(0) ] */
+/* dx sum over cells [ (A(u - o)/dt)^2 / 2 + (D(u + o)/2)^2 / 2 + V(A(u + o)/2) ] */
 double gm_wave_cell_energy(const struct gm_problem *problem, const double *y);
 /* The energy that belongs to the scheme's own laws: of nodes or of cells. */
 double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y);
