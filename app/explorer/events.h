@@ -50,6 +50,7 @@ struct gm_explorer {
     int64_t held_until;    /* keys wait for the page that is awaited; 0: they do not */
     bool dirty;            /* the screen has to be composed again */
     bool fresh;            /* with a new picture */
+    double draw_cost;      /* seconds that composing it took the last time */
     bool leave;
     int status;
     char message[GM_MESSAGE]; /* said when the terminal is the shell's again */

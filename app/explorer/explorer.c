@@ -18,7 +18,9 @@
 #include "app/output/say.h"
 #include "render/clock.h"
 
-enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
+enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
+/* Frames come at their full pace while they take at most this part of a core. */
+static const double FRAMES_SHARE = 1.0 / 3;
 
 /* Letters may have changed their size, which the system does not always know. */
 static void read_cell_size(struct gm_explorer *explorer)
@@ -95,11 +97,25 @@ static void read_command(struct gm_explorer *explorer)
     gm_explorer_copy(explorer);
 }
 
-/* At a fixed pace, whatever taking and drawing a shot costs, but for a pause in which others get their
+/* Milliseconds from frame to frame: costly ones, and pictures of pixels, come half as often, so that steps and
+   others get their turn. */
+static int period(const struct gm_explorer *explorer, const struct gm_shot *shot)
+{
+    const double affordable = 1000 * (shot->cost + explorer->draw_cost) / FRAMES_SHARE;
+    if (explorer->list.shown) {
+        return LOOK_MILLISECONDS;
+    }
+    if (explorer->face.pixels || affordable > SLOW_FRAME_MILLISECONDS) {
+        return SLOW_FRAME_MILLISECONDS;
+    }
+    return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
+}
+
+/* At an even pace, whatever taking and drawing a shot costs, but for a pause in which others get their
    turn. */
 static int64_t next_time(int64_t last, int period)
 {
-    enum { LEAST_PAUSE = 10 };
+    enum { LEAST_PAUSE = 5 };
     int64_t now = gm_clock_milliseconds();
     return last + period > now + LEAST_PAUSE ? last + period : now + LEAST_PAUSE;
 }
@@ -125,8 +141,7 @@ static void read_news(struct gm_explorer *explorer)
     if (shot) {
         gm_open_take(&explorer->open, shot);
         read_command(explorer);
-        explorer->open.next_shot = next_time(explorer->open.next_shot,
-                                             explorer->list.shown ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
+        explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {

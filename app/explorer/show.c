@@ -65,7 +65,9 @@ int gm_explorer_output(struct gm_explorer *explorer)
     }
     bool good = gm_display_send(&explorer->display);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
+        const double begun = gm_clock_seconds();
         draw(explorer);
+        explorer->draw_cost = gm_clock_seconds() - begun;
         good = good && gm_display_send(&explorer->display);
     }
     if (!good) {

@@ -52,6 +52,7 @@ struct gm_shot {
     size_t scheme_count;
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit */
     double t, speed;
+    double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
     double ahead;       /* where to run ahead is of use */
     double gone, reach; /* model time gone through, and up to the last snapshot */

@@ -11,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "render/clock.h"
 #include "render/files/thread.h"
 
 enum { QUEUE = 256 };
@@ -55,7 +56,9 @@ static void take_shot(struct gm_worker *worker)
     play->changed = false;
     struct gm_shot *shot = &worker->shots[worker->filled];
     pthread_mutex_unlock(&worker->lock);
+    const double begun = gm_clock_seconds();
     gm_shot_take(shot, &play->session, play->selected, !play->ahead);
+    shot->cost = gm_clock_seconds() - begun;
     shot->running_ahead = play->ahead;
     shot->progress = 1 - gm_play_left_until(play, play->ahead_to) / fabs(play->ahead_to - play->ahead_from);
     shot->paused = play->paused;
