@@ -241,6 +241,9 @@ wait_for 'Type to search'
 keys rigid
 wait_for '▸ rigid-body'
 wait_for 'A free rigid body, by'
+keys zzz
+wait_for 'nothing found'
+keys Tab
 keys Escape
 keys pipe
 wait_for 'it is a pipe, and no file'

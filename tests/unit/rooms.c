@@ -798,7 +798,7 @@ static void natural_convection(void **unused)
                       table[i].largest[0], table[i].largest[1]);
         assert_true(fabs(number / table[i].nusselt - 1) < 0.01);
         for (int k = 0; k < 2; k++) {
-            /* errors fall with the square of the edges: the layer at a wall has five up to the largest speed */
+            /* at 10^5 v is 69.45, 67.66 and 68.67 with 40, 80 and 160 edges: five reach to the largest speed at 80 */
             assert_true(fabs(largest[k] / table[i].largest[k] - 1) < 0.02);
         }
     }

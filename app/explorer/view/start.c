@@ -30,6 +30,9 @@ bool gm_start_is_own(const struct gm_start_entry *entry)
 size_t gm_start_next_group(const struct gm_start *start)
 {
     size_t next = start->choice;
+    if (start->count == 0) {
+        return next;
+    }
     while (next < start->count && start->found[next].group == start->found[start->choice].group) {
         next++;
     }
