@@ -731,7 +731,7 @@ bool gm_system_read(struct gm_own_system *system, const char *text, size_t lengt
                                  .length = length,
                                  .values = values,
                                  .value_count = count,
-                                 .fault = {fault}};
+                                 .fault = {.fault = fault}};
     *system = (struct gm_own_system){0};
     *fault = (struct gm_fault){0};
     gm_formula_open(&system->graph);
