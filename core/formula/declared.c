@@ -353,16 +353,22 @@ static bool arrange(struct gm_reading *reading)
     return true;
 }
 
+/* The place x, which is none of the components; that line says them. */
+static bool add_place(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    char x[] = "x";
+    const struct gm_entry place = {.name = x,
+                                   .length = 1,
+                                   .place = line->place,
+                                   .role = GM_ENTRY_VELOCITY,
+                                   .number = reading->velocity_count++};
+    return gm_reading_add(reading, place) && add_variable(reading, &place);
+}
+
 /* Fields, x, and their derivatives over it */
 static bool add_fields(struct gm_reading *reading, const struct gm_system_line *field)
 {
-    char x[] = "x";
     static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
-    const struct gm_entry place = {.name = x,
-                                   .length = 1,
-                                   .place = field->place,
-                                   .role = GM_ENTRY_VELOCITY,
-                                   .number = reading->velocity_count++};
     if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
         return false;
     }
@@ -371,7 +377,7 @@ static bool add_fields(struct gm_reading *reading, const struct gm_system_line *
         return gm_fail_first(&reading->fault, field->value.begin,
                              "there are 1 to %d fields, as in field: u v", GM_MOST_FIELDS);
     }
-    if (!gm_reading_add(reading, place) || !add_variable(reading, &place)) {
+    if (!add_place(reading, field)) {
         return false;
     }
     for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
@@ -385,12 +391,6 @@ static bool add_fields(struct gm_reading *reading, const struct gm_system_line *
 /* The components of a system of matrices, and x */
 static bool add_components(struct gm_reading *reading, const struct gm_system_line *components)
 {
-    char x[] = "x";
-    const struct gm_entry place = {.name = x,
-                                   .length = 1,
-                                   .place = components->place,
-                                   .role = GM_ENTRY_VELOCITY,
-                                   .number = reading->velocity_count++};
     if (!add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
         return false;
     }
@@ -399,18 +399,12 @@ static bool add_components(struct gm_reading *reading, const struct gm_system_li
         return gm_fail_first(&reading->fault, components->value.begin,
                              "there are 2 to %d components, as in components: u v w", GM_MOST_OF_MATRICES);
     }
-    return gm_reading_add(reading, place) && add_variable(reading, &place);
+    return add_place(reading, components);
 }
 
 /* u and u_t, and what densities may hold beside them: x and u_x */
 static bool add_field(struct gm_reading *reading, const struct gm_system_line *field)
 {
-    char x[] = "x";
-    const struct gm_entry place = {.name = x,
-                                   .length = 1,
-                                   .place = field->place,
-                                   .role = GM_ENTRY_VELOCITY,
-                                   .number = reading->velocity_count++};
     if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
         return false;
     }
@@ -418,7 +412,7 @@ static bool add_field(struct gm_reading *reading, const struct gm_system_line *f
         return gm_fail_first(&reading->fault, field->value.begin, "a field has one name, as in field: u");
     }
     return add_derived(reading, "", "_t", GM_ENTRY_COMPONENT, &reading->component_count, 1) &&
-           gm_reading_add(reading, place) && add_variable(reading, &place) &&
+           add_place(reading, field) &&
            add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, &reading->velocity_count, 1);
 }
 
