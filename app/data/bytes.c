@@ -9,22 +9,26 @@
 
 enum { BLOCK = 1 << 18 };
 
-bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place)
+size_t gm_bytes_write_most(int file, const void *bytes, size_t size, uint64_t place)
 {
-    const char *from = bytes;
-    while (size > 0) {
-        const ssize_t done = pwrite(file, from, size, (off_t)place);
+    size_t written = 0;
+    while (written < size) {
+        const ssize_t done =
+            pwrite(file, (const char *)bytes + written, size - written, (off_t)(place + written));
         if (done < 0 && errno == EINTR) {
             continue;
         }
         if (done <= 0) {
-            return false;
+            break;
         }
-        from += done;
-        size -= (size_t)done;
-        place += (uint64_t)done;
+        written += (size_t)done;
     }
-    return true;
+    return written;
+}
+
+bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place)
+{
+    return gm_bytes_write_most(file, bytes, size, place) == size;
 }
 
 bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place)

@@ -28,20 +28,10 @@ void gm_column_close(struct gm_column *column)
 /* Of a write that fails, what comes before the failure counts: a disk may be full in the middle. */
 static bool write_out(struct gm_column *column, const unsigned char *bytes, size_t size)
 {
-    while (size > 0) {
-        const ssize_t done = pwrite(column->file, bytes, size, (off_t)column->place);
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            return false;
-        }
-        column->crc = libdeflate_crc32(column->crc, bytes, (size_t)done);
-        column->place += (uint64_t)done;
-        bytes += done;
-        size -= (size_t)done;
-    }
-    return true;
+    const size_t written = gm_bytes_write_most(column->file, bytes, size, column->place);
+    column->crc = libdeflate_crc32(column->crc, bytes, written);
+    column->place += written;
+    return written == size;
 }
 
 bool gm_column_flush(struct gm_column *column)

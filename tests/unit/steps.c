@@ -161,6 +161,24 @@ static void symplectic_in_the_extended_phase_space(void **unused)
     assert_true(symplectic_defect("controlled-gauss4") > 1e-3);
 }
 
+/* Of a typed problem that is Kepler's: to the same place and time as the built-in one. */
+static void moves_as_kepler(const char *text, const char *scheme, double dt, long steps)
+{
+    struct typed typed;
+    type(&typed, text);
+    struct gm_run *own = open_run(&typed.problem, scheme, dt, typed.start);
+    struct gm_run *built_in = open_run(&gm_problem_kepler, scheme, dt, typed.start);
+    assert_int_equal(gm_run_advance(own, steps), GM_OK);
+    assert_int_equal(gm_run_advance(built_in, steps), GM_OK);
+    assert_float_equal(own->t, built_in->t, 1e-11);
+    for (size_t c = 0; c < 4; c++) {
+        assert_float_equal(gm_run_state(own)[c], gm_run_state(built_in)[c], 1e-11);
+    }
+    gm_run_close(own);
+    gm_run_close(built_in);
+    untype(&typed);
+}
+
 static void a_typed_monitor(void **unused)
 {
     (void)unused;
@@ -176,19 +194,7 @@ static void a_typed_monitor(void **unused)
         "monitor: 1/r^1.5 + k*p_x^2\nstart: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n"};
     struct typed typed;
     for (size_t i = 0; i < GM_COUNT(schemes) * GM_COUNT(texts); i++) {
-        const char *name = schemes[i % GM_COUNT(schemes)];
-        type(&typed, texts[i / GM_COUNT(schemes)]);
-        struct gm_run *own = open_run(&typed.problem, name, 0.05, typed.start);
-        struct gm_run *built_in = open_run(&gm_problem_kepler, name, 0.05, typed.start);
-        assert_int_equal(gm_run_advance(own, 1000), GM_OK);
-        assert_int_equal(gm_run_advance(built_in, 1000), GM_OK);
-        assert_float_equal(own->t, built_in->t, 1e-11);
-        for (size_t c = 0; c < 4; c++) {
-            assert_float_equal(gm_run_state(own)[c], gm_run_state(built_in)[c], 1e-11);
-        }
-        gm_run_close(own);
-        gm_run_close(built_in);
-        untype(&typed);
+        moves_as_kepler(texts[i / GM_COUNT(schemes)], schemes[i % GM_COUNT(schemes)], 0.05, 1000);
     }
     type(&typed, "coordinates: x\nH: p_x^2/2 + x^4/4\nstart: x = 1, p_x = 0\n");
     const struct gm_scheme *scheme = gm_scheme_find_for("controlled-verlet2", &typed.problem);
@@ -219,18 +225,7 @@ static void a_typed_attraction(void **unused)
         "start: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n"};
     struct typed typed;
     for (size_t i = 0; i < GM_COUNT(texts); i++) {
-        type(&typed, texts[i]);
-        struct gm_run *own = open_run(&typed.problem, "logh-kahan-li6", 0.1, typed.start);
-        struct gm_run *built_in = open_run(&gm_problem_kepler, "logh-kahan-li6", 0.1, typed.start);
-        assert_int_equal(gm_run_advance(own, 500), GM_OK);
-        assert_int_equal(gm_run_advance(built_in, 500), GM_OK);
-        assert_float_equal(own->t, built_in->t, 1e-11);
-        for (size_t c = 0; c < 4; c++) {
-            assert_float_equal(gm_run_state(own)[c], gm_run_state(built_in)[c], 1e-11);
-        }
-        gm_run_close(own);
-        gm_run_close(built_in);
-        untype(&typed);
+        moves_as_kepler(texts[i], "logh-kahan-li6", 0.1, 500);
     }
     type(&typed, "coordinates: x\nH: p_x^2/2 + x^4/4\nstart: x = 1, p_x = 0\n");
     const struct gm_scheme *scheme = gm_scheme_find_for("logh2", &typed.problem);
