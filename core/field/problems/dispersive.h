@@ -34,7 +34,8 @@ static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
 double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t);
 /* Whether that solves the equation on the ring too, but for tails of a thousandth of a soliton's height. */
 bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t);
-/* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with exact derivatives. */
+/* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with
+   exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
 
 /* Of the original frame:  dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */

@@ -39,9 +39,8 @@ struct own {
     size_t fields, inputs;
     char *names; /* "u[] v[]" */
     bool massive;
-    double mirrored
-        [GM_MOST_FIELDS]; /* between walls: 1 of a field that its mirror image goes on with, -1 of one whose
-                                        negative does; 0: of none */
+    /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
+    double mirrored[GM_MOST_FIELDS];
     bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
     struct gm_tape rates, rests, starts, exact, *densities;
     double complex *symbols; /* of L, [mode][row][column] */

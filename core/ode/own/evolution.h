@@ -36,7 +36,8 @@ bool gm_own_evolution_open(struct gm_problem *problem, const struct gm_own_evolu
 void gm_own_evolution_shut(struct gm_problem *problem);
 
 /* Whether there are a start that is finite and closes on the ring, as fields of core/field/own/potential.h
-   do, or rates that are the same in the mirror where there are walls, each field or its negative, and rates that are finite there, and masses that vanish for no wave. A sentence if not. */
+   do, or rates that are the same in the mirror where there are walls, each field or its negative, and rates that
+   are finite there, and masses that vanish for no wave. A sentence if not. */
 bool gm_own_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
 /* The state at t = 0. */
