@@ -299,9 +299,9 @@ double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
 
 const char *gm_flows_idle(const void *parameters, const char *key)
 {
-    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {"inlet",
-                                                                                                "lid", "star",
-                                                                                                NULL};
+    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {
+                                                                                  "inlet", "lid", "star",
+                                                                                  "refine", NULL};
     const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
     for (const char *const *name = from_file ? made : named; *name; name++) {
         if (strcmp(key, *name) == 0) {

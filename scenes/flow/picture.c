@@ -127,8 +127,9 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     }
     const double size = fmax(box[1] - box[0], box[3] - box[2]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
-    double side = flow->inflow.count > 0 && named ? 0.1 * size : edge;
-    /* names of openings stand outside, above and below too */
+    const double beside = flow->inflow.count > 0 && named && !look->sides ? 0.1 * size : edge;
+    /* names of openings stand outside, and need their width in small pictures too */
+    double aside[2] = {beside, beside};
     bool stands[2] = {false, false};
     for (size_t i = 0; named && i < flow->openings; i++) {
         double outward[2];
@@ -137,10 +138,11 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
             stands[outward[1] > 0] = true;
         } else if (look->sides) {
             const double letters = (double)strlen(look->sides[flow->opening[i].side]);
-            side = fmax(side, fmin(0.021 * letters, 0.25) * size);
+            double *room = &aside[outward[0] > 0];
+            *room = fmax(*room, fmin(0.04 * letters, 0.3) * size);
         }
     }
-    panel->x = (struct gm_axis){.label = "", .low = box[0] - side, .high = box[1] + side};
+    panel->x = (struct gm_axis){.label = "", .low = box[0] - aside[0], .high = box[1] + aside[1]};
     panel->y = (struct gm_axis){.label = "",
                                 .low = box[2] - (stands[0] ? 0.06 * size : edge),
                                 .high = box[3] + (stands[1] ? 0.06 * size : edge)};

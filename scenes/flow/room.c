@@ -39,6 +39,7 @@ static const struct gm_parameter parameters[] = {
         "a Gmsh file (2.2 or 4.1) of another room, instead of rows, columns and irregular; none: the square",
         .file = true),
     GM_FLOWS_STAR,
+    GM_FLOWS_REFINE,
     GM_REAL_ROW(struct gm_flows, inlet_scalar, "inlet_scalar", "1000", -1e300, 1e300,
                 "concentration that enters"),
     GM_FLOWS_TRACERS("350"),
@@ -102,7 +103,8 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
                                  char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence)) {
+    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence) ||
+        !gm_flows_refine(own->mesh, (enum gm_star)own->star, own->refine, &mesh, sentence)) {
         return NULL;
     }
     struct gm_flow *flow = NULL;

@@ -152,6 +152,12 @@ refused 1 'no physical group "dor" of curves; .* door, vent, window, hatch, pill
 refused 1 'on the wall of a hole' run room "mesh=$meshes/hole.msh" inlet=pillar outlet=window steps=1
 refused 3 'must be Delaunay, or star=barycentric$' run room "mesh=$meshes/hole.msh" star=circumcentric inlet=door outlet=window steps=1
 refused 1 'star= has no effect here' run room star=barycentric steps=1
+refused 1 'refine= has no effect here' run room refine=2 steps=1
+status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 refine=1 steps=2 --json
+coarse=$(grep -o '"triangles":[0-9]*' out | cut -d: -f2)
+status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 refine=2 steps=2 --json
+within triangles $((4 * coarse)) $((4 * coarse))
+refused 1 'refine=3: edges are halved' run room "mesh=$meshes/hole.msh" inlet=door outlet=window refine=3 steps=1
 
 # wrong ones: the lines of a good room, of which one is another
 wrong() {

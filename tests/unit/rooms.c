@@ -530,6 +530,221 @@ static void pieces_follow_each_other(void **unused)
     }
 }
 
+/* Rectangles with openings: triangles of a grid [0, 3] x [0, 2], on which a wall stands along x = 3/2 but for a door
+   from y = 2/3 to y = 4/3; all of them, or those of one half, shaken. `number`: of each vertex in the whole. */
+enum { DOOR_COLUMNS = 18, DOOR_ROWS = 12, DOOR_ACROSS = DOOR_COLUMNS + 1 };
+enum half { LEFT, RIGHT, WHOLE };
+
+static struct gm_flow *open_part(enum half half, size_t *number)
+{
+    const int wall = DOOR_COLUMNS / 2, all = DOOR_ACROSS * (DOOR_ROWS + 1);
+    struct points cells = grid(DOOR_COLUMNS, DOOR_ROWS, false), points = {0};
+    int place[2 * DOOR_ACROSS *
+              (DOOR_ROWS + 1)]; /* behind the vertices those of the wall as the right half has them */
+    memset(place, -1, sizeof place);
+    points.at = malloc(4 * sizeof(double) * cells.vertices);
+    points.corner = malloc(3 * sizeof(int) * cells.triangles);
+    assert_true(points.at && points.corner);
+    for (size_t t = 0; t < cells.triangles; t++) {
+        const bool right = (int)t / 2 % DOOR_COLUMNS >= wall;
+        for (int k = 0; k < 3 && (half == WHOLE || right == (half == RIGHT)); k++) {
+            const int v = cells.corner[3 * t + (size_t)k], i = v % DOOR_ACROSS, j = v / DOOR_ACROSS,
+                      name = i == wall && right && (j < DOOR_ROWS / 3 || j > 2 * DOOR_ROWS / 3) ? all + v : v;
+            const bool inner = i % wall != 0 && j % DOOR_ROWS != 0;
+            if (place[name] < 0) {
+                const unsigned at = 2 * (unsigned)v;
+                place[name] = (int)points.vertices;
+                number[points.vertices] = (size_t)name;
+                points.at[2 * points.vertices] = (i + (inner ? 0.2 * scatter(at) : 0)) / 6;
+                points.at[2 * points.vertices + 1] = (j + (inner ? 0.2 * scatter(at + 1) : 0)) / 6;
+                points.vertices++;
+            }
+            points.corner[3 * points.triangles + (size_t)k] = place[name];
+        }
+        points.triangles += half == WHOLE || right == (half == RIGHT);
+    }
+    free(cells.at);
+    free(cells.corner);
+    struct gm_flow *flow = flow_of_points(&points, GM_STAR_BARYCENTRIC);
+    flow->viscosity = 0.02;
+    flow->diffusivity = 0.03;
+    flow->reynolds = 20;
+    flow->time_unit = 1;
+    flow->scalar = true;
+    return flow;
+}
+
+/* A state of the steady scheme, malloc'ed. */
+static double *steady_state(struct gm_flow *flow)
+{
+    double *y = malloc(gm_flow_size(flow) * sizeof *y);
+    assert_true(y && gm_flow_start_irrotational(flow, y));
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, "steady", 1, y);
+    gm_run_advance(run, 12);
+    assert_int_equal(run->status, GM_OK);
+    memcpy(y, gm_run_state(run), gm_flow_size(flow) * sizeof *y);
+    gm_run_close(run);
+    return y;
+}
+
+/* How far the steady state of a half is from that of the whole, relative, if on its boundary, the door too, it is given
+   the whole's stream function (times `door` at inner vertices of the door), vorticity and scalar. */
+static double apart(enum half half, const struct gm_flow *whole, const double *y, const size_t *whole_number,
+                    double door)
+{
+    size_t number[2 * DOOR_ACROSS * (DOOR_ROWS + 1)], place[2 * DOOR_ACROSS * (DOOR_ROWS + 1)];
+    struct gm_flow *flow = open_part(half, number);
+    const struct gm_complex *complex = flow->complex;
+    double *trace = malloc(complex->vertices * sizeof *trace), worst = 0;
+    assert_non_null(trace);
+    for (size_t v = 0; v < whole->complex->vertices; v++) {
+        place[whole_number[v]] = v;
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        trace[v] = y[place[number[v]]];
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b];
+        const size_t w = place[number[v]];
+        const bool walled = whole->kind[w] != GM_VERTEX_FREE;
+        flow->kind[v] = GM_VERTEX_FIXED;
+        flow->psi[v] = trace[v] * (walled ? 1 : door);
+        flow->sheet[v] = gm_flow_block(whole, y, GM_FLOW_OMEGA)[w] * complex->star0[v] -
+                         gm_flow_row(complex, trace, (size_t)v);
+        flow->theta_fixed[v] = true;
+        flow->theta[v] = gm_flow_block(whole, y, GM_FLOW_THETA)[w];
+        /* a wall keeps its own cell, so that nothing of it is to be given: no slip */
+        const double *p = complex->point + 2 * v;
+        if ((p[1] == 0 || p[1] == 2) && p[0] != 1.5) {
+            assert_true(fabs(flow->sheet[v]) < 1e-9);
+        }
+    }
+    double *z = steady_state(flow), size[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        const enum gm_flow_block block = k ? GM_FLOW_THETA : GM_FLOW_PSI;
+        const double *of_half = gm_flow_block(flow, z, block), *of_whole = gm_flow_block(whole, y, block);
+        for (size_t v = 0; v < whole->complex->vertices; v++) {
+            size[k] = fmax(size[k], fabs(of_whole[v]));
+        }
+        for (size_t v = 0; v < complex->vertices; v++) {
+            const double off = fabs(of_half[v] - of_whole[place[number[v]]]) / size[k];
+            worst = !(off <= worst) ? off : worst;
+        }
+    }
+    free(z);
+    free(trace);
+    gm_flow_close(flow);
+    return worst;
+}
+
+/* Halves that meet in a door, each with what the whole has there, are the whole: nothing but the boundary tells a
+   half of the rest. */
+static void halves_make_a_whole(void **unused)
+{
+    (void)unused;
+    size_t number[2 * DOOR_ACROSS * (DOOR_ROWS + 1)];
+    struct gm_flow *flow = open_part(WHOLE, number);
+    const struct gm_complex *complex = flow->complex;
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    assert_non_null(side_of);
+    assert_int_equal(complex->vertices, DOOR_ACROSS * (DOOR_ROWS + 1) + 2 * (DOOR_ROWS / 3));
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                     *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)];
+        side_of[b] = p[0] == 0 && q[0] == 0 && p[1] + q[1] > 2   ? 1
+                     : p[0] == 3 && q[0] == 3 && p[1] + q[1] < 2 ? 2
+                                                                 : 0;
+    }
+    const struct gm_side sides[3] = {{.kind = GM_EDGE_WALL, .theta_free = true},
+                                     {.kind = GM_EDGE_INLET, .flow = 0.4, .theta = 1},
+                                     {.kind = GM_EDGE_OUTLET, .flow = NAN}};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    free(side_of);
+    double *y = steady_state(flow);
+    for (enum half half = LEFT; half <= RIGHT; half++) {
+        const double same = apart(half, flow, y, number, 1), other = apart(half, flow, y, number, 1.01);
+        if (!(same < 1e-9) || !(other > 1e-4)) {
+            fail_msg("half %d is %.2e from the whole, and %.2e with another flow through its door", (int)half,
+                     same, other);
+        }
+    }
+    free(y);
+    gm_flow_close(flow);
+}
+
+/* Three inlets, of which one has a profile, two outlets, of which one has a given
+   flow, and a source: what is in the room is what came and did not leave, to the last digits. */
+static void budget_closes(void **unused)
+{
+    (void)unused;
+    static const char *const schemes[] = {"semi-implicit", "crank-nicolson"};
+    for (int k = 0; k < 2; k++) {
+        struct gm_flow *flow = open_mesh(12, false, GM_STAR_AUTO);
+        const struct gm_complex *complex = flow->complex;
+        unsigned char *side_of = calloc(complex->boundary, 1);
+        flow->source = calloc(complex->vertices, sizeof *flow->source);
+        assert_true(side_of && flow->source);
+        for (size_t b = 0; b < complex->boundary; b++) {
+            const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                         *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)],
+                         x = (p[0] + q[0]) / 2, z = (p[1] + q[1]) / 2;
+            side_of[b] = x == 0 && z < 0.25                 ? 1
+                         : x == 0 && z > 0.5 && z < 0.75    ? 2
+                         : z == 0 && x > 0.5 && x < 0.75    ? 3
+                         : x == 1.5 && z > 0.25 && z < 0.75 ? 4
+                         : z == 1 && x > 1 && x < 1.25      ? 5
+                                                            : 0;
+        }
+        const struct gm_side sides[6] = {
+            {.kind = GM_EDGE_WALL, .theta_free = true},
+            {.kind = GM_EDGE_INLET, .flow = 0.08, .theta = 1},
+            {.kind = GM_EDGE_INLET, .flow = NAN, .speed = 0.3, .theta = 3},
+            {.kind = GM_EDGE_INLET, .flow = 0.03, .profile = rises, .theta = 0},
+            {.kind = GM_EDGE_OUTLET, .flow = 0.05},
+            {.kind = GM_EDGE_OUTLET, .flow = NAN},
+        };
+        assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+        free(side_of);
+        int inlets = 0;
+        for (size_t i = 0; i < flow->openings; i++) {
+            inlets += flow->opening[i].inlet;
+        }
+        assert_true(inlets == 3 && flow->openings == 5);
+        for (size_t v = 0; v < complex->vertices; v++) {
+            const double *p = complex->point + 2 * v;
+            flow->source[v] = hypot(p[0] - 0.8, p[1] - 0.5) < 0.15 ? 0.01 : 0;
+        }
+        flow->viscosity = 0.01;
+        flow->diffusivity = 0.015;
+        flow->time_unit = 1;
+        flow->scalar = true;
+        double *y = malloc(gm_flow_size(flow) * sizeof *y);
+        assert_true(y && gm_flow_start_irrotational(flow, y));
+        struct gm_problem problem;
+        struct gm_run *run = open_run(flow, &problem, schemes[k], 0.05, y);
+        double before = gm_flow_scalar_total(flow, y);
+        for (int step = 0; step < 40; step++) {
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+            const double *state = gm_run_state(run), total = gm_flow_scalar_total(flow, state);
+            const struct gm_budget budget = gm_flow_budget(flow, state);
+            const double grown =
+                (budget.convected + budget.reaction + budget.sourced - budget.outflow) * 0.05;
+            if (!(budget.defect < 1e-12) || !(fabs(total - before - grown) < 1e-12) ||
+                !(budget.sourced > 0.05) || !(gm_flow_divergence(flow, state) <= 1e-16)) {
+                fail_msg("%s, step %d: defect %.2e, %.2e of the total, source %g, divergence %.2e",
+                         schemes[k], step, budget.defect, total - before - grown, budget.sourced,
+                         gm_flow_divergence(flow, state));
+            }
+            before = total;
+        }
+        assert_true(gm_flow_budget(flow, gm_run_state(run)).outflow > 1e-3);
+        gm_run_close(run);
+        free(y);
+        gm_flow_close(flow);
+    }
+}
+
 /* To what GMRES leaves: the pressure's differences over all inner dual edges are what the momentum equation
    says, not only over those of the tree that it was summed up along: it comes back to itself around the
    pillar, too. */
@@ -783,7 +998,7 @@ static void natural_convection(void **unused)
         double rayleigh, nusselt, largest[2];
     } table[] = {{80, 1e3, 1.118, {3.649, 3.697}},
                  {80, 1e4, 2.243, {16.178, 19.617}},
-                 {80, 1e5, 4.519, {34.73, 68.59}},
+                 {160, 1e5, 4.519, {34.73, 68.59}},
                  {160, 1e6, 8.800, {64.63, 219.36}}};
     for (size_t i = 0; i < GM_COUNT(table); i++) {
         struct gm_flow *flow = open_square(table[i].columns, table[i].rayleigh, 0);
@@ -799,7 +1014,7 @@ static void natural_convection(void **unused)
         assert_true(fabs(number / table[i].nusselt - 1) < 0.01);
         for (int k = 0; k < 2; k++) {
             /* at 10^5 v is 69.45, 67.66 and 68.67 with 40, 80 and 160 edges: five reach to the largest speed at 80 */
-            assert_true(fabs(largest[k] / table[i].largest[k] - 1) < 0.02);
+            assert_true(fabs(largest[k] / table[i].largest[k] - 1) < 0.01);
         }
     }
 }
@@ -811,6 +1026,8 @@ int main(int count, char *words[])
         cmocka_unit_test(orders),
         cmocka_unit_test(circulation_is_found),
         cmocka_unit_test(flows_are_shared),
+        cmocka_unit_test(halves_make_a_whole),
+        cmocka_unit_test(budget_closes),
         cmocka_unit_test(pressure_is_single_valued),
         cmocka_unit_test(kelvin),
         cmocka_unit_test(air_rises_at_a_hot_wall),
