@@ -14,6 +14,7 @@
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/own/scheme.h"
+#include "app/request/interrupt.h"
 #include "app/studies/certified_lane.h"
 #include "app/studies/listener.h"
 #include "core/certify.h"
@@ -95,6 +96,12 @@ static bool tell(void *self, size_t index, size_t slot)
         gm_listener_hears(&gm_terminal_listener, all->schemes[index + 1]->name, all->certified, all->count);
     }
     return true;
+}
+
+static bool is_interrupted(void *self)
+{
+    (void)self;
+    return gm_interrupted;
 }
 
 /* ---- on one system ---- */
@@ -216,14 +223,22 @@ static int command_certify(const struct gm_options *options)
                 all.schemes[all.count++] = scheme;
             }
         }
-        const struct gm_pool pool = {
-            .count = all.count, .window = most, .work = certify, .take = tell, .self = &all};
+        const struct gm_pool pool = {.count = all.count,
+                                     .window = most,
+                                     .work = certify,
+                                     .take = tell,
+                                     .stopped = is_interrupted,
+                                     .self = &all};
+        gm_catch_interrupts();
         gm_listener_hears(&gm_terminal_listener, all.schemes[0]->name, 0, all.count);
         if (gm_pool_run(&pool) == all.count) {
             if (!options->json && !gm_options_take_stdout(options)) {
                 printf("%zu certified, %zu broken\n", all.certified, all.broken);
             }
             status = chart(options, all.certificates, all.count, all.broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
+        } else if (gm_interrupted) {
+            gm_terminal_listener_clear();
+            status = GM_EXIT_INTERRUPTED;
         }
     }
     free(all.schemes);
