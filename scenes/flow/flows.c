@@ -305,7 +305,7 @@ const char *gm_flows_idle(const void *parameters, const char *key)
     const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
     for (const char *const *name = from_file ? made : named; *name; name++) {
         if (strcmp(key, *name) == 0) {
-            return from_file ? "the mesh comes from a file" : "it names an edge of a mesh=FILE";
+            return from_file ? "the mesh comes from a file" : "it is for a mesh=FILE";
         }
     }
     return NULL;

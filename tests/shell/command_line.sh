@@ -33,7 +33,7 @@ refused 1 '^geomint: rows= has no effect here: the mesh comes from a file$' \
     run room "mesh=$meshes/room-small.msh" rows=20,30 steps=1
 refused 1 'irregular= has no effect' render room "mesh=$meshes/room-small.msh" irregular=0.1 steps=1
 refused 1 'columns= has no effect' run cavity "mesh=$meshes/square-small.msh" columns=8 steps=1
-refused 1 'lid= has no effect here: it names an edge of a mesh=FILE$' run cavity lid=lid steps=1
+refused 1 'lid= has no effect here: it is for a mesh=FILE$' run cavity lid=lid steps=1
 status 0 run room "mesh=none,$meshes/room-small.msh" rows=10 columns=0 steps=1 --json
 python3 -c '
 import json
