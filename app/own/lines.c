@@ -72,6 +72,13 @@ static const struct gm_origin *origin_of(const struct gm_system_lines *written, 
     return NULL;
 }
 
+void gm_system_word_fault(const char *word, size_t at, const char *sentence, char *message)
+{
+    const size_t key = strcspn(word, "=") + 1, inside = at >= key ? at - key : 0;
+    gm_refuse(message, "in %.*s, column %zu: %.200s", (int)key, word, inside + 1, sentence);
+    gm_place_show(word + key, strlen(word + key), inside, message);
+}
+
 int gm_system_lines_fault(const struct gm_system_lines *written, char *const words[],
                           const struct gm_fault *fault, struct gm_word_place *place, char *message)
 {
@@ -84,13 +91,8 @@ int gm_system_lines_fault(const struct gm_system_lines *written, char *const wor
     const bool placed = fault->offset > 0 && fault->offset < length;
     const struct gm_origin *origin = placed ? origin_of(written, fault->offset) : NULL;
     if (origin) {
-        const char *word = words[origin->word];
-        const size_t key = strcspn(word, "=") + 1, at = origin->offset + fault->offset - origin->begin;
-        place->word = origin->word;
-        place->offset = at;
-        gm_refuse(message, "in %.*s, column %zu: %.200s", (int)key, word, at >= key ? at - key + 1 : 1,
-                  fault->sentence);
-        gm_place_show(word + key, strlen(word + key), at >= key ? at - key : 0, message);
+        *place = (struct gm_word_place){origin->word, origin->offset + fault->offset - origin->begin};
+        gm_system_word_fault(words[place->word], place->offset, fault->sentence, message);
         return GM_EXIT_USAGE;
     }
     if (written->path) {

@@ -37,6 +37,8 @@ void gm_system_lines_put(struct gm_system_lines *written, FILE *lines, const cha
 void gm_system_lines_put_word(struct gm_system_lines *written, FILE *lines, char *const words[], int word,
                               size_t offset, size_t length);
 
+/* Says what is wrong with the value of a word, KEY=value, at this byte of the word. */
+void gm_system_word_fault(const char *word, size_t at, const char *sentence, char *message);
 /* Says what is wrong with a text, with its place, which is written to `place` where it is in one of the words that
    parts were made of. Returns an exit status. */
 int gm_system_lines_fault(const struct gm_system_lines *written, char *const words[],

@@ -190,6 +190,13 @@ static int formula_of(const char *word, const char **value)
     return -1;
 }
 
+bool gm_worded_is_formula(const char *word)
+{
+    const char *value;
+    const int key = formula_of(word, &value);
+    return key >= 0 && key < FORMULA_COORDINATES;
+}
+
 static void put_formulas(struct typing *typing)
 {
     for (int i = 1; i < typing->count; i++) {
@@ -275,6 +282,73 @@ static bool needs_none(const struct typing *typing, const struct name *name, boo
                 : is_part(typing, name->text, name->length);
 }
 
+/* A formula while nobody has said yet what its names are worth. */
+struct unvalued {
+    struct gm_formula graph;
+    struct names names, indices;
+};
+
+static enum gm_meaning find_unvalued(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    (void)sentence;
+    struct unvalued *formula = data;
+    *node = gm_formula_constant(&formula->graph, 1);
+    return holds(&formula->names, name->text, name->length) &&
+                   !holds(&formula->indices, name->text, name->length)
+               ? GM_KNOWN
+               : GM_UNKNOWN;
+}
+
+static const char *no_name(size_t i, const void *data)
+{
+    (void)i;
+    (void)data;
+    return NULL;
+}
+
+/* Whether text[0 .. length) in words[word] is a formula, whatever its names are. */
+static bool is_formula(char *const words[], int word, const char *text, size_t length,
+                       struct gm_word_place *place, char *message)
+{
+    struct unvalued formula = {.names = {.count = 0}};
+    gm_formula_open(&formula.graph);
+    collect(&formula.names, &formula.indices, text, length);
+    const struct gm_scope scope = {.find = find_unvalued, .known = no_name, .data = &formula};
+    gm_node_id node;
+    struct gm_fault fault = {0};
+    const bool good = gm_formula_read(&formula.graph, text, 0, length, &scope, &node, &fault);
+    gm_formula_close(&formula.graph);
+    if (good || !fault.sentence[0]) {
+        return true; /* what memory was too short for is said where it is needed */
+    }
+    *place = (struct gm_word_place){word, (size_t)(text - words[word]) + fault.offset};
+    gm_system_word_fault(words[word], place->offset, fault.sentence, message);
+    return false;
+}
+
+/* Whether H, L and what stands on the right of rates can be read, before anybody asks for values. */
+static bool are_formulas(const struct typing *typing, struct gm_word_place *place, char *message)
+{
+    for (int i = 1; i < typing->count; i++) {
+        const char *text;
+        const int key = formula_of(typing->words[i], &text);
+        if ((key == FORMULA_H || key == FORMULA_L) &&
+            !is_formula(typing->words, i, text, strlen(text), place, message)) {
+            return false;
+        }
+        while (key == FORMULA_RATE && *text) {
+            const size_t length = gm_word_first(text);
+            const char *equals = memchr(text, '=', length);
+            if (equals && !is_formula(typing->words, i, equals + 1, length - (size_t)(equals + 1 - text),
+                                      place, message)) {
+                return false;
+            }
+            text += length + (text[length] != '\0');
+        }
+    }
+    return true;
+}
+
 /* Every name has to be given: the components at the start, all others as parameters. */
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
@@ -292,7 +366,15 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
                      (int)(name->length < 40 ? name->length : 40), name->text);
         }
     }
-    return !missing[0] || gm_refuse(message, "the formula needs values that are not given: %s", missing);
+    if (!missing[0]) {
+        return true;
+    }
+    struct gm_word_place wrong;
+    if (!are_formulas(typing, &wrong, message)) {
+        *place = wrong;
+        return false;
+    }
+    return gm_refuse(message, "the formula needs values that are not given: %s", missing);
 }
 
 /* What the system is made of: its lines, and which names have a value at the start. */

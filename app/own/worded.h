@@ -9,6 +9,9 @@
 
 extern const char *const gm_worded_keys[]; /* H L rate coordinates momenta, and NULL */
 
+/* Whether a word sets H, L or rate. */
+bool gm_worded_is_formula(const char *word);
+
 /* Writes the lines of the file that "system H=... key=value ..." would be: coordinates that are not said are q, or
    q1, q2 and so on, names of the state have their values at the start, others are parameters. False with a
    sentence, and a place where it has one. */

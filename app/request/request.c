@@ -12,6 +12,7 @@
 #include "app/own/found.h"
 #include "app/own/scheme.h"
 #include "app/own/system.h"
+#include "app/own/worded.h"
 #include "app/request/fitting.h"
 #include "app/request/words.h"
 #include "core/formula/nearest.h"
@@ -468,7 +469,9 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }
-    if (!scene) {
+    if (!scene && gm_worded_is_formula(words[0])) {
+        gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
+    } else if (!scene) {
         char found[GM_NEAR];
         const char *near = gm_system_near(words[0], found);
         gm_refuse(message, "there is no scene \"%.40s\"%s%s", words[0],

@@ -135,6 +135,15 @@ printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.syst
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
 refused 1 "^geomint: bracket= takes the place of a line in a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
+# a formula that is none is told before values are asked for, and one without its scene finds it
+refused 1 'in H=, column 1: the formula ends where a number' run system H=
+refused 1 'in H=, column 8: the formula ends where a number' run system H='p^2/2 +'
+refused 1 'in H=, column 9: there is no function foo' run system H='p^2/2 + foo(q)'
+refused 1 'a product is written with \*: q\*(' run system H='p^2/2 + q(1 + q)'
+refused 1 'in rate=, column 15: the formula ends' run system rate='x = y, y = -x*'
+refused 1 'values that are not given: q= p= N=' run system H='p^2/2 + sum(i = 1 .. N, q^i)'
+refused 1 'a formula is for the scene system: system H=p^2/2' run H='p^2/2' q=1 p=0
+refused 3 'File name too long' run "./$(head -c 5000 /dev/zero | tr '\0' a).system"
 grep -q "$(printf '\033')" err && fail 'an escape reached the terminal'
 printf 'H: ' >zero.system
 head -c 3 /dev/zero >>zero.system
