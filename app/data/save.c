@@ -98,6 +98,41 @@ static struct gm_saved *present(struct gm_save *save)
     return &save->saving.lanes[save->saving.begun - 1];
 }
 
+/* Its memory and its file, but for what the whole file is to be made of. */
+static void release(struct gm_saved *lane)
+{
+    for (size_t i = 0; i < GM_COLUMNS; i++) {
+        gm_column_close(&lane->columns[i]);
+    }
+    free(lane->scratch);
+    lane->scratch = NULL;
+    if (lane->file >= 0) {
+        close(lane->file);
+    }
+    lane->file = -1;
+}
+
+static bool is_want_of_room(int why)
+{
+    return why == ENOSPC || why == EFBIG || why == EDQUOT;
+}
+
+/* A lane could not begin. Where that is for want of room, the file will have those before it. */
+static bool leave_out(struct gm_save *save, char *message)
+{
+    struct gm_saved *lane = present(save);
+    const int why = errno;
+    if (is_want_of_room(why) && !save->resumable && save->saving.begun > 1) {
+        release(lane);
+        gm_npz_close(lane->npz);
+        gm_part_drop(save->part, lane->index, false);
+        save->saving.begun--;
+        save->cut = why;
+    }
+    errno = why;
+    return complain(save, message);
+}
+
 bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
                    uint64_t expected, char *message)
 {
@@ -116,7 +151,7 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
     }
     errno = ENOMEM;
     return (lane->scratch && save->format->begin(&save->saving, lane, run, expected)) ||
-           complain(save, message);
+           leave_out(save, message);
 }
 
 static bool list(FILE *file, const void *context)
@@ -132,11 +167,6 @@ static bool flush(struct gm_saved *lane)
         good = (!lane->columns[i].buffer || gm_column_flush(&lane->columns[i])) && good;
     }
     return good;
-}
-
-static bool is_want_of_room(int why)
-{
-    return why == ENOSPC || why == EFBIG || why == EDQUOT;
 }
 
 /* A write failed. Where that is for want of room, and the lane has rows, it will end with those that fit. */
@@ -180,20 +210,6 @@ bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message)
     struct gm_saved *lane = present(save);
     *rows = lane->rows;
     return (flush(lane) && fsync(lane->file) == 0) || complain(save, message);
-}
-
-/* Its memory and its file, but for what the whole file is to be made of. */
-static void release(struct gm_saved *lane)
-{
-    for (size_t i = 0; i < GM_COLUMNS; i++) {
-        gm_column_close(&lane->columns[i]);
-    }
-    free(lane->scratch);
-    lane->scratch = NULL;
-    if (lane->file >= 0) {
-        close(lane->file);
-    }
-    lane->file = -1;
 }
 
 bool gm_save_end(struct gm_save *save, const char *meta, char *message)

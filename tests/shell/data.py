@@ -444,6 +444,14 @@ def full():
     check(len(table) > 290000 and bytes_of("whole.csv").startswith(table), "the rows of a table that fit")
     done = geomint("run kepler scheme=verlet,rk4 steps=5000 --save lanes.npz", 3, preexec_fn=no_room_for(300000))
     check("the first 1 of 2 lanes" in done.stderr and len(numbers_of("lanes.npz")["lane0/t"]) == 8 * 5001, "lanes that fit")
+    os.mkdir("small")
+    if subprocess.run("mount -t tmpfs -o size=256k tmpfs small", shell=True, stderr=subprocess.DEVNULL).returncode == 0:
+        try:  # of a disk, as root: there is no room for the second lane to begin
+            done = geomint("run kepler scheme=verlet,rk4 dt=.01 until=40 --save small/lanes.npz", 3)
+            check("ends after 4001 rows of lane 0" in done.stderr, f"a lane that cannot begin: {done.stderr}")
+            check(len(numbers_of("small/lanes.npz")["lane0/t"]) == 8 * 4001, "the lane before one that cannot begin")
+        finally:
+            subprocess.run(["umount", "small"], check=True)
     geomint(f"{words} on.npz --checkpoint on.check", 3, preexec_fn=no_room_for(300000))
     check(not os.path.exists("on.npz") and os.path.isdir("on.npz.part"), "no room, with a checkpoint")
 
