@@ -451,6 +451,11 @@ void gm_engine_meet(struct gm_lane *lane)
     if (build) {
         give(build, lane);
     }
+    if (build && build->state == READY && gm_own_problem_taken(&lane->problem) == build->loops &&
+        !is_native(lane)) {
+        gm_refuse(build->sentence, "splittings have native loops where H = T(p) + V(q) holds no time");
+        refuse(build);
+    }
     if (build && build->state == REFUSED && tell && !build->said) {
         char sentence[GM_MESSAGE];
         gm_refuse(sentence, "the formulas are interpreted: %.400s", build->sentence);

@@ -2,15 +2,18 @@
 /* Both engines side by side: the same bits of every state and of every count, by all schemes that have a loop
    over kernels, alone and in ensembles, on the systems that the program brings and on random formulas; and
    what becomes of a cache, a compiler and an entry that are not as they should be. Usage: unit_native KERNELS
-   SYSTEMS [all] */
+   SYSTEMS [all] [COMPILER]; with a compiler of that name as the system's, the engines alone are compared. */
+#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +21,7 @@
 #include <cmocka.h>
 
 #include "app/native/cache.h"
+#include "app/native/compiler.h"
 #include "app/native/engine.h"
 #include "app/request/request.h"
 #include "core/count.h"
@@ -30,13 +34,24 @@
 
 enum { MEMBERS = 13, STEPS = 37 };
 
-static const char *kernels;
+static const char *kernels, *systems, *compiler;
 static bool all;
 static char heard[GM_MESSAGE], folder[4096];
 
 static void hear(const char *sentence)
 {
     snprintf(heard, sizeof heard, "%s", sentence);
+}
+
+/* A compiler that is a script. */
+static void with_compiler(const char *script)
+{
+    char path[4200];
+    snprintf(path, sizeof path, "%s/bin", folder);
+    mkdir(path, 0700);
+    setenv("PATH", path, 1);
+    strcat(path, "/cc");
+    folder_script(path, script);
 }
 
 /* A cache of its own for each test, with the search path as it was. */
@@ -56,6 +71,11 @@ static int begin(void **state)
     setenv("XDG_CACHE_HOME", folder, 1);
     setenv("PATH", path, 1);
     setenv("GEOMINT_COMPILER_SECONDS", "200", 1); /* the machine may have much else to do */
+    if (compiler) {
+        char script[sizeof path + 100];
+        snprintf(script, sizeof script, "#!/bin/sh\nPATH='%s'; exec %.20s \"$@\"\n", path, compiler);
+        with_compiler(script);
+    }
     heard[0] = '\0';
     gm_engine_choose(GM_ENGINE_NATIVE, kernels, hear, never);
     return 0;
@@ -149,29 +169,32 @@ static int compare_family(const struct gm_problem *native, const struct gm_probl
 }
 
 /* One family of schemes on a system, for so many members: also where steps are so large that they fail. */
-static void compare_members(const char *system, const char *scheme, int members)
+static int compare_members(const char *system, const char *scheme, int members)
 {
     char words[200];
+    int compared = 0;
     snprintf(words, sizeof words, "%s|members=%d", system, members);
     struct gm_lane *native = lane_of(words, scheme, GM_ENGINE_NATIVE);
     struct gm_lane *interpreted = lane_of(words, scheme, GM_ENGINE_INTERPRETED);
     if (strcmp(gm_engine_of(native), "native") != 0) {
-        fail_msg("%s: %s", words, heard);
+        fail_msg("%s by %s: %s", words, scheme, heard);
     }
     assert_string_equal(gm_engine_of(interpreted), "interpreted");
     for (int large = 0; large < 2; large++) {
         const double dt = native->run->dt * (large ? 400 : 1);
-        assert_true(compare_family(&native->problem, &interpreted->problem,
-                                   native->scheme->family->over_kernels, native->start, dt) > 0);
+        const int schemes = compare_family(&native->problem, &interpreted->problem,
+                                           native->scheme->family->over_kernels, native->start, dt);
+        assert_true(schemes > 0);
+        compared += schemes;
     }
     gm_lane_close(native);
     gm_lane_close(interpreted);
+    return compared;
 }
 
-static void compare_system(const char *system, const char *scheme)
+static int compare_system(const char *system, const char *scheme)
 {
-    compare_members(system, scheme, 1);
-    compare_members(system, scheme, MEMBERS);
+    return compare_members(system, scheme, 1) + compare_members(system, scheme, MEMBERS);
 }
 
 static void engines_agree(void **state)
@@ -182,19 +205,67 @@ static void engines_agree(void **state)
     compare_system("driven-pendulum", "gauss4");
 }
 
+/* Every family with a loop over kernels that fits; 0 where a system has none or, told why, no native loops. */
+static int compare_families(const char *system)
+{
+    const char *lacks = NULL;
+    char message[GM_MESSAGE], first[GM_OVER_COUNT][80] = {""};
+    gm_engine_choose(GM_ENGINE_INTERPRETED, kernels, hear, never);
+    struct gm_request request;
+    struct gm_lane *lane = NULL;
+    if (gm_request_parse(&request, 1, (char *[]){(char *)system}, 1, message)) {
+        lane = gm_request_open_lane(&request, 0, message);
+    }
+    gm_request_close(&request);
+    if (!lane) {
+        fail_msg("%s: %s", system, message);
+    }
+    if (gm_engine_of(lane)) {
+        char *text = gm_own_problem_kernel(&lane->problem, &lacks);
+        const bool separable = text && strstr(text, "GM_SEPARABLE");
+        free(text);
+        for (size_t k = 0; !lacks && k < gm_scheme_count(); k++) {
+            const struct gm_scheme *scheme = gm_scheme_at(k);
+            char *name = first[scheme->family->over_kernels];
+            const int over = scheme->family->over_kernels;
+            if (over != GM_OVER_NONE && (over != GM_OVER_SPLITTING || separable) && !name[0] &&
+                gm_scheme_fits(scheme, &lane->problem)) {
+                snprintf(name, sizeof first[0], "%s", scheme->name);
+            }
+        }
+    } else {
+        lacks = "no ordinary differential equation";
+    }
+    gm_lane_close(lane);
+    int compared = 0;
+    for (int family = 0; family < GM_OVER_COUNT; family++) {
+        compared += first[family][0] ? compare_system(system, first[family]) : 0;
+    }
+    print_message("%s: %d pairs of runs%s%s\n", system, compared, lacks ? ": " : "", lacks ? lacks : "");
+    return compared;
+}
+
 static void engines_agree_on_all(void **state)
 {
     (void)state;
-    static const char *const systems[] = {
-        "double-pendulum", "driven-pendulum",       "figure-eight", "lorenz",
-        "lotka-volterra",  "restricted-three-body", "rigid-body",   "toda"};
-    static const char *const schemes[] = {"rk4", "midpoint", "verlet"};
-    for (size_t i = 0; all && i < GM_COUNT(systems); i++) {
-        for (size_t k = 0; k < 3; k++) {
-            if (k < 2 || strcmp(systems[i], "figure-eight") == 0 || strcmp(systems[i], "toda") == 0) {
-                compare_system(systems[i], schemes[k]);
-            }
+    int compared = 0, native = 0;
+    DIR *files = all ? opendir(systems) : NULL;
+    assert_true(files || !all);
+    for (const struct dirent *file; files && (file = readdir(files));) {
+        char name[256];
+        snprintf(name, sizeof name, "%s", file->d_name);
+        char *end_of_name = strstr(name, ".system");
+        if (end_of_name) {
+            *end_of_name = '\0';
+            const int count = compare_families(name);
+            compared += count;
+            native += count > 0;
         }
+    }
+    if (files) {
+        closedir(files);
+        print_message("%d pairs of runs on %d systems\n", compared, native);
+        assert_true(native >= 15);
     }
 }
 
@@ -398,17 +469,6 @@ static bool is_stepped_elsewhere(const char *words, const char *says)
     return process > 0 && waitpid(process, &how, 0) == process && how == 0;
 }
 
-/* A compiler that is a script. */
-static void with_compiler(const char *script)
-{
-    char path[4200];
-    snprintf(path, sizeof path, "%s/bin", folder);
-    mkdir(path, 0700);
-    setenv("PATH", path, 1);
-    strcat(path, "/cc");
-    folder_script(path, script);
-}
-
 static void compilers_fail(void **state)
 {
     (void)state;
@@ -508,6 +568,31 @@ static void caches_fail(void **state)
     }
 }
 
+/* No room for the text, or for what the compiler makes of it: nothing of it stays. The limit of a file's size
+   stands for that of a disk. */
+static void disks_are_full(void **state)
+{
+    (void)state;
+    static const rlim_t rooms[] = {100, 20000};
+    static const char *const says[] = {"the cache could not be written", "nothing that can be kept"};
+    for (int i = 0; i < 2; i++) {
+        const char *words = fresh();
+        int how = 0;
+        const pid_t process = fork();
+        if (process == 0) {
+            signal(SIGXFSZ, SIG_IGN);
+            const struct rlimit limit = {rooms[i], RLIM_INFINITY};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            _exit(!is_stepped_elsewhere(words, says[i]));
+        }
+        assert_true(process > 0 && waitpid(process, &how, 0) == process);
+        assert_int_equal(how, 0);
+        char cache[4200];
+        snprintf(cache, sizeof cache, "%s/geomint", folder);
+        assert_int_equal(rmdir(cache), 0);
+    }
+}
+
 /* What is stored under a key is whole, or is not there. */
 static void entries_are_whole(void **state)
 {
@@ -587,21 +672,33 @@ static void caches_are_bounded(void **state)
 
 int main(int argc, char *argv[])
 {
+    char path[GM_CACHE_PATH];
+    struct stat about;
     kernels = argc > 1 ? argv[1] : ".";
-    setenv("GEOMINT_SYSTEMS", argc > 2 ? argv[2] : "share/systems", 1);
-    all = argc > 3;
+    systems = argc > 2 ? argv[2] : "share/systems";
+    setenv("GEOMINT_SYSTEMS", systems, 1);
+    all = argc > 3 && strcmp(argv[3], "all") == 0;
+    compiler = argc > 3 + all ? argv[3 + all] : NULL;
+    if (compiler && !gm_program_find(compiler, path, &about)) {
+        printf("there is no %s here\n", compiler);
+        return 77;
+    }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(entries_are_whole, begin, end),
-        cmocka_unit_test_setup_teardown(caches_are_bounded, begin, end),
-        cmocka_unit_test_setup_teardown(caches_fail, begin, end),
-        cmocka_unit_test_setup_teardown(entries_lack_symbols, begin, end),
-        cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
-        cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
         cmocka_unit_test_setup_teardown(engines_agree, begin, end),
-        cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
-        cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
         cmocka_unit_test_setup_teardown(random_formulas_agree, begin, end),
         cmocka_unit_test_setup_teardown(engines_agree_on_all, begin, end),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const struct CMUnitTest with_faults[] = {
+        cmocka_unit_test_setup_teardown(entries_are_whole, begin, end),
+        cmocka_unit_test_setup_teardown(caches_are_bounded, begin, end),
+        cmocka_unit_test_setup_teardown(caches_fail, begin, end),
+        cmocka_unit_test_setup_teardown(disks_are_full, begin, end),
+        cmocka_unit_test_setup_teardown(entries_lack_symbols, begin, end),
+        cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
+        cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
+        cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
+        cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
+    };
+    const int failed = compiler ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
+    return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }
