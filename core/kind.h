@@ -28,6 +28,8 @@ struct gm_kind {
     unsigned (*facets)(const struct gm_problem *problem);
     /* The loop over the problem's own kernels; NULL, or it returns NULL: the family's own. */
     gm_loop *(*loop)(const struct gm_scheme *scheme, const struct gm_problem *problem);
+    /* Makes what steps of this scheme ask the problem for, where it is made late; NULL: nothing is. */
+    void (*prepare)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     /* Measures the order and the claims of a scheme of this kind. */
     void (*certify)(const struct gm_scheme *scheme, struct gm_certificate *certificate);
     /* The same on one system; NULL: what is certified on a given system is none of this kind. */

@@ -110,6 +110,9 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (!run) {
         return NULL;
     }
+    if (problem->kind->prepare) {
+        problem->kind->prepare(scheme, problem);
+    }
     if (!gm_scheme_workspace_open(scheme, problem, &head.workspace)) {
         gm_memory_refused(); /* by a library, if by nobody else */
         free(run);

@@ -404,92 +404,82 @@ void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const
     gm_formula_evaluate_parts(graph, NULL, count, variables, values);
 }
 
-static int ascending(const void *a, const void *b)
+enum { WORD = 64 };
+
+/* A bit for each node, and one for each word of these that is not 0: the parts of a node are few of a large graph. */
+struct marks {
+    uint64_t *bits, *words;
+    size_t word_count; /* of `words` */
+};
+
+static inline void mark(const struct marks *marks, gm_node_id node)
 {
-    const gm_node_id x = *(const gm_node_id *)a, y = *(const gm_node_id *)b;
-    return (x > y) - (x < y);
+    marks->bits[node / WORD] |= UINT64_C(1) << node % WORD;
+    marks->words[node / WORD / WORD] |= UINT64_C(1) << node / WORD % WORD;
 }
 
-/* Whether a node's bit is not set yet; then it is. */
-static inline bool is_new(uint8_t *seen, gm_node_id node)
+static inline unsigned highest(uint64_t word)
 {
-    const uint8_t bit = (uint8_t)(1u << node % 8);
-    const bool answer = !(seen[node / 8] & bit);
-    seen[node / 8] |= bit;
-    return answer;
+    return WORD - 1 - (unsigned)__builtin_clzll(word);
 }
 
-/* What some nodes are made of, as it is met, with a bit for each of the nodes up to the last root. Both are NULL where
-   memory is short. */
-static gm_node_id *gather(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
-                          gm_node_id root, uint8_t **marks, size_t *count)
+static inline unsigned lowest(uint64_t word)
 {
-    uint8_t *seen =
-        calloc(root / 8 + (size_t)1, 1); /* a bit a node: the graph may be much larger than its parts */
-    size_t capacity = root_count + 64, found = 0;
-    gm_node_id *parts = malloc(capacity * sizeof *parts);
-    bool good = seen && parts;
-    for (size_t k = 0; k < root_count && good; k++) {
-        if (is_new(seen, roots[k])) {
-            parts[found++] = roots[k];
+    return (unsigned)__builtin_ctzll(word);
+}
+
+/* Marks what the nodes of a word are made of, its highest bit first, for that stands below. Returns how many there
+   are. */
+static size_t mark_operands(const struct gm_formula *graph, const struct marks *marks, size_t word)
+{
+    size_t count = 0;
+    for (uint64_t below = UINT64_MAX; marks->bits[word] & below; count++) {
+        const unsigned bit = highest(marks->bits[word] & below);
+        const struct gm_node *node = &graph->nodes[word * WORD + bit];
+        below = (UINT64_C(1) << bit) - 1;
+        if (node->operation > GM_VARIABLE) {
+            mark(marks, node->a);
+            mark(marks, gm_operation_rows[node->operation].arity == 2 ? node->b : node->a);
         }
     }
-    for (size_t i = 0; i < found && good; i++) {
-        const struct gm_node *node = &graph->nodes[parts[i]];
-        const size_t arity = node->operation > GM_VARIABLE ? gm_operation_rows[node->operation].arity : 0;
-        if (found + 2 > capacity) {
-            capacity *= 2;
-            gm_node_id *more = realloc(parts, capacity * sizeof *parts);
-            good = more != NULL;
-            parts = more ? more : parts;
-        }
-        for (size_t k = 0; k < arity && good; k++) {
-            const gm_node_id operand = k == 0 ? node->a : node->b;
-            if (is_new(seen, operand)) {
-                parts[found++] = operand;
-            }
-        }
-    }
-    if (!good) {
-        free(seen);
-        free(parts);
-        seen = NULL;
-        parts = NULL;
-    }
-    *marks = seen;
-    *count = found;
-    return parts;
+    return count;
 }
 
 gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
                                 size_t *count)
 {
-    enum { DENSE = 16 }; /* one of so many: looking at all is faster than sorting */
-    gm_node_id root = 0;
-    for (size_t k = 0; k < root_count; k++) {
-        root = roots[k] > root ? roots[k] : root;
+    const size_t bits = graph->count / WORD + (size_t)1;
+    struct marks marks = {.word_count = bits / WORD + 1};
+    marks.bits = calloc(bits + marks.word_count, sizeof *marks.bits);
+    marks.words = marks.bits ? marks.bits + bits : NULL;
+    *count = 0;
+    for (size_t k = 0; marks.bits && k < root_count; k++) {
+        mark(&marks, roots[k]);
     }
-    uint8_t *seen;
-    gm_node_id *parts = gather(graph, roots, root_count, root, &seen, count);
-    if (parts && *count < root / DENSE) {
-        qsort(parts, *count, sizeof *parts, ascending);
-    } else if (parts) {
-        size_t filled = 0;
-        for (gm_node_id i = 0; i <= root; i++) {
-            if (seen[i / 8] >> i % 8 & 1) {
-                parts[filled++] = i;
+    for (size_t i = marks.bits ? marks.word_count : 0; i-- > 0;) {
+        for (uint64_t below = UINT64_MAX; marks.words[i] & below;) {
+            const unsigned bit = highest(marks.words[i] & below);
+            *count += mark_operands(graph, &marks, i * WORD + bit);
+            below = (UINT64_C(1) << bit) - 1;
+        }
+    }
+    gm_node_id *parts = marks.bits ? malloc((*count + 1) * sizeof *parts) : NULL, *next = parts;
+    for (size_t i = 0; parts && i < marks.word_count; i++) {
+        for (uint64_t words = marks.words[i]; words; words &= words - 1) {
+            const size_t word = i * WORD + lowest(words);
+            for (uint64_t left = marks.bits[word]; left; left &= left - 1) {
+                *next++ = (gm_node_id)(word * WORD + lowest(left));
             }
         }
     }
-    free(seen);
+    free(marks.bits);
     return parts;
 }
 
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
 {
     size_t count = 0;
-    uint8_t *seen;
-    gm_node_id *parts = gather(graph, &node, 1, node, &seen, &count);
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
     bool found = false;
     for (size_t i = 0; i < count && parts && !found; i++) {
         const struct gm_node *part = &graph->nodes[parts[i]];
@@ -497,7 +487,6 @@ bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *mar
     }
     graph->failed |= !parts;
     free(parts);
-    free(seen);
     return found;
 }
 

@@ -30,17 +30,20 @@ static const char *name_of(const struct gm_naming *naming, gm_node_id node, gm_n
    but not the node itself. */
 static size_t written_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
 {
-    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes), size = SIZE_MAX;
-    for (gm_node_id i = 0; sizes && i <= node; i++) {
-        const struct gm_node *here = &graph->nodes[i];
-        sizes[i] = 1;
-        if (here->operation > GM_VARIABLE && !name_of(naming, i, node)) {
+    size_t count = 0, size = SIZE_MAX;
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
+    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* of the parts alone */
+    for (size_t k = 0; parts && sizes && k < count; k++) {
+        const struct gm_node *here = &graph->nodes[parts[k]];
+        size = 1;
+        if (here->operation > GM_VARIABLE && !name_of(naming, parts[k], node)) {
             const size_t b = gm_operation_rows[here->operation].arity == 2 ? sizes[here->b] : 0;
             const bool is_small = sizes[here->a] < SIZE_MAX / 4 && b < SIZE_MAX / 4;
-            sizes[i] = is_small ? 1 + sizes[here->a] + b : SIZE_MAX;
+            size = is_small ? 1 + sizes[here->a] + b : SIZE_MAX;
         }
-        size = sizes[i];
+        sizes[parts[k]] = size;
     }
+    free(parts);
     free(sizes);
     return size;
 }

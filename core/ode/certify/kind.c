@@ -92,6 +92,14 @@ static gm_loop *loop(const struct gm_scheme *scheme, const struct gm_problem *pr
     return loops ? loops->over_kernels[scheme->family->over_kernels] : NULL;
 }
 
+static void prepare(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_ode *ode = gm_ode_of(problem);
+    if (ode->prepare) {
+        ode->prepare(problem, scheme->needs);
+    }
+}
+
 static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, const char *problem)
 {
     if (isnan(defect)) {
@@ -368,6 +376,7 @@ const struct gm_kind gm_kind_ode = {
     .words = words,
     .facets = facets,
     .loop = loop,
+    .prepare = prepare,
     .certify = certify,
     .certify_on = certify_on,
     .most_certified = GM_SUBJECT_COMPONENTS,

@@ -3,7 +3,6 @@
 #include "core/ode/own/own.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,17 +11,12 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/own/kernel.h"
+#include "core/ode/own/late.h"
 #include "core/ode/variational/manifold.h"
 #include "core/quantity.h"
 #include "core/tape.h"
 
 /* What a problem's `parameters` and `facets` point to. */
-/* The rates of components one by one. Few schemes ask for them, and of a large system they take longer than all
-   else: they are made when they are first asked for, by whichever thread. */
-struct pieces {
-    _Atomic(struct gm_tape *) rates; /* n of them; NULL: not yet */
-};
-
 struct own {
     const double *constants[GM_KERNEL_FUNCTIONS]; /* where compiled kernels look for them */
     struct gm_ode ode;
@@ -35,9 +29,12 @@ struct own {
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
     struct gm_lagrangian one_degree;
-    struct gm_tape slow_force, attraction, perturbation, potential; /* of q alone */
-    double *frequencies;                                            /* of coordinates */
-    struct gm_tape field, velocity, force, energy, jacobian;
+    struct gm_late_tape slow_force;                     /* of q alone, and */
+    struct gm_tape attraction, perturbation, potential; /* as well */
+    double *frequencies;                                /* of coordinates */
+    struct gm_late_tape field, velocity, force, energy, jacobian;
+    struct gm_late_tape *pieces; /* the rates, one by one, where each component alone has an exact flow */
+    gm_node_id *slopes_of_rates; /* the nodes of the Jacobian */
     struct gm_own_lagrangian lagrangian;
     struct gm_own_constraints constraints;
     struct gm_action action;
@@ -46,14 +43,14 @@ struct own {
     struct gm_monitor monitor;
     struct gm_own_bracket bracket;
     struct gm_poisson poisson;
-    struct pieces *pieces; /* where each component alone has an exact flow */
-    double *values;        /* of the system's variables */
+    double *values; /* of the system's variables */
     const struct gm_own_model *model;
 };
 
-static const struct own *own_of(const struct gm_problem *problem)
+/* Not constant: tapes are made later (core/ode/own/late.h). */
+static struct own *own_of(const struct gm_problem *problem)
 {
-    return problem->parameters;
+    return (struct own *)problem->parameters;
 }
 
 static bool energy_formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
@@ -203,30 +200,30 @@ const char *gm_own_model_lacks(const struct gm_own_model *model)
 
 static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    gm_tape_values(&own_of(problem)->field, y, f, m);
+    gm_late_tape_values(&own_of(problem)->field, y, f, m);
 }
 
 static void velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    gm_tape_values(&own_of(problem)->velocity, y, f, m);
+    gm_late_tape_values(&own_of(problem)->velocity, y, f, m);
 }
 
 static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    gm_tape_values(&own_of(problem)->force, y, f, m);
+    gm_late_tape_values(&own_of(problem)->force, y, f, m);
 }
 
 static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
 {
-    gm_tape_values(&own_of(problem)->energy, y, value, m);
+    gm_late_tape_values(&own_of(problem)->energy, y, value, m);
 }
 
 static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
-    const struct own *own = own_of(problem);
+    struct own *own = own_of(problem);
     const struct gm_sparse *entries = &own->model->jacobian;
     double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
-    gm_tape_values(&own->jacobian, y, values, 1);
+    gm_late_tape_values(&own->jacobian, y, values, 1);
     memset(matrix, 0, problem->n * problem->n * sizeof *matrix);
     for (size_t i = 0; i < entries->count; i++) {
         matrix[entries->entries[i].row * problem->n + entries->entries[i].column] = values[i];
@@ -274,47 +271,16 @@ static double friction(const struct gm_problem *problem)
     return own_of(problem)->friction;
 }
 
-static void close_rates(struct gm_tape *rates, size_t n)
-{
-    for (size_t i = 0; rates && i < n; i++) {
-        gm_tape_close(&rates[i]);
-    }
-    free(rates);
-}
-
-/* NULL: out of memory. */
-static const struct gm_tape *rates_of(const struct own *own)
-{
-    struct gm_tape *rates = atomic_load(&own->pieces->rates), *others = NULL;
-    if (rates) {
-        return rates;
-    }
-    const size_t n = own->model->components;
-    rates = calloc(n, sizeof *rates);
-    bool good = rates != NULL;
-    for (size_t i = 0; good && i < n; i++) {
-        good = gm_tape_open(&rates[i], &own->model->system->graph, &own->model->rates[i], 1, n, own->values);
-    }
-    if (!good || !atomic_compare_exchange_strong(&own->pieces->rates, &others, rates)) {
-        close_rates(rates, n);
-        rates = others;
-    }
-    return rates;
-}
-
 /* x_piece := x_piece + h rate(the others) */
 static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
 {
     enum { BLOCK = 128 };
     double rate[BLOCK];
-    const struct gm_tape *rates = rates_of(own_of(problem));
     for (size_t first = 0; first < m; first += BLOCK) {
         const size_t count = m - first < BLOCK ? m - first : BLOCK;
-        if (rates) {
-            gm_tape_block(&rates[piece], y + first, m, rate, BLOCK, count);
-        }
+        gm_late_tape_block(&own_of(problem)->pieces[piece], y + first, m, rate, BLOCK, count);
         for (size_t l = 0; l < count; l++) {
-            y[piece * m + first + l] = rates ? y[piece * m + first + l] + h * rate[l] : NAN;
+            y[piece * m + first + l] += h * rate[l];
         }
     }
 }
@@ -352,6 +318,27 @@ static void flow_of_piece(const struct gm_problem *problem, size_t piece, double
     gm_own_bracket_flow(&own_of(problem)->bracket, piece, h, y);
 }
 
+/* So that the first step takes no longer than others. */
+static void prepare(const struct gm_problem *problem, unsigned needs)
+{
+    struct own *own = own_of(problem);
+    if (needs & (GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM | GM_NEEDS_ATTRACTION)) {
+        gm_late_tape(&own->velocity);
+        gm_late_tape(&own->force);
+    } else if (needs & GM_NEEDS_FAST_LINEAR) {
+        gm_late_tape(&own->slow_force);
+    } else if (needs & GM_NEEDS_VOLUME) {
+        for (size_t i = 0; i < problem->n; i++) {
+            gm_late_tape(&own->pieces[i]);
+        }
+    } else {
+        gm_late_tape(&own->field);
+        if (own->model->has_jacobian) {
+            gm_late_tape(&own->jacobian);
+        }
+    }
+}
+
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return own_of(problem)->frequencies[i];
@@ -359,7 +346,7 @@ static double frequency(const struct gm_problem *problem, size_t i)
 
 static void slow_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
 {
-    gm_tape_values(&own_of(problem)->slow_force, q, force, m);
+    gm_late_tape_values(&own_of(problem)->slow_force, q, force, m);
 }
 
 static void attraction(const struct gm_problem *problem, const double *q, double *potential, size_t m)
@@ -389,6 +376,16 @@ static bool holds(const struct gm_own_model *model, const double *values, enum g
     return finding->asked && finding->holds && (same || finding->how == GM_ZERO_PROVED);
 }
 
+static struct gm_late_tape late_tape(const struct own *own, const gm_node_id *nodes, size_t count,
+                                     size_t inputs)
+{
+    return (struct gm_late_tape){.graph = &own->model->system->graph,
+                                 .nodes = nodes,
+                                 .count = count,
+                                 .inputs = inputs,
+                                 .values = own->values};
+}
+
 /* The facets of H = |p|^2/2 + V(q). False: out of memory. */
 static bool open_mechanical(struct own *own, const double *values)
 {
@@ -402,8 +399,8 @@ static bool open_mechanical(struct own *own, const double *values)
         const gm_node_id *nodes = findings[GM_FACT_FAST_LINEAR].nodes;
         bool real = true;
         own->frequencies = calloc(half, sizeof *own->frequencies);
-        good = gm_tape_open(&tape, graph, nodes, half, 0, values) && own->frequencies &&
-               gm_tape_open(&own->slow_force, graph, nodes + half, half, half, values);
+        good = gm_tape_open(&tape, graph, nodes, half, 0, values) && own->frequencies;
+        own->slow_force = late_tape(own, nodes + half, half, half);
         if (good) {
             gm_tape_values(&tape, NULL, own->frequencies, 1);
         }
@@ -535,43 +532,50 @@ static bool open_tapes(struct own *own, const double *values)
 {
     const struct gm_own_model *model = own->model;
     const struct gm_own_system *system = model->system;
-    const struct gm_formula *graph = &system->graph;
     const size_t n = model->components, half = system->n / 2;
     if (system->kind == GM_LAGRANGIAN) {
         return gm_own_lagrangian_open(&own->lagrangian, &model->lagrangian, values);
     }
-    bool good = gm_tape_open(&own->field, graph, model->rates, n, n, values);
-    if (own->ode.split) {
-        good = good && gm_tape_open(&own->velocity, graph, model->rates, half, n, values) &&
-               gm_tape_open(&own->force, graph, model->rates + half, half, n, values);
-    }
-    if (own->ode.hamiltonian) {
-        good = good && gm_tape_open(&own->energy, graph, &system->energy, 1, n, values);
-    }
+    own->field = late_tape(own, model->rates, n, n);
+    own->velocity = late_tape(own, model->rates, half, n);
+    own->force = late_tape(own, model->rates + half, half, n);
+    own->energy = late_tape(own, &system->energy, 1, n);
     if (model->has_jacobian) {
-        gm_node_id *nodes = malloc((model->jacobian.count + 1) * sizeof *nodes);
+        gm_node_id *nodes = own->slopes_of_rates = malloc((model->jacobian.count + 1) * sizeof *nodes);
         for (size_t i = 0; nodes && i < model->jacobian.count; i++) {
             nodes[i] = model->jacobian.entries[i].node;
         }
-        good = good && nodes && gm_tape_open(&own->jacobian, graph, nodes, model->jacobian.count, n, values);
-        free(nodes);
+        own->jacobian = late_tape(own, nodes, model->jacobian.count, n);
     }
     if (own->ode.volume) {
-        own->pieces = calloc(1, sizeof *own->pieces);
-        good = good && own->pieces;
+        own->pieces = malloc(n * sizeof *own->pieces);
+        for (size_t i = 0; own->pieces && i < n; i++) {
+            own->pieces[i] = late_tape(own, &model->rates[i], 1, n);
+        }
     }
-    return good;
+    return (own->slopes_of_rates || !model->has_jacobian) && (own->pieces || !own->ode.volume);
 }
 
-/* Whether the energy of rest is negative where these values of all variables have it start. */
+/* Whether the energy of rest is negative where these values of all variables have it start. Of a Hamiltonian the
+   formula itself is asked: no tape is made for one number. */
 static bool attracts(const struct gm_problem *problem, const double *values)
 {
-    double *rest = calloc(problem->n, sizeof *rest);
-    for (size_t c = 0; rest && c < problem->n / 2; c++) {
-        rest[c] = values[c];
+    const struct gm_own_system *system = own_of(problem)->model->system;
+    const gm_node_id energy = system->energy;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, energy, &count);
+    double *rest = malloc(system->variable_count * sizeof *rest),
+           *at = malloc((energy + (size_t)1) * sizeof *at); /* of the parts alone */
+    bool negative = false;
+    if (parts && rest && at) {
+        memcpy(rest, values, system->variable_count * sizeof *rest);
+        memset(rest + problem->n / 2, 0, (problem->n - problem->n / 2) * sizeof *rest);
+        gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
+        negative = (system->kind == GM_LAGRANGIAN ? gm_energy(problem, rest) : at[energy]) < 0;
     }
-    const bool negative = rest && gm_energy(problem, rest) < 0;
+    free(parts);
     free(rest);
+    free(at);
     return negative;
 }
 
@@ -604,7 +608,8 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
     own->ode = (struct gm_ode){.written = true,
                                .components = model->names[0] ? model->names : NULL,
                                .quadratic = !constrained && holds(model, values, GM_FACT_QUADRATIC),
-                               .rough = !holds(model, values, GM_FACT_SMOOTH)};
+                               .rough = !holds(model, values, GM_FACT_SMOOTH),
+                               .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         own->ode.loops[isa] = &own->loops;
     }
@@ -629,16 +634,28 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
         return false;
     }
     own->split.attracts = own->ode.split && own->ode.hamiltonian && attracts(problem, values);
-    own->constants[GM_KERNEL_FIELD] = own->field.constants;
-    own->constants[GM_KERNEL_VELOCITY] = own->velocity.constants;
-    own->constants[GM_KERNEL_FORCE] = own->force.constants;
-    own->constants[GM_KERNEL_JACOBIAN] = own->jacobian.constants;
     return true;
+}
+
+/* The tapes of which kernels are written; NULL: there is none. False: out of memory. */
+static bool tapes_of_kernels(struct own *own, const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS])
+{
+    struct gm_late_tape *const late[GM_KERNEL_FUNCTIONS] = {
+        [GM_KERNEL_FIELD] = &own->field,
+        [GM_KERNEL_VELOCITY] = own->ode.split ? &own->velocity : NULL,
+        [GM_KERNEL_FORCE] = own->ode.split ? &own->force : NULL,
+        [GM_KERNEL_JACOBIAN] = own->model->has_jacobian ? &own->jacobian : NULL};
+    bool good = true;
+    for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
+        tapes[i] = late[i] ? gm_late_tape(late[i]) : NULL;
+        good = good && (tapes[i] || !late[i]);
+    }
+    return good;
 }
 
 char *gm_own_problem_kernel(const struct gm_problem *problem, const char **lacks)
 {
-    const struct own *own = own_of(problem);
+    struct own *own = own_of(problem);
     if (own->model->system->kind == GM_LAGRANGIAN) {
         *lacks = "the velocities of a Lagrangian are found by an iteration, which is not compiled";
         return NULL;
@@ -647,28 +664,27 @@ char *gm_own_problem_kernel(const struct gm_problem *problem, const char **lacks
         *lacks = "the multipliers of constraints are found by an iteration, which is not compiled";
         return NULL;
     }
-    const struct gm_kernel_source source = {
-        .components = problem->n,
-        .tapes = {[GM_KERNEL_FIELD] = &own->field,
-                  [GM_KERNEL_VELOCITY] = own->ode.split ? &own->velocity : NULL,
-                  [GM_KERNEL_FORCE] = own->ode.split ? &own->force : NULL,
-                  [GM_KERNEL_JACOBIAN] = own->model->has_jacobian ? &own->jacobian : NULL},
-        .jacobian = &own->model->jacobian,
-    };
-    return gm_kernel_text(&source, lacks);
+    struct gm_kernel_source source = {.components = problem->n, .jacobian = &own->model->jacobian};
+    *lacks = NULL;
+    return tapes_of_kernels(own, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
 }
 
 void **gm_own_problem_note(const struct gm_problem *problem)
 {
-    return &((struct own *)problem->parameters)->note;
+    return &own_of(problem)->note;
 }
 
 void gm_own_problem_take(struct gm_problem *problem, const struct gm_loops *loops)
 {
-    struct own *own = (struct own *)problem->parameters;
+    struct own *own = own_of(problem);
+    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS];
+    loops = loops && tapes_of_kernels(own, tapes) ? loops : NULL;
     own->loops = own->interpreted;
     own->taken = loops;
     if (loops) {
+        for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
+            own->constants[i] = tapes[i] ? tapes[i]->constants : NULL;
+        }
         own->loops.field = loops->field;
         own->loops.jacobian = loops->jacobian;
         memcpy(own->loops.over_kernels, loops->over_kernels, sizeof own->loops.over_kernels);
@@ -684,17 +700,17 @@ void gm_own_problem_close(struct gm_problem *problem)
 {
     struct own *own = (struct own *)problem->parameters;
     if (own) {
-        if (own->pieces) {
-            close_rates(atomic_load(&own->pieces->rates), problem->n);
+        for (size_t i = 0; own->pieces && i < problem->n; i++) {
+            gm_late_tape_close(&own->pieces[i]);
         }
-        gm_tape_close(&own->field);
-        gm_tape_close(&own->velocity);
-        gm_tape_close(&own->force);
-        gm_tape_close(&own->energy);
-        gm_tape_close(&own->jacobian);
+        gm_late_tape_close(&own->field);
+        gm_late_tape_close(&own->velocity);
+        gm_late_tape_close(&own->force);
+        gm_late_tape_close(&own->energy);
+        gm_late_tape_close(&own->jacobian);
         gm_own_lagrangian_close(&own->lagrangian);
         gm_own_constraints_close(&own->constraints);
-        gm_tape_close(&own->slow_force);
+        gm_late_tape_close(&own->slow_force);
         gm_tape_close(&own->attraction);
         gm_tape_close(&own->perturbation);
         gm_tape_close(&own->potential);
@@ -703,6 +719,7 @@ void gm_own_problem_close(struct gm_problem *problem)
         gm_own_bracket_close(&own->bracket);
         free(own->frequencies);
         free(own->pieces);
+        free(own->slopes_of_rates);
         free(own->values);
         free(own);
     }
