@@ -406,7 +406,8 @@ void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const
 
 enum { WORD = 64 };
 
-/* A bit for each node, and one for each word of these that is not 0: the parts of a node are few of a large graph. */
+/* A bit for each node, and one for each word of these that is not 0: the parts of a node are few of a large graph, and
+   no more is cleared than has them. */
 struct marks {
     uint64_t *bits, *words;
     size_t word_count; /* of `words` */
@@ -414,8 +415,13 @@ struct marks {
 
 static inline void mark(const struct marks *marks, gm_node_id node)
 {
-    marks->bits[node / WORD] |= UINT64_C(1) << node % WORD;
-    marks->words[node / WORD / WORD] |= UINT64_C(1) << node / WORD % WORD;
+    const size_t word = node / WORD;
+    const uint64_t bit = UINT64_C(1) << word % WORD;
+    if (!(marks->words[word / WORD] & bit)) {
+        marks->words[word / WORD] |= bit;
+        marks->bits[word] = 0;
+    }
+    marks->bits[word] |= UINT64_C(1) << node % WORD;
 }
 
 static inline unsigned highest(uint64_t word)
@@ -450,8 +456,8 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
 {
     const size_t bits = graph->count / WORD + (size_t)1;
     struct marks marks = {.word_count = bits / WORD + 1};
-    marks.bits = calloc(bits + marks.word_count, sizeof *marks.bits);
-    marks.words = marks.bits ? marks.bits + bits : NULL;
+    marks.bits = malloc((bits + marks.word_count) * sizeof *marks.bits);
+    marks.words = marks.bits ? memset(marks.bits + bits, 0, marks.word_count * sizeof *marks.words) : NULL;
     *count = 0;
     for (size_t k = 0; marks.bits && k < root_count; k++) {
         mark(&marks, roots[k]);
