@@ -105,7 +105,7 @@ energy = kinetic + sum(4 * 119.8 * (r ** 6 - r ** 3) for r in ratios)
 assert abs(energy + 1260.2) < 0.05 and abs(kinetic / 7 - 22.72) < 0.005, (energy, kinetic / 7)
 assert abs(run["observables"]["temperature"] - kinetic / 7) < 1e-9
 END
-# step by step as by the loop below; of the temperature no more can be asked: it swings between 3 and 31 K about 15.5 K, and
+# step by step as by the loop below; of the temperature no more can be asked: it swings between 1 and 31 K about 15.5 K, and
 # where it is after 200 ps the last digits of a step decide
 for words in verlet:4e-5:200 verlet:8e-5:100 symplectic-euler:1e-5:800; do
     scheme=${words%%:*} steps=${words##*:} dt=${words#*:}

@@ -5,7 +5,8 @@
 set -u
 . "$(dirname "$0")/answers.sh"
 
-# kill_at SIGNAL COUNT FOLDER WORDS...: kills a render when FOLDER holds COUNT frames
+# kill_at SIGNAL COUNT FOLDER WORDS...: kills a render when FOLDER holds COUNT frames; it stands still while they are
+# counted, so that it cannot finish on a busy machine
 kill_at() {
     signal=$1
     count=$2
@@ -14,12 +15,15 @@ kill_at() {
     "$geomint" "$@" 2>err </dev/null &
     pid=$!
     tries=0
-    while [ "$(ls "$where" 2>/dev/null | grep -c 'png$')" -lt "$count" ] && [ $tries -lt 2000 ]; do
+    while kill -STOP $pid && [ "$(ls "$where" 2>/dev/null | grep -c 'png$')" -lt "$count" ] && [ $tries -lt 2000 ]; do
+        kill -CONT $pid
         sleep 0.02
         tries=$((tries + 1))
     done
-    kill -"$signal" $pid 2>/dev/null || fail "render $* was over before it was killed"
+    kill -"$signal" $pid
+    kill -CONT $pid 2>/dev/null
     wait $pid
+    [ $? -gt 128 ] || fail "render $* was over before it was killed"
 }
 
 same() {
