@@ -114,7 +114,8 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
     snprintf(canvas->backend, sizeof canvas->backend, "%s, OpenGL %.3s, %s%s%s",
              gm_context_name(canvas->context), version, renderer, mesa ? ", " : "", mesa ? mesa : "");
     return framebuffer_open(canvas, message) &&
-           gm_batch_open(&canvas->brush.batch, &canvas->gl, message, GM_MESSAGE);
+           gm_batch_open(&canvas->brush.batch, &canvas->gl, canvas->painter.look.width,
+                         canvas->painter.look.height, message);
 }
 
 static void close_alone(struct gm_canvas *canvas)
