@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/message.h"
+
 struct gm_draw_call {
     enum gm_program program;
     enum gm_stencil stencil;
@@ -18,11 +20,11 @@ struct gm_draw_call {
 /* Bits of the stencil: the upper one for inside and outside, the others number groups painted once. */
 enum { INSIDE_BIT = 0x80, ONCE_BITS = 0x7f };
 
-bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size)
+bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, int width, int height, char *message)
 {
     *batch = (struct gm_batch){.gl = gl};
-    if (!gm_shaders_open(gl, batch->programs, message, size)) {
-        return false;
+    if (!gm_shaders_use(gl, batch->programs, GM_PROGRAM_INK, width, height)) {
+        return gm_refuse(message, "This OpenGL cannot compile the painter's shaders.");
     }
     gl->GenVertexArrays(1, &batch->array);
     gl->BindVertexArray(batch->array);
@@ -241,7 +243,6 @@ bool gm_batch_draw(struct gm_batch *batch, int width, int height)
         gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(batch->index_count * sizeof *batch->indices),
                        batch->indices, GL_STREAM_DRAW);
     }
-    gm_shaders_resize(gl, batch->programs, width, height);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->Enable(GL_SCISSOR_TEST);
@@ -254,7 +255,7 @@ bool gm_batch_draw(struct gm_batch *batch, int width, int height)
             rounds = call->once / ONCE_BITS;
             forget_groups(gl);
         }
-        gl->UseProgram(batch->programs[call->program]);
+        gm_shaders_use(gl, batch->programs, call->program, width, height); /* or GL has an error to tell */
         gl->Scissor(call->scissor[0], call->scissor[1], call->scissor[2], call->scissor[3]);
         set_stencil(gl, call);
         const bool colour = call->stencil != GM_STENCIL_INVERT;

@@ -49,8 +49,9 @@ struct gm_batch {
     GLuint programs[GM_PROGRAM_COUNT], array, buffer, index_buffer;
 };
 
-/* Needs a current context. False, with a sentence in message, when shaders do not compile. */
-bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size);
+/* For pictures of width x height pixels; needs a current context. False, with a sentence in message, when
+   shaders do not compile. */
+bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, int width, int height, char *message);
 void gm_batch_close(struct gm_batch *batch);
 
 void gm_batch_clear(struct gm_batch *batch);

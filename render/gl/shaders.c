@@ -2,8 +2,6 @@
 /* The programs that run on the vertices of a frame. */
 #include "render/gl/shaders.h"
 
-#include <stdio.h>
-
 /* The first row of pixels in memory is the top of the picture, so y is not turned round. */
 static const char vertex_source[] = "#version 330 core\n"
                                     "uniform vec2 scale;\n"
@@ -68,38 +66,31 @@ static bool link_program(const struct gm_gl *gl, GLuint program, const char *fra
     return linked;
 }
 
-bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, size_t size)
+bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height)
 {
     static const char *const samplers[] = {"glyphs", "maps", "image"}; /* in order of texture units */
-    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
-        programs[i] = gl->CreateProgram();
-        if (!link_program(gl, programs[i], fragment_sources[i])) {
-            snprintf(message, size, "This OpenGL cannot compile the painter's shader %d.", i);
-            return false;
-        }
-        gl->UseProgram(programs[i]);
-        for (int unit = 0; unit < 3; unit++) {
-            const GLint location = gl->GetUniformLocation(programs[i], samplers[unit]);
-            if (location >= 0) {
-                gl->Uniform1i(location, unit);
-            }
+    if (programs[program] != 0) {
+        gl->UseProgram(programs[program]);
+        return true;
+    }
+    const GLuint made = programs[program] = gl->CreateProgram();
+    const bool linked = link_program(gl, made, fragment_sources[program]);
+    gl->UseProgram(made); /* an error of GL where it is not linked, which all later uses repeat */
+    for (int unit = 0; linked && unit < 3; unit++) {
+        const GLint location = gl->GetUniformLocation(made, samplers[unit]);
+        if (location >= 0) {
+            gl->Uniform1i(location, unit);
         }
     }
-    return true;
+    if (linked) {
+        gl->Uniform2f(gl->GetUniformLocation(made, "scale"), 2.0f / (float)width, 2.0f / (float)height);
+    }
+    return linked;
 }
 
 void gm_shaders_close(const struct gm_gl *gl, GLuint *programs)
 {
     for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
         gl->DeleteProgram(programs[i]);
-    }
-}
-
-void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height)
-{
-    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
-        gl->UseProgram(programs[i]);
-        gl->Uniform2f(gl->GetUniformLocation(programs[i], "scale"), 2.0f / (float)width,
-                      2.0f / (float)height);
     }
 }

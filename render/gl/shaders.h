@@ -15,10 +15,10 @@ enum gm_program {
     GM_PROGRAM_COUNT,
 };
 
-/* Makes all of them. False, with a sentence in message, when one does not compile. */
-bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, size_t size);
+/* Uses the program, made when it is first wanted (most pictures need few of the five), for pictures of so many
+   pixels, which stay the same. False if this OpenGL cannot compile it. */
+bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height);
+/* Those that were made; others are 0. */
 void gm_shaders_close(const struct gm_gl *gl, GLuint *programs);
-/* For pictures of so many pixels. */
-void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height);
 
 #endif
