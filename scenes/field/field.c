@@ -108,16 +108,15 @@ static bool has_surface(const struct gm_lane *lane)
     return rows->count > 0 && !isnan(rows->values[0]);
 }
 
-/* The colours of a law's residuals: as far on both sides as the largest of all lanes. */
-static struct gm_field_look look_of_law(struct gm_picture *picture, const struct gm_lane *const *lanes,
-                                        size_t count, const struct gm_field_look *look)
+/* The colours of a law's residuals: as far on both sides as the largest of this lane. They differ by orders from
+   scheme to scheme, and on one scale for all the small ones would be blank. */
+static struct gm_field_look look_of_law(struct gm_picture *picture, const struct gm_lane *lane,
+                                        const struct gm_field_look *look)
 {
     double low = 0, high = 1e-16;
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_entries *rows = &lanes[i]->entries[0];
-        for (size_t k = 0; has_surface(lanes[i]) && k < rows->count * rows->width; k++) {
-            high = fmax(high, fabs(rows->values[k]));
-        }
+    const struct gm_entries *rows = &lane->entries[0];
+    for (size_t k = 0; has_surface(lane) && k < rows->count * rows->width; k++) {
+        high = fmax(high, fabs(rows->values[k]));
     }
     gm_range_round(&low, &high, GM_LINEAR);
     struct gm_field_look own = *look;
@@ -130,10 +129,12 @@ static struct gm_field_look look_of_law(struct gm_picture *picture, const struct
 
 /* A panel for every lane: the surface so far. */
 static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_field_look *look)
+                          const struct gm_field_look *shown)
 {
+    const bool law = shown->show != GM_SHOW_FIELD;
     for (size_t i = 0; i < count; i++) {
         const struct gm_lane *lane = lanes[i];
+        const struct gm_field_look own = law ? look_of_law(picture, lane, shown) : *shown, *look = &own;
         const struct gm_entries *rows = &lane->entries[0];
         const struct gm_timing *timing = lane->parameters;
         const struct gm_line *line = &lane->problem.line;
@@ -155,7 +156,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
             panel->note = panel->note[0] || rows->count == 0 ? panel->note : "the scheme has no such law";
             continue;
         }
-        panel->colour_bar = i + 1 == count;
+        panel->colour_bar = law || i + 1 == count;
         panel->colour_bar_label = look->name;
         /* what is there at the start is seen as a thin strip */
         const double thin = (panel->y.high - panel->y.low) / 200;
@@ -299,13 +300,12 @@ void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lane
 {
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
+    draw_surfaces(picture, lanes, count, look);
     if (look->show == GM_SHOW_FIELD) {
-        draw_surfaces(picture, lanes, count, look);
         draw_profiles(picture, lanes, count, look);
         gm_draw_graphs(picture, lanes, count, graphs, graph_count);
         return;
     }
-    const struct gm_field_look law = look_of_law(picture, lanes, count, look);
     const struct gm_graph residual = {
         .observable = gm_picture_text(picture, "local_%s_residual", law_name(look)),
         .highest = true,
@@ -313,7 +313,6 @@ void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lane
         .calm_low = 1e-16,
         .calm_high = 1e-2,
     };
-    draw_surfaces(picture, lanes, count, &law);
     draw_profiles(picture, lanes, count, look);
     gm_draw_graphs(picture, lanes, count, graphs, 1);
     gm_draw_graphs(picture, lanes, count, &residual, 1);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nanoseconds a point and step of the schemes for fields, beside a bare loop over libm's sin: no test, ratios
-   to read. Every figure is the median of several runs. */
+   to read. Every figure is the median of several runs.
+       bench_fields [SECTION...]: all of it, or what is named of waves, large, typed, boxes, burgers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -249,17 +250,36 @@ static void typed(size_t points)
     }
 }
 
-int main(void)
+static bool is_asked(const char *section, int argc, char **argv)
+{
+    bool asked = argc < 2;
+    for (int i = 1; i < argc; i++) {
+        asked |= strcmp(argv[i], section) == 0;
+    }
+    return asked;
+}
+
+int main(int argc, char **argv)
 {
     setvbuf(stdout, NULL, _IOLBF, 0); /* it takes minutes */
     const double sine = bare_sine(801, 4000);
     printf("a bare loop over libm's sin          %.2f ns\n", sine);
-    waves(801, 20, 0.05, 4000, sine);
-    waves(1000000, 20000, 0.04, 8, sine);
-    typed(401);
-    boxes(801, 20, 100);
-    boxes(10001, 250, 4);
-    burgers(801, 8000, sine);
-    burgers(1000000, 8, sine);
+    if (is_asked("waves", argc, argv)) {
+        waves(801, 20, 0.05, 4000, sine);
+    }
+    if (is_asked("large", argc, argv)) {
+        waves(1000000, 20000, 0.04, 8, sine);
+    }
+    if (is_asked("typed", argc, argv)) {
+        typed(401);
+    }
+    if (is_asked("boxes", argc, argv)) {
+        boxes(801, 20, 100);
+        boxes(10001, 250, 4);
+    }
+    if (is_asked("burgers", argc, argv)) {
+        burgers(801, 8000, sine);
+        burgers(1000000, 8, sine);
+    }
     return 0;
 }

@@ -357,7 +357,8 @@ def continued():
         geomint(f"run kepler scheme=verlet,rk4 steps=12 --every 2 --save d.{ending}")
         check(bytes_of(f"c.{ending}").replace(b'"c/', b'"d/') == bytes_of(f"d.{ending}"), f"{ending} gone on with")
     for words in ("kepler scheme=verlet,rk4 dt=0.1", "disc points=9", "sine-gordon points=101", "soliton points=21",
-                  "room", "vortices", "stiff", "burgers dx=.05"):
+                  "room", "vortices", "stiff", "burgers dx=.05",
+                  "kdv scheme=zabusky-kruskal-invariant,evolution-projection lambda=0.6 points=301 dt=0.002"):
         geomint(f"run {words} steps=7 --every 2 --max --json --checkpoint c.check --save c.npz")
         one = geomint(f"run {words} steps=12 --every 2 --max --json --state --continue c.check --save c.npz")
         other = geomint(f"run {words} steps=12 --every 2 --max --json --state --save d.npz")

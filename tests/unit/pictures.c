@@ -236,6 +236,35 @@ static void curves_of_a_product_are_told_apart(void **state)
     close_drawn(&drawn);
 }
 
+/* What a law leaves at a tenth of the step is seen beside what the long step leaves: colours end near the largest
+   value of each lane, and every lane has the bar that says where. */
+static void residuals_have_colours_of_their_own(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("sine-gordon scheme=box points=201 dt=0.1,0.01 show=energy-law", 40, &drawn);
+    double high[2];
+    size_t images = 0;
+    for (const struct gm_panel *panel = drawn.picture->first; panel; panel = panel->next) {
+        for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+            if (mark->kind != GM_MARK_IMAGE) {
+                continue;
+            }
+            double most = 0;
+            for (size_t i = 0; i < mark->rows * mark->columns; i++) {
+                most = fmax(most, fabs(mark->values[i]));
+            }
+            assert_true(panel->colour_bar);
+            assert_true(most > mark->high / 4 && most <= mark->high && mark->low == -mark->high);
+            assert_true(images < 2);
+            high[images++] = mark->high;
+        }
+    }
+    assert_int_equal(images, 2);
+    assert_true(high[0] > 10 * high[1]);
+    close_drawn(&drawn);
+}
+
 /* The graph of the cell's volume ends where it does, not at the end of the run. */
 static void the_volume_fills_its_graph(void **state)
 {
@@ -385,6 +414,7 @@ int main(void)
         cmocka_unit_test(tables_name_observables_that_there_are),
         cmocka_unit_test(default_pictures_can_be_read_at_any_size),
         cmocka_unit_test(curves_of_a_product_are_told_apart),
+        cmocka_unit_test(residuals_have_colours_of_their_own),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
         cmocka_unit_test(graphs_say_what_they_show),
