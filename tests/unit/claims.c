@@ -19,7 +19,7 @@
 #include "core/mesh/families/families.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/families/splitting.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
 #include "core/ode/kernel/loops.h"

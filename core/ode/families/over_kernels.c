@@ -23,8 +23,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/ode/families/runge_kutta/explicit.h"
-#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/explicit_runge_kutta.h"
+#include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/families/splitting.h"
 #include "core/scheme.h"
 

@@ -16,10 +16,10 @@ GM_INLINE void K(field)(const real *y, real *f, const void *parameters)
 #include "core/ode/kernel/block.h"
 
 #ifdef GM_LOOP_EXPLICIT
-#include "core/ode/families/runge_kutta/explicit.loop.h"
+#include "core/ode/families/explicit_runge_kutta.loop.h"
 #endif
 #ifdef GM_LOOP_IMPLICIT
-#include "core/ode/families/runge_kutta/implicit.loop.h"
+#include "core/ode/families/implicit_runge_kutta.loop.h"
 #endif
 #if defined(GM_LOOP_SPLITTING) && defined(GM_SEPARABLE)
 #include "core/ode/families/splitting.loop.h"

@@ -3,10 +3,10 @@
        z_i = h sum_j a_ij f(y0 + z_j)
        y1  = y0 + h sum_i b_i f(y0 + z_i)
    solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
-   Newton's method; of fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method is
+   Newton's method; of fields on a ring with a linear part by core/ode/families/implicit_modes.c. A method is
    symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration
    (2006), sections II.1, VI.4, VIII.6. */
-#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/implicit_runge_kutta.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #include "core/clones.h"
 #include "core/count.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/runge_kutta/modes.h"
+#include "core/ode/families/implicit_modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
@@ -551,7 +551,7 @@ static struct gm_progress advance(const struct gm_task *task)
     {                                                                                                        \
         .stages = 1, .a = {{0.5}}, .b = {1}, .composition = &gm_composition_##name                           \
     }
-#define IMPLICIT .family = &gm_family_implicit
+#define IMPLICIT .family = &gm_family_implicit_runge_kutta
 #define SYMPLECTIC_RK                                                                                        \
     (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR | GM_KEEPS_LINEAR)
 
@@ -717,7 +717,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
-const struct gm_family gm_family_implicit = {
+const struct gm_family gm_family_implicit_runge_kutta = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = coefficients_open,

@@ -125,7 +125,7 @@ __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(co
         }                                                                                                    \
         tableau = &gm_explicit_##identifier;                                                                 \
         break;
-#include "core/ode/families/runge_kutta/explicit.def"
+#include "core/ode/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT
     case GM_EXPLICIT_OWN:
         tableau = &((const struct gm_explicit_own *)row)->tableau;

@@ -3,7 +3,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 #define GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 
-#include "core/ode/families/runge_kutta/implicit_row.h"
+#include "core/ode/families/implicit_row.h"
 
 extern const struct gm_implicit_row gm_implicit_midpoint, gm_implicit_gauss4, gm_implicit_gauss6,
     gm_implicit_gauss8;

@@ -2,7 +2,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
 #define GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
 
-#include "core/ode/families/runge_kutta/implicit_row.h"
+#include "core/ode/families/implicit_row.h"
 #include "core/ode/ode.h"
 
 /* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring, one member: the iteration solves the stiff linear
