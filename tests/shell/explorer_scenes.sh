@@ -9,7 +9,7 @@ set -u
 # the scene's own parameters but the end, which `geomint run` alone knows, and what only a mesh file has
 keys_of() {
     "$geomint" list "$1" --json | sed 's|"observables".*||' | grep -o '"key":"[^"]*"' | sed 's/"key":"//; s/"//' |
-        grep -vxE 'until|compensated|binding|tau0|tolerance|newmark_beta|inlet|lid|star'
+        grep -vxE 'until|compensated|binding|tau0|tolerance|newmark_beta|inlet|lid|star|refine'
 }
 
 open_scene() { # WORDS
