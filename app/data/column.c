@@ -14,23 +14,15 @@
 bool gm_column_open(struct gm_column *column)
 {
     column->used = 0;
-    column->failure = 0;
     column->buffer = malloc(GM_COLUMN_BUFFER);
-    column->full = malloc(GM_COLUMN_BUFFER);
-    if (column->buffer && column->full) {
-        return true;
-    }
-    gm_column_close(column);
-    errno = ENOMEM;
-    return false;
+    errno = column->buffer ? errno : ENOMEM;
+    return column->buffer != NULL;
 }
 
 void gm_column_close(struct gm_column *column)
 {
-    gm_beside_end(&column->writing);
     free(column->buffer);
-    free(column->full);
-    column->buffer = column->full = NULL;
+    column->buffer = NULL;
 }
 
 /* Of a write that fails, what comes before the failure counts: a disk may be full in the middle. */
@@ -42,30 +34,8 @@ static bool write_out(struct gm_column *column, const unsigned char *bytes, size
     return written == size;
 }
 
-static void write_full(void *data)
-{
-    struct gm_column *column = data;
-    column->failure = write_out(column, column->full, column->full_used) ? 0 : errno;
-}
-
-/* Waits for the other core. After a failure what is in the buffer would leave a hole: it is dropped. */
-static bool settle(struct gm_column *column)
-{
-    gm_beside_end(&column->writing);
-    if (column->failure != 0) {
-        errno = column->failure;
-        column->failure = 0;
-        column->used = 0;
-        return false;
-    }
-    return true;
-}
-
 bool gm_column_flush(struct gm_column *column)
 {
-    if (!settle(column)) {
-        return false;
-    }
     const size_t used = column->used;
     column->used = 0;
     return write_out(column, column->buffer, used);
@@ -73,20 +43,8 @@ bool gm_column_flush(struct gm_column *column)
 
 bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size)
 {
-    if (size > GM_COLUMN_BUFFER) {
-        return gm_column_flush(column) && write_out(column, bytes, size);
-    }
-    if (!settle(column)) {
-        return false;
-    }
-    unsigned char *const full = column->buffer;
-    column->full_used = column->used;
-    column->buffer = column->full;
-    column->full = full;
-    column->used = 0;
-    column->writing = (struct gm_beside){.work = write_full, .data = column};
-    gm_beside_begin(&column->writing, false);
-    return gm_column_put(column, bytes, size);
+    return gm_column_flush(column) &&
+           (size > GM_COLUMN_BUFFER ? write_out(column, bytes, size) : gm_column_put(column, bytes, size));
 }
 
 bool gm_column_print(struct gm_column *column, const char *format, ...)

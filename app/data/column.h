@@ -7,27 +7,22 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/beside.h"
-
-/* A part of a file that grows from its place on, by way of a buffer; one that is full is written by another core,
-   while the next one fills. */
+/* A part of a file that grows from its place on, by way of a buffer. */
 
 struct gm_column {
     int file;       /* the caller's */
-    uint64_t place; /* of what is put next, but for what is in the buffers; known after a flush */
+    uint64_t place; /* of what is put next, but for what is in the buffer */
     uint32_t crc;   /* the checksum (CRC-32) of what was written, and of what the caller began it with */
-    unsigned char *buffer, *full; /* NULL: closed; the second is being written */
-    size_t used, full_used;
-    struct gm_beside writing;
-    int failure; /* errno of what was written by another core */
+    unsigned char *buffer; /* NULL: closed */
+    size_t used;
 };
 
 /* The buffer's size: writes of 64 KB took twice the time of these, longer ones no less. */
 enum { GM_COLUMN_BUFFER = 1 << 18 };
 
-/* Makes the buffers; false with errno. The column stays where it is until it is closed. */
+/* Makes the buffer; false with errno. */
 bool gm_column_open(struct gm_column *column);
-/* Frees them, and what was put and not flushed is lost. */
+/* Frees it, and what was put and not flushed is lost. */
 void gm_column_close(struct gm_column *column);
 
 /* Appends where there is no room in the buffer; false with errno. */

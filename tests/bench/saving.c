@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What it costs to save the states of Kepler's orbit at every step: the run in single steps, as saving needs
-   them, with its states going to a file, beside the same single steps with nothing saved. Time by the clock on the
-   wall, as another core writes, and processor time, the system's and the file's completion included; rounds in which
-   all take turns. No test: nothing fails here.
+   them, with its states going to a file, beside the same single steps with nothing saved. Processor time, the
+   system's and the file's completion included; rounds in which all take turns. No test: nothing fails here.
    Usage: bench_saving [steps] */
 #include <math.h>
 #include <stdio.h>
@@ -16,20 +15,13 @@
 
 enum { ROUNDS = 11 };
 
-enum { WALL, PROCESSOR, CLOCKS };
-
-static double now(int clock)
-{
-    return clock == WALL ? gm_clock_seconds() : gm_clock_processor_seconds();
-}
-
 /* Nanoseconds that a step takes; a path of NULL: nothing is saved. NAN with a sentence on standard error. */
-static void measure(const struct gm_request *request, long steps, const char *path, double took[CLOCKS])
+static double measure(const struct gm_request *request, long steps, const char *path)
 {
     const struct gm_rows rows = {.interval = NAN};
     char message[GM_MESSAGE] = "";
     struct gm_drive drive = {.lane = gm_request_open_lane(request, 0, message), .request = request};
-    const double start[CLOCKS] = {now(WALL), now(PROCESSOR)};
+    const double start = gm_clock_processor_seconds();
     struct gm_save *save = drive.lane && path ? gm_save_open(path, 1, false, false, message) : NULL;
     const struct gm_run *run = drive.lane ? drive.lane->run : NULL;
     const uint64_t expected = run ? gm_rows_expected(&rows, run, steps) : 0;
@@ -44,13 +36,12 @@ static void measure(const struct gm_request *request, long steps, const char *pa
     if (save) {
         good = gm_save_close(save, good, false, message) && good;
     }
-    for (int clock = 0; clock < CLOCKS; clock++) {
-        took[clock] = good ? 1e9 * (now(clock) - start[clock]) / (double)steps : NAN;
-    }
+    const double took = 1e9 * (gm_clock_processor_seconds() - start) / (double)steps;
     gm_lane_close(drive.lane);
     if (!good) {
         fprintf(stderr, "bench_saving: %s\n", message);
     }
+    return good ? took : NAN;
 }
 
 static int compare(const void *a, const void *b)
@@ -66,7 +57,7 @@ int main(int argc, char *argv[])
     static const char *const endings[KINDS] = {[NPZ] = ".npz", [CSV] = ".csv"};
     char *words[] = {"kepler", "scheme=verlet", "until=1e12"};
     char message[GM_MESSAGE], folder[] = "/tmp/geomint-saving-XXXXXX", path[64];
-    double each[CLOCKS][KINDS][ROUNDS], ratios[CLOCKS][KINDS][ROUNDS];
+    double each[KINDS][ROUNDS], ratios[KINDS][ROUNDS];
     struct gm_request request;
     if (!gm_request_parse(&request, 3, words, GM_RUN_SCHEMES, message) || !mkdtemp(folder)) {
         fprintf(stderr, "bench_saving: no run or no folder\n");
@@ -76,27 +67,20 @@ int main(int argc, char *argv[])
         for (int kind = 0; kind < KINDS; kind++) {
             snprintf(path, sizeof path, "%s/a%s", folder, endings[kind] ? endings[kind] : "");
             /* text takes so long that a tenth will do */
-            double took[CLOCKS];
-            measure(&request, kind < CSV ? steps : steps / 10, endings[kind] ? path : NULL, took);
-            for (int clock = 0; clock < CLOCKS; clock++) {
-                each[clock][kind][round] = took[clock];
-                ratios[clock][kind][round] = took[clock] / each[clock][NONE][round];
-            }
+            each[kind][round] =
+                measure(&request, kind < CSV ? steps : steps / 10, endings[kind] ? path : NULL);
+            ratios[kind][round] = each[kind][round] / each[NONE][round];
             unlink(path);
         }
     }
     rmdir(folder);
     printf("nanoseconds a step of %ld, least and median of %d, and what that is of the same steps unsaved\n",
            steps, ROUNDS);
-    for (int clock = 0; clock < CLOCKS; clock++) {
-        printf("%s\n", clock == WALL ? "on the wall" : "processor time");
-        for (int kind = 0; kind < KINDS; kind++) {
-            qsort(each[clock][kind], ROUNDS, sizeof(double), compare);
-            qsort(ratios[clock][kind], ROUNDS, sizeof(double), compare);
-            printf("%-16s %8.1f %8.1f   %.2f%s\n", endings[kind] ? endings[kind] : "nothing saved",
-                   each[clock][kind][0], each[clock][kind][ROUNDS / 2], ratios[clock][kind][ROUNDS / 2],
-                   kind == NPZ ? " (at most 1.3)" : "");
-        }
+    for (int kind = 0; kind < KINDS; kind++) {
+        qsort(each[kind], ROUNDS, sizeof(double), compare);
+        qsort(ratios[kind], ROUNDS, sizeof(double), compare);
+        printf("%-16s %8.1f %8.1f   %.2f%s\n", endings[kind] ? endings[kind] : "nothing saved", each[kind][0],
+               each[kind][ROUNDS / 2], ratios[kind][ROUNDS / 2], kind == NPZ ? " (at most 1.3)" : "");
     }
     gm_request_close(&request);
     return 0;
