@@ -742,6 +742,10 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
         if (outputs->save && gm_save_is_cut(outputs->save)) {
             end_cut(&outcome);
+            observe(&outcome);
+            if (!tell(&outcome, options, message)) {
+                gm_complain("%s", message);
+            }
         } else {
             gm_complain("%s", message);
         }

@@ -237,6 +237,11 @@ def test_statuses(folder):
     check("1 of 4 runs made now" in done.stderr and len(rows(table)) == 4 and bare(table) == found_without(found),
           f"only what failed is made anew: {done.stderr}")
     check(first.splitlines()[0] == content(table).splitlines()[0], "the head stays")
+    with open(table, "a", encoding="utf-8") as file:
+        file.write("disc,of,another,sweep\n")
+    first = content(table)
+    says("is not a table of this sweep", "sweep", *words, "--retry", "ok", status=3)
+    check(content(table) == first, "a row of another sweep leaves the table as it is, whatever is made anew")
     # what a scheme does not take is left to those that do
     done = sweep("kepler", "scheme=verlet,gsl-rk8pd", "tolerance=1e-9,1e-3", "dt=0.5", "until=10", "--measure",
                  "energy_error")

@@ -217,6 +217,7 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
     if (good && table->old) {
         return begin_anew(table, head, message); /* which keeps the stream, and the lock with it */
     }
+    table->old = NULL; /* rows that are not of this sweep are made anew no more than others */
     if (stream) {
         fclose(stream);
     } else if (copy >= 0) {
