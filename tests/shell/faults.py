@@ -23,7 +23,7 @@ import zipfile
 import zlib
 
 LONGEST = 120  # seconds that a command may take before it counts as hanging
-SAMPLE = 6  # values of n in a command
+SAMPLE = 9  # values of n in a command
 
 # OUT stands for a folder that is made anew, SHARE for that of the systems. "timed": holds run times, which differ from run to run; "made": OUT
 # holds a picture of these words; "before": a command that runs without a fault first; "lost": OUT holds all that the
