@@ -140,6 +140,21 @@ for file in $(ls frames/*.png | tail -n 3); do
     [ "$(tail -c 8 "$file" | od -An -tx1 | tr -d ' \n')" = 49454e44ae426082 ] || fail "$file is cut off"
 done
 
+# so is certify, with whole certificates
+rm -f out
+"$geomint" certify all --json >out 2>err &
+pid=$!
+tries=0
+while [ ! -s out ] && [ $tries -lt 1200 ]; do
+    sleep 0.05
+    tries=$((tries + 1))
+done
+kill -TERM $pid
+wait $pid
+[ $? = 130 ] || fail 'an interrupted certify is not exit 130'
+python3 -c 'import json, sys; assert all([json.loads(line) for line in sys.stdin])' <out ||
+    fail 'an interrupted certify cut a certificate off'
+
 # an interrupted run says so, with the state and the time that it had come to
 for how in --json "--csv -"; do
     rm -f interrupted.csv out
