@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stiff oscillation: the chain of Fermi, Pasta & Ulam with some stiff springs, and the stiff spring pendulum,
        fpu               H = (|x'|^2 + |y'|^2 + omega^2 |y|^2)/2 + sum_i d_i^4/4
-                         (core/ode/problems/fpu.kernel.h)
+                         (core/ode/problems/oscillators/fpu.kernel.h)
        spring-pendulum   H = |p|^2/2 + k (|q| - 1)^2/2 + q2
    The energy of the stiff springs is an adiabatic invariant: it wanders among them slowly, its sum
        I = sum_i I_i,   I_i = (y_i'^2 + omega^2 y_i^2)/2

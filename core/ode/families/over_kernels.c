@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
    file once for each problem, and where there are ensembles of it for each instruction set, with
-       GM_KERNELS   the problem's kernels ("core/ode/problems/fpu.kernel.h")
+       GM_KERNELS   the problem's kernels ("core/ode/problems/oscillators/fpu.kernel.h")
        GM_PROBLEM   its name (pendulum)
        GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
        GM_BASELINE  with the loops of a single run, or
