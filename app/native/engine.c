@@ -234,7 +234,7 @@ static void compile(struct build *build, const char *folder, const char *compile
              (int)getpid(), number);
     snprintf(build->log_name, sizeof build->log_name, "%s-%d-%u.log", build->key.text, (int)getpid(), number);
     snprintf(kernels, sizeof kernels, "-DGM_KERNELS=\"%s\"", build->text_name);
-    snprintf(source, sizeof source, "%.3900s/core/ode/families/over_kernels.c", kernel_folder);
+    snprintf(source, sizeof source, "%.3900s/core/ode/compiled/over_kernels.c", kernel_folder);
     if (!write_text(folder, build->text_name, text)) {
         remove_aside(folder, build);
         gm_refuse(build->sentence, "the cache could not be written");

@@ -165,7 +165,7 @@ struct gm_ode {
     /* Makes now what schemes with these needs (GM_NEEDS_...) ask for, and what is made when it is first asked for; NULL:
        nothing is. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);
-    /* made of the problem's kernels by core/ode/families/over_kernels.c */
+    /* made of the problem's kernels by core/ode/compiled/over_kernels.c */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };
 

@@ -16,7 +16,7 @@
 #include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/ode/backward/modified_energy.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"

@@ -15,11 +15,11 @@
 
 #include "core/certify.h"
 #include "core/count.h"
-#include "core/ode/families/explicit_runge_kutta.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/partitioned_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/runge_kutta/partitioned.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/own/polish.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
@@ -93,14 +93,14 @@ static char *typed(const struct gm_scheme *scheme)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    if (scheme->family == &gm_family_explicit_runge_kutta) {
+    if (scheme->family == &gm_family_explicit) {
         const struct gm_explicit_tableau *row = gm_explicit_tableau_of(scheme->coefficients);
         fputs("explicit(", out);
         put_rows(out, row->stages, row->stages, row->a[0], GM_EXPLICIT_STAGES);
         fputs("; ", out);
         put_rows(out, 1, row->stages, row->b, 0);
         fputs(")", out);
-    } else if (scheme->family == &gm_family_implicit_runge_kutta) {
+    } else if (scheme->family == &gm_family_implicit) {
         const struct gm_implicit_row *row = scheme->coefficients;
         if (row->composition->steps > 1) {
             put_composition(out, "midpoint", row->composition);
@@ -111,7 +111,7 @@ static char *typed(const struct gm_scheme *scheme)
             put_rows(out, 1, row->stages, row->b, 0);
             fputs(")", out);
         }
-    } else if (scheme->family == &gm_family_partitioned_runge_kutta) {
+    } else if (scheme->family == &gm_family_partitioned) {
         const struct gm_partitioned_row *row = scheme->coefficients;
         const int stages = (int)row->stages;
         fputs("partitioned(", out);

@@ -10,10 +10,10 @@
 #include <string.h>
 
 #include "core/ode/families/composition.h"
-#include "core/ode/families/explicit_runge_kutta.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 
@@ -157,11 +157,11 @@ static double splitting_radius(const struct gm_splitting_row *row, double w)
 double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double im)
 {
     const double complex z = re + im * I;
-    if (scheme->family == &gm_family_explicit_runge_kutta) {
+    if (scheme->family == &gm_family_explicit) {
         const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(scheme->coefficients);
         return cabs(stability_function(tableau->stages, tableau->a[0], GM_EXPLICIT_STAGES, tableau->b, z));
     }
-    if (scheme->family == &gm_family_implicit_runge_kutta) {
+    if (scheme->family == &gm_family_implicit) {
         const struct gm_implicit_row *row = scheme->coefficients;
         double complex product = 1;
         for (int i = 0; i < row->composition->steps; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lane type `real` of one pass over a problem's kernels. core/ode/families/over_kernels.c includes this
+/* The lane type `real` of one pass over a problem's kernels. core/ode/compiled/over_kernels.c includes this
    twice: with GM_PASS_SCALAR real is a double, for a single run; otherwise a vector of GM_WIDTH doubles, for
    a block of members of an ensemble. Every operation is the same IEEE operation in both, lane by lane, so a
    member's bits do not depend on the pass. K(name) is the name of a function of this pass. */

@@ -8,7 +8,7 @@
 /* The families that have a loop over kernels: gm_family.over_kernels. */
 enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_OVER_COUNT };
 
-/* What core/ode/families/over_kernels.c makes of a problem's kernels for one instruction set. */
+/* What core/ode/compiled/over_kernels.c makes of a problem's kernels for one instruction set. */
 struct gm_loops {
     /* f(y) of the active components of m members */
     void (*field)(const struct gm_problem *problem, const double *y, double *f, size_t m);

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/ode/families/explicit_runge_kutta.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/kernel/loops.h"
 
 /* Code beyond INLINED instructions is a function of its own, which a scheme's stages share; beyond MOST a

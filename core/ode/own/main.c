@@ -2,7 +2,7 @@
 /* A program that the build runs: of a problem that is a system's file it writes the kernel file, as the one
    that is compiled of somebody's own system while the program runs, with its constants in it. Parameters of
    the file are the numbers that the problem's `parameters` lead to, in their order. The energy, for
-   core/ode/families/over_energy.c, is the file's H, or what it observes or keeps by that name where it has
+   core/ode/compiled/over_energy.c, is the file's H, or what it observes or keeps by that name where it has
    rates instead. Usage: write_kernel FILE.system FILE.kernel.h */
 #include <math.h>
 #include <stdio.h>

@@ -18,12 +18,12 @@
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "core/ode/families/composition.h"
-#include "core/ode/families/explicit_runge_kutta.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/nystrom.h"
-#include "core/ode/families/partitioned_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/runge_kutta/nystrom.h"
+#include "core/ode/families/runge_kutta/partitioned.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/schemes.h"
 #include "core/theory/theory.h"
 
@@ -147,7 +147,7 @@ static struct own *of_tableau(struct tableau *tableau)
     }
     struct gm_explicit_own *explicit_row = is_explicit ? own->coefficients : NULL;
     struct gm_implicit_row *implicit_row = is_explicit ? NULL : own->coefficients;
-    own->row.family = is_explicit ? &gm_family_explicit_runge_kutta : &gm_family_implicit_runge_kutta;
+    own->row.family = is_explicit ? &gm_family_explicit : &gm_family_implicit;
     if (is_explicit) {
         explicit_row->row = GM_EXPLICIT_OWN;
         explicit_row->tableau.stages = stages;
@@ -185,10 +185,10 @@ static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficie
 {
     const struct gm_implicit_row *implicit_row = NULL;
     const struct gm_explicit_tableau *explicit_row = NULL;
-    if (scheme->family == &gm_family_explicit_runge_kutta) {
+    if (scheme->family == &gm_family_explicit) {
         explicit_row = gm_explicit_tableau_of(scheme->coefficients);
         tableau->stages = explicit_row->stages;
-    } else if (scheme->family == &gm_family_implicit_runge_kutta) {
+    } else if (scheme->family == &gm_family_implicit) {
         implicit_row = scheme->coefficients;
         tableau->stages = implicit_row->stages;
     }
@@ -224,7 +224,7 @@ static struct own *make_partitioned(const struct making *making, const struct gm
         return no_memory(making);
     }
     struct gm_partitioned_row *row = own->coefficients;
-    own->row.family = &gm_family_partitioned_runge_kutta;
+    own->row.family = &gm_family_partitioned;
     own->row.needs = GM_NEEDS_HAMILTONIAN;
     row->stages = (size_t)stages;
     for (int i = 0; i < stages; i++) {

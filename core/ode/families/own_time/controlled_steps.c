@@ -25,7 +25,7 @@
 #include "core/count.h"
 #include "core/kind.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/kernel/loops.h"
 #include "core/schemes.h"
 

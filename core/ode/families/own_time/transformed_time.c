@@ -16,7 +16,7 @@
 
 #include "core/count.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/implicit_runge_kutta.h"
+#include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 

@@ -7,7 +7,7 @@
    of which the first depends on p alone and the second on q alone: both vanish, and each flow keeps it.
    R.I. McLachlan & G.R.W. Quispel, Acta Numerica 11 (2002) 341; Hairer, Lubich & Wanner (2006), section
    II.5. */
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/splitting/splitting.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The row of a Nystrom method: a and b are those of positions, bv those of velocities, c the times of the
    stages. */
-#ifndef GM_CORE_ODE_FAMILIES_NYSTROM_H
-#define GM_CORE_ODE_FAMILIES_NYSTROM_H
+#ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
+#define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
 
 enum { GM_NYSTROM_STAGES = 16 };
 

@@ -3,10 +3,10 @@
        z_i = h sum_j a_ij f(y0 + z_j)
        y1  = y0 + h sum_i b_i f(y0 + z_i)
    solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
-   Newton's method; of fields on a ring with a linear part by core/ode/families/implicit_modes.c. A method is
+   Newton's method; of fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method is
    symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration
    (2006), sections II.1, VI.4, VIII.6. */
-#include "core/ode/families/implicit_runge_kutta.h"
+#include "core/ode/families/runge_kutta/implicit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #include "core/clones.h"
 #include "core/count.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/implicit_modes.h"
+#include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
@@ -81,7 +81,7 @@ enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150,
 #define EPSILON 2.220446049250313e-16
 
 /* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
-struct stages {
+struct stage_scratch {
     double *at, *z, *slopes; /* states, increments, f: stages * n * members */
     double *state;           /* n * members */
     double *change, *part, *previous, *negligible, *norm, *row; /* members */
@@ -90,11 +90,11 @@ struct stages {
 
 enum { OVER_MEMBERS = 8 }; /* of these arrays */
 
-static struct stages stages_of(double *scratch, size_t stages, size_t n, size_t members)
+static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, size_t members)
 {
     const size_t all = stages * n * members;
     double *rows = scratch + 3 * all + n * members;
-    return (struct stages){
+    return (struct stage_scratch){
         .at = scratch,
         .z = scratch + all,
         .slopes = scratch + 2 * all,
@@ -154,7 +154,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 /* Components [from, to) of the increments, z := h a f, of the members that go on, and the sum of the changes:
    a sum, because it hands a NaN on where a maximum may lose it. */
 GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, size_t members, size_t from,
-                       size_t to, const struct stages *s, double *change)
+                       size_t to, const struct stage_scratch *s, double *change)
 {
     memset(change, 0, members * sizeof *change);
     for (size_t i = 0; i < (size_t)row->stages; i++) {
@@ -175,7 +175,8 @@ GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, si
 }
 
 /* Components [from, to) of the slope of stage i, of the members that go on. */
-GM_OF_TILE void take(const struct stages *s, size_t n, size_t members, size_t i, size_t from, size_t to)
+GM_OF_TILE void take(const struct stage_scratch *s, size_t n, size_t members, size_t i, size_t from,
+                     size_t to)
 {
     for (size_t c = from; c < to; c++) {
         double *slope = s->slopes + (i * n + c) * members;
@@ -186,7 +187,7 @@ GM_OF_TILE void take(const struct stages *s, size_t n, size_t members, size_t i,
     }
 }
 
-GM_OF_TILE void find_state(const struct stages *s, size_t n, size_t members, size_t i, const double *y)
+GM_OF_TILE void find_state(const struct stage_scratch *s, size_t n, size_t members, size_t i, const double *y)
 {
     for (size_t c = 0; c < n * members; c++) {
         s->at[i * n * members + c] = y[c] + s->z[i * n * members + c];
@@ -197,7 +198,7 @@ GM_OF_TILE void find_state(const struct stages *s, size_t n, size_t members, siz
    is taken at the new q, which doubles the order in h that an iteration gains. */
 GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops *loops,
                         const struct gm_implicit_row *row, double h, const double *y, size_t members,
-                        const struct stages *s)
+                        const struct stage_scratch *s)
 {
     const size_t n = gm_tile_components(problem), half = n / 2, stages = (size_t)row->stages;
     if (!loops->force || n % 2 != 0) {
@@ -230,7 +231,7 @@ GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops 
    zero or, at the level of round-off, no longer decreases, or the next one, changes being in geometric
    progression, would be far below round-off: 2^-60 of the first change; with more, invariants drift. */
 GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
-                               size_t members, const struct stages *s, struct gm_progress *progress)
+                               size_t members, const struct stage_scratch *s, struct gm_progress *progress)
 {
     const struct gm_implicit_row *row = tile->row;
     const double *y = tile->y;
@@ -267,7 +268,7 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
 
 /* The same equations by Newton's method with the Jacobian of every stage, for member l. */
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
-                      const struct stages *s, struct gm_progress *progress)
+                      const struct stage_scratch *s, struct gm_progress *progress)
 {
     const struct gm_loops *loops = tile->loops;
     const struct gm_implicit_row *row = tile->row;
@@ -482,7 +483,7 @@ static void carry_along(const struct gm_problem *problem, double h, const double
 }
 
 GM_OF_TILE bool solve(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t members,
-                      const struct stages *s, struct gm_progress *progress)
+                      const struct stage_scratch *s, struct gm_progress *progress)
 {
     bool all = true;
     for (size_t l = 0; l < members; l++) {
@@ -505,7 +506,7 @@ GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *ti
     const struct gm_problem *problem = task->problem;
     const struct gm_implicit_row *row = tile->row;
     const size_t n = gm_tile_components(problem), count = n * members;
-    const struct stages s = stages_of(tile->scratch, (size_t)row->stages, n, members);
+    const struct stage_scratch s = stages_of(tile->scratch, (size_t)row->stages, n, members);
     for (int substep = 0; substep < row->composition->steps; substep++) {
         const double h = task->dt * gm_composition_fraction(row->composition, substep);
         if (!solve(problem, tile, h, members, &s, progress)) {
@@ -551,7 +552,7 @@ static struct gm_progress advance(const struct gm_task *task)
     {                                                                                                        \
         .stages = 1, .a = {{0.5}}, .b = {1}, .composition = &gm_composition_##name                           \
     }
-#define IMPLICIT .family = &gm_family_implicit_runge_kutta
+#define IMPLICIT .family = &gm_family_implicit
 #define SYMPLECTIC_RK                                                                                        \
     (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR | GM_KEEPS_LINEAR)
 
@@ -717,7 +718,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
-const struct gm_family gm_family_implicit_runge_kutta = {
+const struct gm_family gm_family_implicit = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = coefficients_open,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One pass of core/ode/families/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
+/* One pass of core/ode/compiled/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
 
 #include "core/ode/kernel/lane.h"
 
@@ -16,13 +16,13 @@ GM_INLINE void K(field)(const real *y, real *f, const void *parameters)
 #include "core/ode/kernel/block.h"
 
 #ifdef GM_LOOP_EXPLICIT
-#include "core/ode/families/explicit_runge_kutta.loop.h"
+#include "core/ode/families/runge_kutta/explicit.loop.h"
 #endif
 #ifdef GM_LOOP_IMPLICIT
-#include "core/ode/families/implicit_runge_kutta.loop.h"
+#include "core/ode/families/runge_kutta/implicit.loop.h"
 #endif
 #if defined(GM_LOOP_SPLITTING) && defined(GM_SEPARABLE)
-#include "core/ode/families/splitting.loop.h"
+#include "core/ode/families/splitting/splitting.loop.h"
 #endif
 
 #undef real

@@ -6,9 +6,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/ode/families/explicit_runge_kutta.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/scheme.h"

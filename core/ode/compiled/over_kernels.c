@@ -23,9 +23,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/ode/families/explicit_runge_kutta.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/splitting.h"
+#include "core/ode/families/runge_kutta/explicit.h"
+#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/scheme.h"
 
 /* Steps between two looks at whether they succeeded. */
@@ -39,10 +39,10 @@ enum { GM_BURST = 16 };
 #endif
 
 #define GM_PASS_SCALAR
-#include "core/ode/families/pass.h"
+#include "core/ode/compiled/pass.h"
 #undef GM_PASS_SCALAR
 #ifndef GM_ALONE
-#include "core/ode/families/pass.h"
+#include "core/ode/compiled/pass.h"
 #endif
 
 /* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide

@@ -150,14 +150,14 @@ static const struct gm_scheme schemes[] = {
         .title = "Wisdom-Holman",
         .formula = "p += h/2 F_W(q);  (q, p) := exact Kepler flow over h;  p += h/2 F_W(q)",
         .reference = "J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528",
-        .family = &gm_family_kepler_splitting,
+        .family = &gm_family_kepler,
         .order = 2,
         .needs = GM_NEEDS_KEPLER_SPLIT,
         .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR,
     },
 };
 
-const struct gm_family gm_family_kepler_splitting = {
+const struct gm_family gm_family_kepler = {
     .kind = &gm_kind_ode,
     .title = "Kepler splitting",
     .schemes = schemes,

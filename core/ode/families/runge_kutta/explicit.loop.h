@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/families/pass.h. */
+/* The explicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/compiled/pass.h. */
 
 GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struct K(block) * block, double h,
                                 const void *parameters, bool compensated, bool stiff,
@@ -125,7 +125,7 @@ __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(co
         }                                                                                                    \
         tableau = &gm_explicit_##identifier;                                                                 \
         break;
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     case GM_EXPLICIT_OWN:
         tableau = &((const struct gm_explicit_own *)row)->tableau;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The row of a splitting method, which its loop over kernels reads at run time. */
-#ifndef GM_CORE_ODE_FAMILIES_SPLITTING_H
-#define GM_CORE_ODE_FAMILIES_SPLITTING_H
+#ifndef GM_CORE_ODE_FAMILIES_SPLITTING_SPLITTING_H
+#define GM_CORE_ODE_FAMILIES_SPLITTING_SPLITTING_H
 
 #include <stddef.h>
 

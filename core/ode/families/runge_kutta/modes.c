@@ -3,7 +3,7 @@
        K_i - h L sum_j a_ij K_j = N(y + h sum_j a_ij K_j) + L y,
    the left side wave by wave, the right side by iteration. Slopes are never made of L times a stage, which
    would multiply rounding by h L. Hairer & Wanner, Solving ODEs II, IV.8. */
-#include "core/ode/families/implicit_modes.h"
+#include "core/ode/families/runge_kutta/modes.h"
 
 #include <complex.h>
 #include <float.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The implicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/families/pass.h. */
+/* The implicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/compiled/pass.h. */
 
 enum { K(IMPLICIT_ITERATIONS) = 150 };
 

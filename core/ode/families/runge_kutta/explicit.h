@@ -2,9 +2,9 @@
 /* Explicit Runge-Kutta methods:
        k_i = f(y0 + h sum_{j<i} a_ij k_j)
        y1  = y0 + h sum_i b_i k_i
-   A scheme is one row of core/ode/families/explicit_runge_kutta.def. */
-#ifndef GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H
-#define GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H
+   A scheme is one row of core/ode/families/runge_kutta/explicit.def. */
+#ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
+#define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
 
 /* Of a row of the list, and of any scheme. */
 enum { GM_EXPLICIT_LISTED_STAGES = 4, GM_EXPLICIT_STAGES = 16 };
@@ -19,13 +19,13 @@ struct gm_explicit_tableau {
 #define GM_TABLEAU(...) __VA_ARGS__
 #define GM_EXPLICIT(identifier, order_, claims_, tableau_, ...)                                              \
     __attribute__((unused)) static const struct gm_explicit_tableau gm_explicit_##identifier = {tableau_};
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 
 /* Which row a scheme is: the order of the list. */
 enum gm_explicit_row {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     GM_EXPLICIT_COUNT,
     GM_EXPLICIT_OWN = GM_EXPLICIT_COUNT /* none of it: a struct gm_explicit_own */

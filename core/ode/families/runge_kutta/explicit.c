@@ -3,8 +3,8 @@
        k_i = f(y0 + h sum_{j<i} a_ij k_j)
        y1  = y0 + h sum_i b_i k_i
    E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), section II.1. The
-   rows are in explicit_runge_kutta.def, which the loops over kernels include as well. */
-#include "core/ode/families/explicit_runge_kutta.h"
+   rows are in explicit.def, which the loops over kernels include as well. */
+#include "core/ode/families/runge_kutta/explicit.h"
 
 #include <stdlib.h>
 
@@ -22,7 +22,7 @@ const struct gm_explicit_tableau *gm_explicit_tableau_of(const enum gm_explicit_
 {
     static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     };
     return *row == GM_EXPLICIT_OWN ? &((const struct gm_explicit_own *)row)->tableau : tableaus[*row];
@@ -139,7 +139,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
 
 static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 };
 
@@ -150,16 +150,16 @@ static const struct gm_scheme schemes[] = {
         .title = title_,                                                                                     \
         .formula = formula_,                                                                                 \
         .reference = reference_,                                                                             \
-        .family = &gm_family_explicit_runge_kutta,                                                           \
+        .family = &gm_family_explicit,                                                                       \
         .coefficients = &rows[GM_EXPLICIT_##identifier],                                                     \
         .order = order_,                                                                                     \
         .claims = claims_,                                                                                   \
     },
-#include "core/ode/families/explicit_runge_kutta.def"
+#include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 };
 
-const struct gm_family gm_family_explicit_runge_kutta = {
+const struct gm_family gm_family_explicit = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_EXPLICIT,
     .coefficients_open = coefficients_open,

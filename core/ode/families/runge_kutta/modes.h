@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
-#define GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
+#ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_MODES_H
+#define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_MODES_H
 
-#include "core/ode/families/implicit_row.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/ode.h"
 
 /* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring, one member: the iteration solves the stiff linear

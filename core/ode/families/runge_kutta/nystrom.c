@@ -8,7 +8,7 @@
    Where a stage asks for itself or a later one, all are found by fixed-point iteration. A last component that
    is the time moves with the stages. The rows of the list are none: they are brought along. E.J. Nystrom
    (1925); E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
-#include "core/ode/families/nystrom.h"
+#include "core/ode/families/runge_kutta/nystrom.h"
 
 #include <float.h>
 #include <math.h>

@@ -60,7 +60,7 @@ static const struct gm_scheme schemes[] = {
         .title = "volume splitting 1",
         .formula = "y₁ = F_s(h) … F₂(h) F₁(h) y₀,  f = f₁ + … + f_s,  div fᵢ = 0",
         .reference = "K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451",
-        .family = &gm_family_volume_splitting,
+        .family = &gm_family_volume,
         .coefficients = &simple,
         .order = 1,
         .needs = GM_NEEDS_VOLUME,
@@ -71,7 +71,7 @@ static const struct gm_scheme schemes[] = {
         .title = "volume splitting 2",
         .formula = "y₁ = F₁(h/2) … F_s(h) … F₁(h/2) y₀,  f = f₁ + … + f_s,  div fᵢ = 0",
         .reference = "K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; G. Strang (1968)",
-        .family = &gm_family_volume_splitting,
+        .family = &gm_family_volume,
         .coefficients = &palindrome,
         .order = 2,
         .needs = GM_NEEDS_VOLUME,
@@ -79,7 +79,7 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-const struct gm_family gm_family_volume_splitting = {
+const struct gm_family gm_family_volume = {
     .kind = &gm_kind_ode,
     .title = "volume-preserving splitting",
     .schemes = schemes,

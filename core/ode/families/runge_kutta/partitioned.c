@@ -5,7 +5,7 @@
    symplectic if b = d and b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler
    methods. Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method.
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
-#include "core/ode/families/partitioned_runge_kutta.h"
+#include "core/ode/families/runge_kutta/partitioned.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -195,7 +195,7 @@ static const struct gm_partitioned_row lobatto4 = {
     .d = {1. / 6, 2. / 3, 1. / 6},
 };
 
-#define PARTITIONED .family = &gm_family_partitioned_runge_kutta
+#define PARTITIONED .family = &gm_family_partitioned
 #define INSEPARABLE PARTITIONED, .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_INSEPARABLE
 
 static const struct gm_scheme schemes[] = {
@@ -261,7 +261,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
-const struct gm_family gm_family_partitioned_runge_kutta = {
+const struct gm_family gm_family_partitioned = {
     .kind = &gm_kind_ode,
     .title = "partitioned Runge-Kutta",
     .coefficients_open = coefficients_open,

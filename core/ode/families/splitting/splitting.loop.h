@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The splitting family over a problem's kernels, for one pass; see core/ode/families/pass.h. The table is
+/* The splitting family over a problem's kernels, for one pass; see core/ode/compiled/pass.h. The table is
    read at run time: a row is data. */
 
 /* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and

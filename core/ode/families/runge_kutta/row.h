@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The row of an implicit Runge-Kutta method, which its loops over kernels, over nodes and over waves share. */
-#ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_ROW_H
-#define GM_CORE_ODE_FAMILIES_IMPLICIT_ROW_H
+#ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
+#define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 
 #include "core/ode/families/compositions.h"
 
