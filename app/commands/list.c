@@ -15,12 +15,12 @@
 #include "app/own/room.h"
 #include "app/own/system.h"
 #include "app/request/fitting.h"
-#include "core/formula/equations.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 static void list_scenes(const struct gm_options *options)
 {

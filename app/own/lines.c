@@ -9,7 +9,7 @@
 
 #include "app/ground/exit.h"
 #include "core/formula/reader.h"
-#include "core/formula/system.h"
+#include "core/system/system.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"
 

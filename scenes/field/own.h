@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_FIELD_OWN_H
 #define GM_SCENES_FIELD_OWN_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 #include "scenes/frame/scene.h"
 
 /* Makes a scene of a system that is a field, and takes it: as gm_system_scene_open (scenes/ode/system.h) does

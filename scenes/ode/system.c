@@ -13,12 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/equations.h"
 #include "core/linear/eigenvalues.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "scenes/frame/written.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/system/draw.h"

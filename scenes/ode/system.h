@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_H
 #define GM_SCENES_ODE_SYSTEM_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 #include "scenes/frame/scene.h"
 
 /* Makes a scene of a system that was opened by gm_equations_open, and takes it: it is closed with the scene,

@@ -14,10 +14,10 @@
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/formula/equations.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 enum { REPEATS = 7 };
 

@@ -17,12 +17,12 @@
 #include "app/output/say.h"
 #include "app/request/request.h"
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "tests/bench/ensembles.h"
 
 enum { ROUNDS = 21 };

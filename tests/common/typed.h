@@ -2,9 +2,9 @@
 #ifndef GM_TESTS_COMMON_TYPED_H
 #define GM_TESTS_COMMON_TYPED_H
 
-#include "core/formula/equations.h"
 #include "core/ode/own/own.h"
 #include "core/run.h"
+#include "core/system/equations.h"
 
 /* A system that is typed, with its problem and its start. */
 struct typed {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/equations.h"
-#include "core/formula/facts.h"
+#include "core/system/equations.h"
+#include "core/system/facts.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

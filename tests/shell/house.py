@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The house, by what files include and what their objects call: no circle of files or of folders, the hall of core
-without a wing, wings without each other, every exported name with the project's prefix, every name of a header unique.
+"""The house, by what files include and what their objects call: no circle of files or of folders, no folder of more rooms
+than one looks through, the hall of core without a wing, wings without each other, every exported name with the project's prefix, every name of a header unique.
 Usage: house.py SOURCE BUILD [--long]   --long: what each circle is made of"""
 import collections
 import json
@@ -15,6 +15,7 @@ source, build = os.path.realpath(sys.argv[1]), os.path.realpath(sys.argv[2])
 long = "--long" in sys.argv
 LAYERS = ("core", "render", "scenes", "app", "library")
 KINDS = open(os.path.join(source, "core/kinds.def"), encoding="utf-8").read()
+MOST_ROOMS = 16  # in a folder; about fifteen
 WINGS = tuple("core/" + kind for kind in re.findall(r"^GM_KIND\((\w+)\)", KINDS, re.M))
 failures = []
 
@@ -93,6 +94,13 @@ for layer in LAYERS:
         files += [os.path.relpath(os.path.join(folder, n), source) for n in names if n.endswith((".c", ".h", ".def"))]
 text = {f: open(os.path.join(source, f), encoding="utf-8").read() for f in files}
 includes = {f: re.findall(r'^\s*#\s*include\s+"([^"]+)"', text[f], re.M) for f in files}
+
+rooms = collections.defaultdict(set)
+for f in files:
+    rooms[os.path.dirname(f)].add(room(f))
+for folder, inside in sorted(rooms.items()):
+    if len(inside) > MOST_ROOMS:
+        fail(f"{folder} has {len(inside)} rooms, more than {MOST_ROOMS}: it wants folders, by what belongs together")
 
 # who calls whom, from the objects of the build
 commands = json.load(open(os.path.join(build, "compile_commands.json"), encoding="utf-8"))

@@ -57,9 +57,10 @@ forbid app/explorer 'app/commands/'
 wings=$(sed -n 's/^GM_KIND(\(.*\))$/\1/p' core/kinds.def)
 [ -n "$wings" ] || { echo "core/kinds.def names no kind"; exit 1; }
 of_a_wing="${include}\"core/($(echo $wings | tr ' ' '|'))/"
-found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch] core/formula/*.[ch])
-# formula serves the hall, and knows nothing of it
+found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch] core/formula/*.[ch] core/system/*.[ch])
+# formula serves the hall, and knows nothing of it; system stands on formula alone
 found="$found$(grep -nE "${include}\"core/" core/formula/*.[ch] | grep -v '"core/formula/')"
+found="$found$(grep -nE "${include}\"core/" core/system/*.[ch] | grep -vE '"core/(formula|system)/')"
 for wing in $wings; do
     found="$found$(grep -rnE --include='*.[ch]' --include='*.def' "$of_a_wing" core/$wing |
         grep -vE "\"core/$wing/")"

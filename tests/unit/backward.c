@@ -14,13 +14,13 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/splitting/splitting.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "core/theory/modified.h"
 #include "core/theory/theory.h"
 

@@ -13,12 +13,12 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/own/own.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 enum { MOST = 7 }; /* components */

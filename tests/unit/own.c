@@ -14,12 +14,12 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/kind.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 struct retyped {

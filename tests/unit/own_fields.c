@@ -18,10 +18,10 @@
 #include "core/field/own/potential.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/formula/equations.h"
 #include "core/ode/own/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 enum { POINTS = 200, SIZE = 2 * POINTS + 1 };
 #define HALF 20.0

@@ -21,9 +21,9 @@
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/formula/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 static const struct gm_settings no_settings;
 static const char *const boxes[] = {"box", "gauss-box2", "gauss-box3", "gauss-box4"};

@@ -17,13 +17,13 @@
 #include "core/certify.h"
 #include "core/count.h"
 #include "core/formula/derivative.h"
-#include "core/formula/equations.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 enum { MOST = 12 };
 

@@ -13,8 +13,8 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/equations.h"
-#include "core/formula/facts.h"
+#include "core/system/equations.h"
+#include "core/system/facts.h"
 #include "tests/common/reference.h"
 
 static bool open_text(struct gm_own_system *system, const char *text, struct gm_fault *fault)

@@ -14,7 +14,6 @@
 
 #include "core/certify.h"
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/own/own.h"
@@ -22,6 +21,7 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 static const char double_pendulum[] =

@@ -16,10 +16,10 @@
 #include "core/count.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/own/potential.h"
-#include "core/formula/equations.h"
 #include "core/ode/own/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
 
 static const struct gm_settings no_settings;
 static const char *const all[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",

@@ -16,13 +16,13 @@
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"
 #include "core/formula/derivative.h"
-#include "core/formula/equations.h"
-#include "core/formula/facts.h"
 #include "core/formula/number.h"
 #include "core/memory.h"
 #include "core/ode/own/evolution.h"
 #include "core/ode/own/own.h"
 #include "core/schemes.h"
+#include "core/system/equations.h"
+#include "core/system/facts.h"
 #include "render/message.h"
 
 static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian",     "ode", "poisson", "field",

@@ -4,7 +4,7 @@
 #define GM_CORE_FIELD_OWN_FORM_H
 
 #include "core/field/field.h"
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 /* Its formulas, of its system's graph. */
 struct gm_own_form {

@@ -4,7 +4,7 @@
 #define GM_CORE_FIELD_OWN_POTENTIAL_H
 
 #include "core/field/field.h"
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far as levels are made of them */
 

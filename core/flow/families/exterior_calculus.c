@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/beside.h"
 #include "core/count.h"
+#include "core/flow/beside.h"
 #include "core/flow/families/families.h"
 #include "core/flow/solver.h"
 #include "core/flow/tracers.h"

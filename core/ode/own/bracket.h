@@ -3,7 +3,7 @@
 #ifndef GM_CORE_ODE_OWN_BRACKET_H
 #define GM_CORE_ODE_OWN_BRACKET_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 #include "core/tape.h"
 
 /* A piece of the energy: of components that commute, {y_i, y_j} = 0, and so rest in its flow. What the others do is

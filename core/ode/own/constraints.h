@@ -3,7 +3,7 @@
 #ifndef GM_CORE_ODE_OWN_CONSTRAINTS_H
 #define GM_CORE_ODE_OWN_CONSTRAINTS_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 #include "core/tape.h"
 
 /* What follows from them once. */

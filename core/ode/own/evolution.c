@@ -14,9 +14,9 @@
 #include <string.h>
 
 #include "core/count.h"
-#include "core/formula/equations.h"
 #include "core/linear/modes.h"
 #include "core/ode/kernel/loops.h"
+#include "core/system/equations.h"
 #include "core/tape.h"
 
 enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };

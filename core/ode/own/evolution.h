@@ -6,8 +6,8 @@
 #ifndef GM_CORE_ODE_OWN_EVOLUTION_H
 #define GM_CORE_ODE_OWN_EVOLUTION_H
 
-#include "core/formula/system.h"
 #include "core/ode/ode.h"
+#include "core/system/system.h"
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/equations.h"
-#include "core/formula/legendre.h"
 #include "core/ode/kernel/members.h"
+#include "core/system/equations.h"
+#include "core/system/legendre.h"
 
 static bool is_linear(struct gm_own_system *system, bool *marked)
 {

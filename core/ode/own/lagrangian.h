@@ -4,8 +4,8 @@
 #ifndef GM_CORE_ODE_OWN_LAGRANGIAN_H
 #define GM_CORE_ODE_OWN_LAGRANGIAN_H
 
-#include "core/formula/system.h"
 #include "core/ode/ode.h"
+#include "core/system/system.h"
 #include "core/tape.h"
 
 /* What follows from L once, as formulas of q, v (in the place of the momenta) and t. */

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "core/formula/derivative.h"
-#include "core/formula/equations.h"
 #include "core/ode/own/kernel.h"
+#include "core/system/equations.h"
 
 static char *read_all(const char *name, size_t *size)
 {

@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/own/kernel.h"
 #include "core/ode/own/late.h"
 #include "core/ode/variational/manifold.h"
 #include "core/quantity.h"
+#include "core/system/equations.h"
 #include "core/tape.h"
 
 /* What a problem's `parameters` and `facets` point to. */

@@ -5,11 +5,11 @@
 #define GM_CORE_ODE_OWN_OWN_H
 
 #include "core/formula/derivative.h"
-#include "core/formula/facts.h"
 #include "core/ode/ode.h"
 #include "core/ode/own/bracket.h"
 #include "core/ode/own/constraints.h"
 #include "core/ode/own/lagrangian.h"
+#include "core/system/facts.h"
 
 /* What follows from a system once, whatever its parameters. It does not change afterwards: runs and threads
    share it. */

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/formula/equations.h"
+#include "core/system/equations.h"
 
 size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_word word)
 {

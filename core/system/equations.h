@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The equations of motion of a system, and whether what its file says of it is so. */
-#ifndef GM_CORE_FORMULA_EQUATIONS_H
-#define GM_CORE_FORMULA_EQUATIONS_H
+#ifndef GM_CORE_SYSTEM_EQUATIONS_H
+#define GM_CORE_SYSTEM_EQUATIONS_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 /* Derives the equations of a system that was read (gm_system_read), and checks Jacobi's identity, Casimirs,
    invariants, symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform,

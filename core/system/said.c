@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads systems: lines, then what they declare, then what they say of it. */
-#include "core/formula/said.h"
+#include "core/system/said.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/declared.h"
+#include "core/system/declared.h"
 
 static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_system_line *line,
                                        struct gm_span name)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_DECLARED_H
-#define GM_CORE_FORMULA_DECLARED_H
+#ifndef GM_CORE_SYSTEM_DECLARED_H
+#define GM_CORE_SYSTEM_DECLARED_H
 
-#include "core/formula/names.h"
+#include "core/system/names.h"
 
 /* What a system declares, in this order: each needs what came before. */
 

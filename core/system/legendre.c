@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for dL/dv = p, and the elimination that it needs. */
-#include "core/formula/legendre.h"
+#include "core/system/legendre.h"
 
 #include <math.h>
 #include <stdlib.h>

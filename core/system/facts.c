@@ -2,7 +2,7 @@
 /* Structure is a matter of derivatives that vanish: H separates where d2H / dp dq does. What stands in the
    way is the first term of the sum whose own derivative does not vanish. The parts of a facet are terms of
    the sum, too. */
-#include "core/formula/facts.h"
+#include "core/system/facts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/formula/derivative.h"
-#include "core/formula/equations.h"
+#include "core/system/equations.h"
 
 /* What a sum is taken apart into; what of it is tried one by one, and nodes that are looked at for it, and
    that may come of it. */

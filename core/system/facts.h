@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The structure that a system has, found in its formulas. */
-#ifndef GM_CORE_FORMULA_FACTS_H
-#define GM_CORE_FORMULA_FACTS_H
+#ifndef GM_CORE_SYSTEM_FACTS_H
+#define GM_CORE_SYSTEM_FACTS_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 enum gm_fact {
     GM_FACT_SEPARABLE,       /* H = T(p) + V(q) */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lines of a system, the names in them, and formulas that hold such names. */
-#include "core/formula/names.h"
+#include "core/system/names.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ enum {
 
 const struct gm_system_word_row gm_system_words[GM_WORDS] = {
 #define GM_WORD(constant, word, often, kinds) {word, often, kinds},
-#include "core/formula/words.def"
+#include "core/system/words.def"
 #undef GM_WORD
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equations of motion by exact derivatives, and the checks of what a file says of them. */
-#include "core/formula/equations.h"
+#include "core/system/equations.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "core/formula/derivative.h"
-#include "core/formula/legendre.h"
 #include "core/formula/linear_part.h"
-#include "core/formula/said.h"
+#include "core/system/legendre.h"
+#include "core/system/said.h"
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {

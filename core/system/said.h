@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_SAID_H
-#define GM_CORE_FORMULA_SAID_H
+#ifndef GM_CORE_SYSTEM_SAID_H
+#define GM_CORE_SYSTEM_SAID_H
 
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 /* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault,
    whose sentence is empty where memory was refused. To be closed in both cases. */

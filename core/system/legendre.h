@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Legendre transform by numbers: the velocities that belong to momenta. */
-#ifndef GM_CORE_FORMULA_LEGENDRE_H
-#define GM_CORE_FORMULA_LEGENDRE_H
+#ifndef GM_CORE_SYSTEM_LEGENDRE_H
+#define GM_CORE_SYSTEM_LEGENDRE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a system holds, and how its names are found again. */
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 #include <stdlib.h>
 #include <string.h>

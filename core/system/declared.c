@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a system declares: its kind, its parameters, the names of its state, its lets. */
-#include "core/formula/declared.h"
+#include "core/system/declared.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_NAMES_H
-#define GM_CORE_FORMULA_NAMES_H
+#ifndef GM_CORE_SYSTEM_NAMES_H
+#define GM_CORE_SYSTEM_NAMES_H
 
 #include "core/formula/lines.h"
-#include "core/formula/system.h"
+#include "core/system/system.h"
 
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name that
    needs another one first waits for it. Everything that returns a bool says by false that reading->fault has

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work on another core, in a thread that leaves signals to the one that began it. */
-#include "core/beside.h"
+#include "core/flow/beside.h"
 
 #include <sched.h>
 #include <signal.h>

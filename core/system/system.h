@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system that somebody wrote down: what its file says, as formulas of one graph. docs/systems.md tells the
    words. */
-#ifndef GM_CORE_FORMULA_SYSTEM_H
-#define GM_CORE_FORMULA_SYSTEM_H
+#ifndef GM_CORE_SYSTEM_SYSTEM_H
+#define GM_CORE_SYSTEM_SYSTEM_H
 
 #include "core/formula/derivative.h"
 #include "core/formula/identity.h"
@@ -22,7 +22,7 @@ enum gm_system_kind {
 
 enum gm_system_word {
 #define GM_WORD(constant, ...) GM_WORD_##constant,
-#include "core/formula/words.def"
+#include "core/system/words.def"
 #undef GM_WORD
     GM_WORDS
 };
@@ -91,7 +91,7 @@ struct gm_own_system {
     size_t bracket_place;    /* of the bracket's last line in the text */
     struct gm_system_item *items;
     size_t item_count;
-    gm_node_id *facets; /* what core/formula/facts.c found */
+    gm_node_id *facets; /* what core/system/facts.c found */
     const char **parts; /* names of nodes, by number, for naming; NULL behind part_count */
     size_t part_count;  /* that were read; what follows was derived */
 };
