@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/count.h"
 #include "core/field/families/burgers.h"
@@ -18,27 +17,9 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "core/system/equations.h"
+#include "tests/bench/timing.h"
 
 enum { REPEATS = 7 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int in_order(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values)
-{
-    qsort(values, REPEATS, sizeof *values, in_order);
-    return values[REPEATS / 2];
-}
 
 static double bare_sine(size_t points, long steps)
 {
@@ -59,7 +40,7 @@ static double bare_sine(size_t points, long steps)
     }
     free(x);
     free(y);
-    return sum < INFINITY ? median(taken) : 0;
+    return sum < INFINITY ? median(taken, REPEATS) : 0;
 }
 
 static double time_of(const struct gm_problem *problem, const char *scheme, double dt, long steps,
@@ -79,7 +60,7 @@ static double time_of(const struct gm_problem *problem, const char *scheme, doub
         }
         gm_run_close(run);
     }
-    return median(taken);
+    return median(taken, REPEATS);
 }
 
 static void tell(const char *what, double time, double line, double sine)

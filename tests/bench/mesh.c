@@ -8,25 +8,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/count.h"
 #include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+#include "tests/bench/timing.h"
 
 /* Microseconds a step, the median over the runs; negative if the run failed. */
 static double measure(const char *name, long points, long steps, int runs)
@@ -56,9 +43,9 @@ static double measure(const char *name, long points, long steps, int runs)
             good = false;
             break;
         }
-        const double before = now();
+        const double before = seconds();
         good = gm_run_advance(run, steps) == GM_OK;
-        times[i] = 1e6 * (now() - before) / (double)steps;
+        times[i] = 1e6 * (seconds() - before) / (double)steps;
         if (i == 0 && points == 31) {
             printf("  %-24s %5.2f residuals, %5.3f factorisations a step\n", name,
                    (double)run->evaluations / (double)run->steps,
@@ -67,9 +54,7 @@ static double measure(const char *name, long points, long steps, int runs)
         gm_run_close(run);
     }
     free(state);
-    const int count = runs < MOST ? runs : MOST;
-    qsort(times, (size_t)count, sizeof times[0], ascending);
-    return good ? times[count / 2] : -1;
+    return good ? median(times, (size_t)(runs < MOST ? runs : MOST)) : -1;
 }
 
 static void keep_energy(const char *name, int density, double alpha, double dt)
@@ -93,9 +78,9 @@ static void keep_energy(const char *name, int density, double alpha, double dt)
     const double initial = gm_mesh_energy(&mesh, state);
     double spent = 0, farthest = 0, error = 0;
     while (run->t < 2000 && run->status == GM_OK) {
-        const double before = now();
+        const double before = seconds();
         gm_run_advance(run, 1);
-        spent += now() - before;
+        spent += seconds() - before;
         const double *end = gm_run_state(run);
         farthest = fmax(farthest, fabs(gm_mesh_energy(&mesh, end) / initial - 1));
         for (size_t k = 0; run->t <= 50 && k < 25; k++) {

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -18,27 +17,9 @@
 #include "core/schemes.h"
 #include "tests/bench/ensembles.h"
 #include "tests/bench/ode_by_hand.h"
+#include "tests/bench/timing.h"
 
 enum { ROUNDS = 15, MEMBERS = 10000 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    const double difference = *(const double *)a - *(const double *)b;
-    return (difference > 0) - (difference < 0);
-}
-
-static double median(double *values)
-{
-    qsort(values, ROUNDS, sizeof *values, compare);
-    return values[ROUNDS / 2];
-}
 
 typedef void alone(double *y, double h, long steps);
 typedef void together(double *y, size_t m, double h, long steps);
@@ -101,17 +82,17 @@ static double measure(const struct line *line)
         }
         boost[round] = (seconds() - start) / unit;
     }
-    const double ours = median(core);
+    const double ours = median(core, ROUNDS);
     printf("%-34s %8.2f ns", line->what, ours);
     if (line->wanted > 0) {
         printf(" (at most %g)", line->wanted);
     }
     if (line->hand || line->ensemble) {
-        const double theirs = median(hand);
+        const double theirs = median(hand, ROUNDS);
         printf(", by hand %.2f: ratio %.2f", theirs, ours / theirs);
     }
     if (line->boost) {
-        const double theirs = median(boost);
+        const double theirs = median(boost, ROUNDS);
         printf(", Boost %.2f: ratio %.2f", theirs, ours / theirs);
         if (line->wanted_ratio > 0) {
             printf(" (at most %g)", line->wanted_ratio);
@@ -155,7 +136,7 @@ static void single_steps(size_t m)
         gm_hand_ensemble_oscillator_verlet(y, m, line.h, steps);
         plain[round] = (seconds() - start) / unit;
     }
-    const double one = median(single), many = median(at_once), pass = median(plain);
+    const double one = median(single, ROUNDS), many = median(at_once, ROUNDS), pass = median(plain, ROUNDS);
     printf("single steps, %7zu members        %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
            "ratio %.2f\n",
            m, one, many, one / many, pass, one / pass);
@@ -229,7 +210,7 @@ static void pair_sum(void)
     for (int i = 0; i < 2 * COUNT; i++) {
         apart = fmax(apart, fabs(f[i] - by_hand[i]));
     }
-    const double ours = median(core), theirs = median(hand);
+    const double ours = median(core, ROUNDS), theirs = median(hand, ROUNDS);
     printf("%-34s %8.2e a second, by hand %.2e: ratio %.2f (at least 0.9); apart by %.1e\n",
            "pairs of 1000 vortices", ours, theirs, ours / theirs, apart);
 }
@@ -342,8 +323,8 @@ static void kepler_to_eight_digits(double eccentricity)
         for (int round = 0; round < ROUNDS; round++) {
             go(way, eccentricity, steps, &took[round]);
         }
-        printf("  %-32s %8.2f ms, error %.1e with %s %.3g\n", lines[i].what, 1e3 * median(took), error,
-               way->scheme ? "steps a period" : "the tolerance", way->scheme ? steps : 1 / steps);
+        printf("  %-32s %8.2f ms, error %.1e with %s %.3g\n", lines[i].what, 1e3 * median(took, ROUNDS),
+               error, way->scheme ? "steps a period" : "the tolerance", way->scheme ? steps : 1 / steps);
     }
 }
 

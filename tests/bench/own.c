@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -24,31 +23,13 @@
 #include "core/schemes.h"
 #include "core/system/equations.h"
 #include "tests/bench/ensembles.h"
+#include "tests/bench/timing.h"
 
 enum { ROUNDS = 21 };
 
 static const char kepler[] = "coordinates: q1 q2\nmomenta: p1 p2\n"
                              "H: (p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2)\n"
                              "start: q1 = 0.5, q2 = 0, p1 = 0, p2 = sqrt(3)\n";
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    const double difference = *(const double *)a - *(const double *)b;
-    return (difference > 0) - (difference < 0);
-}
-
-static double median(double *values)
-{
-    qsort(values, ROUNDS, sizeof *values, compare);
-    return values[ROUNDS / 2];
-}
 
 static double step_of(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *start,
                       long steps)
@@ -115,10 +96,11 @@ static void against_kernel(struct gm_problem formula, struct gm_problem kernel, 
         native_ratio[round] = native[round] / hand[round];
     }
     if (start) {
-        printf("%-22s %6zu members  %8.2f ns, by hand %8.2f, ratio %.2f", name, m, median(own), median(hand),
-               median(ratio));
+        printf("%-22s %6zu members  %8.2f ns, by hand %8.2f, ratio %.2f", name, m, median(own, ROUNDS),
+               median(hand, ROUNDS), median(ratio, ROUNDS));
         if (lane) {
-            printf("; %s %8.2f, ratio %.2f", gm_engine_of(lane), median(native), median(native_ratio));
+            printf("; %s %8.2f, ratio %.2f", gm_engine_of(lane), median(native, ROUNDS),
+                   median(native_ratio, ROUNDS));
         }
         printf("\n");
     }
@@ -301,7 +283,8 @@ static void against_pendulum_by_hand(void)
     if (lane) {
         printf(
             "double pendulum, gauss4: %s %.0f ns, by hand %.0f, ratio %.2f; GSL rk2imp %.0f, rk4imp %.0f\n",
-            gm_engine_of(lane), median(native), median(hand), median(ratio), median(gsl2), median(gsl4));
+            gm_engine_of(lane), median(native, ROUNDS), median(hand, ROUNDS), median(ratio, ROUNDS),
+            median(gsl2, ROUNDS), median(gsl4, ROUNDS));
     }
     gm_lane_close(lane);
 }

@@ -11,7 +11,7 @@
 #include "app/data/rows.h"
 #include "app/data/save.h"
 #include "app/request/drive.h"
-#include "render/clock.h"
+#include "tests/bench/timing.h"
 
 enum { ROUNDS = 11 };
 
@@ -21,7 +21,7 @@ static double measure(const struct gm_request *request, long steps, const char *
     const struct gm_rows rows = {.interval = NAN};
     char message[GM_MESSAGE] = "";
     struct gm_drive drive = {.lane = gm_request_open_lane(request, 0, message), .request = request};
-    const double start = gm_clock_processor_seconds();
+    const double start = seconds();
     struct gm_save *save = drive.lane && path ? gm_save_open(path, 1, false, false, message) : NULL;
     const struct gm_run *run = drive.lane ? drive.lane->run : NULL;
     const uint64_t expected = run ? gm_rows_expected(&rows, run, steps) : 0;
@@ -36,18 +36,12 @@ static double measure(const struct gm_request *request, long steps, const char *
     if (save) {
         good = gm_save_close(save, good, false, message) && good;
     }
-    const double took = 1e9 * (gm_clock_processor_seconds() - start) / (double)steps;
+    const double took = 1e9 * (seconds() - start) / (double)steps;
     gm_lane_close(drive.lane);
     if (!good) {
         fprintf(stderr, "bench_saving: %s\n", message);
     }
     return good ? took : NAN;
-}
-
-static int compare(const void *a, const void *b)
-{
-    const double difference = *(const double *)a - *(const double *)b;
-    return (difference > 0) - (difference < 0);
 }
 
 int main(int argc, char *argv[])
@@ -77,10 +71,9 @@ int main(int argc, char *argv[])
     printf("nanoseconds a step of %ld, least and median of %d, and what that is of the same steps unsaved\n",
            steps, ROUNDS);
     for (int kind = 0; kind < KINDS; kind++) {
-        qsort(each[kind], ROUNDS, sizeof(double), compare);
-        qsort(ratios[kind], ROUNDS, sizeof(double), compare);
+        const double middle = median(each[kind], ROUNDS); /* the least is then the first */
         printf("%-16s %8.1f %8.1f   %.2f%s\n", endings[kind] ? endings[kind] : "nothing saved", each[kind][0],
-               each[kind][ROUNDS / 2], ratios[kind][ROUNDS / 2], kind == NPZ ? " (at most 1.3)" : "");
+               middle, median(ratios[kind], ROUNDS), kind == NPZ ? " (at most 1.3)" : "");
     }
     gm_request_close(&request);
     return 0;
