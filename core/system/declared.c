@@ -9,6 +9,15 @@
 
 #include "core/formula/number.h"
 
+/* A variable of which nothing is told yet. */
+static const struct gm_system_variable unsaid = {.value = NAN,
+                                                 .low = NAN,
+                                                 .high = NAN,
+                                                 .start = GM_NO_NODE,
+                                                 .force = GM_NO_NODE,
+                                                 .exact = GM_NO_NODE,
+                                                 .jump = GM_NO_NODE};
+
 static struct gm_system_variable *add_variable(struct gm_reading *reading, const struct gm_entry *entry)
 {
     struct gm_own_system *system = reading->system;
@@ -17,13 +26,7 @@ static struct gm_system_variable *add_variable(struct gm_reading *reading, const
         return NULL;
     }
     struct gm_system_variable *variable = &system->variables[system->variable_count];
-    *variable = (struct gm_system_variable){.value = NAN,
-                                            .low = NAN,
-                                            .high = NAN,
-                                            .start = GM_NO_NODE,
-                                            .force = GM_NO_NODE,
-                                            .exact = GM_NO_NODE,
-                                            .jump = GM_NO_NODE};
+    *variable = unsaid;
     const int made =
         entry->indexed ? asprintf(&variable->name, "%.*s[%ld]", (int)entry->length, entry->name, entry->index)
                        : asprintf(&variable->name, "%.*s", (int)entry->length, entry->name);
@@ -320,14 +323,8 @@ static bool arrange(struct gm_reading *reading)
         free(t);
         return gm_fail_memory(&reading->fault);
     }
-    all[n] = (struct gm_system_variable){.name = t,
-                                         .value = NAN,
-                                         .low = NAN,
-                                         .high = NAN,
-                                         .start = GM_NO_NODE,
-                                         .force = GM_NO_NODE,
-                                         .exact = GM_NO_NODE,
-                                         .jump = GM_NO_NODE};
+    all[n] = unsaid;
+    all[n].name = t;
     /* a text that declares nothing has met nothing, and its sentence comes later */
     if (met) {
         memcpy(all, met + p, n * sizeof *all);

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_ODE_KERNEL_TILES_H
 #define GM_CORE_ODE_KERNEL_TILES_H
 
+#include "core/clones.h"
 #include "core/ode/ode.h"
 
 /* The loop of families over a problem whose n is chosen at run time, through its field: a tile of members,
@@ -57,5 +58,18 @@ static inline void gm_tile_add(double *y, double factor, const double *x, double
 
 /* Inlined with `members` known to be 1, loops over members vanish: a single run takes half the time. */
 #define GM_OF_TILE static inline __attribute__((always_inline))
+
+/* step_one and step_many of a GM_OF_TILE step_of(task, tile, progress, members) */
+#define GM_STEPS_OF_TILE(step_of)                                                                            \
+    static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile,                         \
+                                   struct gm_progress *progress)                                             \
+    {                                                                                                        \
+        return step_of(task, tile, progress, 1);                                                             \
+    }                                                                                                        \
+    GM_CLONES static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,              \
+                                              struct gm_progress *progress)                                  \
+    {                                                                                                        \
+        return step_of(task, tile, progress, tile->members);                                                 \
+    }
 
 #endif

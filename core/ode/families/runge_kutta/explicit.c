@@ -8,7 +8,6 @@
 
 #include <stdlib.h>
 
-#include "core/clones.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"
@@ -104,16 +103,7 @@ GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *ti
     return GM_OK;
 }
 
-static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile, struct gm_progress *progress)
-{
-    return step_of(task, tile, progress, 1);
-}
-
-GM_CLONES static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
-                                          struct gm_progress *progress)
-{
-    return step_of(task, tile, progress, tile->members);
-}
+GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
