@@ -106,8 +106,8 @@ static void combine(struct work *work, double h, const double *factors, double *
 }
 
 /* One iteration: K from the stages, and the stages from it. The sum of the changes, NaN where there is no K. */
-static double iterate(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
-                      const double *y, struct work *work)
+static double iterate_slopes(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
+                             const double *y, struct work *work)
 {
     const size_t n = work->n;
     for (size_t i = 0; i < work->stages; i++) {
@@ -133,8 +133,8 @@ static double iterate(const struct gm_problem *problem, const struct gm_implicit
     return change;
 }
 
-static bool solve(const struct gm_task *task, double h, const double *y, struct work *work,
-                  struct gm_progress *progress)
+static bool find_slopes(const struct gm_task *task, double h, const double *y, struct work *work,
+                        struct gm_progress *progress)
 {
     const struct gm_implicit_row *row = task->scheme->coefficients;
     double norm = 0, previous = INFINITY;
@@ -146,7 +146,7 @@ static bool solve(const struct gm_task *task, double h, const double *y, struct 
     gm_modes_forward(&work->modes, y, work->state);
     memset(work->z, 0, work->stages * work->n * sizeof *work->z);
     for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        const double change = iterate(task->problem, row, h, y, work);
+        const double change = iterate_slopes(task->problem, row, h, y, work);
         progress->evaluations += work->stages;
         progress->iterations++;
         if (!(change < 1e100)) {
@@ -174,7 +174,7 @@ struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
     for (; progress.done < task->steps; progress.done++) {
         for (int substep = 0; substep < row->composition->steps; substep++) {
             const double h = task->dt * gm_composition_fraction(row->composition, substep);
-            if (!solve(task, h, y, work, &progress)) {
+            if (!find_slopes(task, h, y, work, &progress)) {
                 progress.status = GM_NO_CONVERGENCE;
                 return progress;
             }
