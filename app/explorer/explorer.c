@@ -48,11 +48,13 @@ static void read_keys(struct gm_explorer *explorer)
     }
 }
 
-/* Whether there is something to read; if not, the terminal that seemed to have it is gone. */
-static bool has_keys(void)
+/* Whether the terminal is gone: it says that there is something to read, and nothing is there. It is asked anew:
+   the system throws away what was typed before a second Ctrl-Z. */
+static bool is_gone(void)
 {
+    struct pollfd keys = {.fd = STDIN_FILENO, .events = POLLIN};
     int waiting = 0;
-    return ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting > 0;
+    return poll(&keys, 1, 0) > 0 && (ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0);
 }
 
 static void suspend(struct gm_explorer *explorer)
@@ -209,12 +211,12 @@ static void run(struct gm_explorer *explorer)
         if (hold > 0) {
             continue;
         }
-        if (watched[KEYS].revents & POLLIN ? has_keys() : patience >= 0 && !watched[KEYS].revents) {
+        if (watched[KEYS].revents && is_gone()) {
+            gm_explorer_leave(explorer, GM_EXIT_OK);
+        } else if (watched[KEYS].revents || patience >= 0) {
             read_keys(explorer);
             gm_explorer_check_own(explorer);
             read_cell_size(explorer);
-        } else if (watched[KEYS].revents) {
-            gm_explorer_leave(explorer, GM_EXIT_OK);
         }
     }
 }
@@ -253,9 +255,10 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     } else {
         gm_explorer_show_start(&explorer);
     }
-    ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message);
+    ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message) &&
+         gm_display_open(&explorer.display, &explorer.terminal, explorer.wake);
     int number = 0;
-    if (ok && gm_display_open(&explorer.display, &explorer.terminal, explorer.wake)) {
+    if (ok) {
         run(&explorer);
         number = gm_console_leaving();
         gm_display_rest(&explorer.display);

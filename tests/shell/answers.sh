@@ -22,7 +22,7 @@ inspect() { :; }
 status() {
     wanted=$1
     shift
-    timeout 240 "$geomint" "$@" >out 2>err </dev/null
+    timeout 600 "$geomint" "$@" >out 2>err </dev/null
     got=$?
     [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 300 err)"
     grep -qiE 'sanitizer|assert|segmentation' err && fail "geomint $*: $(head -n 3 err)"

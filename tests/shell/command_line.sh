@@ -104,19 +104,19 @@ refused 3 'could not be made\|not a directory\|Not a directory' render disc --ou
 refused 3 'could not be written: Not a directory' run disc --csv out/a.csv
 refused 3 'could not be made: Not a directory' run disc --csv out/there/a.csv
 refused 3 'No space left' run disc --csv /dev/full steps=100000
-timeout 240 "$geomint" run disc >/dev/full 2>err
+timeout 600 "$geomint" run disc >/dev/full 2>err
 [ $? = 3 ] || fail 'run to a full disk is not exit 3'
 grep -q 'No space left' err || fail "a full disk is not told: $(cat err)"
 (
     ulimit -f 8
-    timeout 240 "$geomint" render disc --out limited 2>err
+    timeout 600 "$geomint" render disc --out limited 2>err
     [ $? = 3 ] || exit 1
 ) || fail 'a file-size limit is not exit 3'
 [ "$(ls -A limited | wc -l)" = 0 ] || fail "a file-size limit left $(ls -A limited)"
 
 # a broken pipe ends silently with 141
 {
-    timeout 240 "$geomint" run disc scheme=verlet --csv - steps=100000 2>err
+    timeout 600 "$geomint" run disc scheme=verlet --csv - steps=100000 2>err
     echo $? >code
 } | head -n 1 >/dev/null
 [ "$(cat code)" = 141 ] || fail "a broken pipe is exit $(cat code), not 141"
@@ -126,7 +126,7 @@ grep -q 'No space left' err || fail "a full disk is not told: $(cat err)"
 "$geomint" render disc --frames 100000 --size 320x200 --out frames 2>err &
 pid=$!
 tries=0
-while [ "$(ls frames 2>/dev/null | wc -l)" -lt 5 ] && [ $tries -lt 200 ]; do
+while [ "$(ls frames 2>/dev/null | wc -l)" -lt 5 ] && [ $tries -lt 6000 ]; do
     sleep 0.05
     tries=$((tries + 1))
 done
@@ -145,7 +145,7 @@ rm -f out
 "$geomint" certify all --json >out 2>err &
 pid=$!
 tries=0
-while [ ! -s out ] && [ $tries -lt 1200 ]; do
+while [ ! -s out ] && [ $tries -lt 6000 ]; do
     sleep 0.05
     tries=$((tries + 1))
 done
@@ -162,7 +162,7 @@ for how in --json "--csv -"; do
     "$geomint" run disc scheme=verlet steps=1e12 --every 100 $([ "$how" = --json ] && echo --csv interrupted.csv) $how >out 2>err &
     pid=$!
     tries=0
-    while [ "$(cat interrupted.csv out 2>/dev/null | wc -l)" -lt 10 ] && [ $tries -lt 200 ]; do
+    while [ "$(cat interrupted.csv out 2>/dev/null | wc -l)" -lt 10 ] && [ $tries -lt 6000 ]; do
         sleep 0.05
         tries=$((tries + 1))
     done

@@ -36,7 +36,7 @@ def check(holds, what):
 
 
 def geomint(words, status=0, **more):
-    done = subprocess.run([GEOMINT] + words.split(), capture_output=True, text=True, timeout=240, **more)
+    done = subprocess.run([GEOMINT] + words.split(), capture_output=True, text=True, timeout=600, **more)
     check(done.returncode == status, f"{words}: exit status {done.returncode}, not {status}: {done.stderr}")
     return done
 
@@ -402,11 +402,10 @@ def continued():
 
 def interrupted():
     """SIGINT: what is there is complete."""
-    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save i.npz".split(),
+    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save i.npz --csv i.csv".split(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not os.path.exists("i.npz.part/lane-0"):
+    while not os.path.exists("i.csv") or os.path.getsize("i.csv") == 0:  # which is written many rows at a time
         time.sleep(0.01)
-    time.sleep(0.5)
     process.send_signal(signal.SIGINT)
     check(process.wait() == 130, "exit status of an interrupted save")
     with numpy.load("i.npz") as saved:

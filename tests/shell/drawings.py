@@ -38,7 +38,7 @@ def check(holds, what):
 
 def geomint(words, status=0, **more):
     done = subprocess.run([GEOMINT] + (words.split() if isinstance(words, str) else words), capture_output=True,
-                          timeout=240, **more)
+                          timeout=600, **more)
     check(done.returncode == status, f"{words}: exit status {done.returncode}, not {status}: {done.stderr.decode()}")
     return done
 

@@ -22,7 +22,7 @@ import tempfile
 import zipfile
 import zlib
 
-LONGEST = 120  # seconds that a command may take before it counts as hanging
+LONGEST = 600  # seconds that a command may take before it counts as hanging
 SAMPLE = 9  # values of n in a command
 
 # OUT stands for a folder that is made anew, SHARE for that of the systems. "timed": holds run times, which differ from run to run; "made": OUT

@@ -4,7 +4,7 @@
 set -u
 . "$(dirname "$0")/answers.sh"
 
-timeout 120 "$geomint" figures razafindralandy-1 razafindralandy-5 tyranowski-2 --quick --out page >out 2>err
+timeout 600 "$geomint" figures razafindralandy-1 razafindralandy-5 tyranowski-2 --quick --out page >out 2>err
 [ $? = 0 ] || fail "figures: $(cat err)"
 page=page/figures.html
 for wanted in '<!DOCTYPE html>' 'charset="utf-8"' 'name="viewport"' 'prefers-color-scheme' '@media print' \
@@ -21,7 +21,7 @@ grep -q '  holds  ' out && grep -q 'does not hold' out || fail "verdicts are pri
 ls page/.figures.html 2>/dev/null && fail 'a temporary file is left'
 
 # JSON says what the text says
-timeout 120 "$geomint" figures razafindralandy-1 razafindralandy-5 tyranowski-2 --quick --json --out page >json 2>err
+timeout 600 "$geomint" figures razafindralandy-1 razafindralandy-5 tyranowski-2 --quick --json --out page >json 2>err
 [ $? = 0 ] || fail "figures --json: $(cat err)"
 [ "$(cat err)" = 'geomint: wrote page/figures.html and its pictures' ] || fail "figures does not say what it wrote: $(cat err)"
 python3 - <<'END' || fail "figures --json: $(head -c 300 json)"
@@ -41,14 +41,14 @@ for one in figures:
 END
 
 # a name up to a hyphen names several
-timeout 120 "$geomint" figures razafindralandy-34 --quick --out two >out 2>err || fail "razafindralandy-34: $(cat err)"
+timeout 600 "$geomint" figures razafindralandy-34 --quick --out two >out 2>err || fail "razafindralandy-34: $(cat err)"
 [ "$(grep -c '^razafindralandy-34-' out)" = 2 ] || fail 'razafindralandy-34 are two figures'
 
 # as the documents state them, not as they come out well
 judged() {
     sed -n "/^$1: /,/^[a-z]/p" out | grep -q "^  $2  *$3" || fail "$1, $3: $(cat out)"
 }
-timeout 300 "$geomint" figures razafindralandy-8 razafindralandy-24 razafindralandy-25 tyranowski-11 --size 320x180 \
+timeout 600 "$geomint" figures razafindralandy-8 razafindralandy-24 razafindralandy-25 tyranowski-11 --size 320x180 \
     --out judged >out 2>err || fail "figures as stated: $(cat err)"
 judged razafindralandy-8 holds '.*until t = 400'
 judged razafindralandy-24 'does not hold' 'Lax-Wendroff oscillates'
@@ -63,7 +63,7 @@ judged tyranowski-11-uniform holds '.*uniform mesh becomes quadratically converg
 
 # one that cannot be written stops no other
 mkdir -p broken/razafindralandy-1.png/full
-timeout 120 "$geomint" figures razafindralandy-1 razafindralandy-4 --quick --out broken >out 2>err
+timeout 600 "$geomint" figures razafindralandy-1 razafindralandy-4 --quick --out broken >out 2>err
 [ $? = 3 ] || fail 'a figure that cannot be written is exit 3'
 grep -q 'razafindralandy-1 was not made' err || fail "it is told: $(cat err)"
 [ -s broken/razafindralandy-4.png ] || fail 'the other figure is not made'
@@ -74,7 +74,7 @@ grep -q '1 of 2 figures made' out || fail "the sum: $(tail -n 1 out)"
 "$geomint" figures --size 320x180 --out stopped >out 2>err &
 pid=$!
 tries=0
-while [ "$(ls stopped 2>/dev/null | wc -l)" -lt 6 ] && [ $tries -lt 600 ]; do
+while [ "$(ls stopped 2>/dev/null | wc -l)" -lt 6 ] && [ $tries -lt 3000 ]; do
     sleep 0.1
     tries=$((tries + 1))
 done

@@ -44,7 +44,7 @@ mkfifo frames/disc-render-000000.png.pipe
 "$geomint" render disc --frames 2 --size 64x64 --out frames 2>err || fail "frames: $(cat err)"
 rm -f frames/*.png
 mkfifo frames/disc-render.checkpoint
-timeout 60 "$geomint" render disc --frames 2 --size 64x64 --out frames 2>err
+timeout 600 "$geomint" render disc --frames 2 --size 64x64 --out frames 2>err
 [ $? = 0 ] || fail "a render beside a pipe that is called like its checkpoint: $(cat err)"
 
 # pictures that were forged: texts

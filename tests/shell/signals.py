@@ -175,8 +175,9 @@ def dragging(name):
 def recording(name):
     session = yield from opened(f'{name} while it records', [geomint, 'disc'])
     session.keys('R')
-    yield session.shows('● 0:0')
-    yield passed(0.3)  # a recording without a frame leaves no movie
+    while '● 0:01'.encode() not in session.seen:  # a recording without a frame leaves no movie
+        session.keys('\x0c')  # drawn anew: else the digit alone is
+        yield passed(0.1)
     session.send(name)
     yield from ends(session, name)
     if name in POLITE and not os.path.getsize(os.path.join(session.folder, 'disc-0001.mp4')):
@@ -236,6 +237,17 @@ def deaf():
         session.error = session.error or 'it leaves the terminal with other settings'
 
 
+def never_stopped(pause):
+    """Ctrl-Z again and again in a terminal whose shell could not wake it, which the system lets pass: a second one
+    throws away what was typed before, and that is no end of the terminal."""
+    session = yield from opened(f'Ctrl-Z many times, {pause} s apart', [geomint, 'disc'])
+    for _ in range(40):
+        session.keys(b'x\x1a\x1a')
+        yield passed(pause)
+    session.send('SIGTERM')
+    yield from ends(session, 'SIGTERM')
+
+
 def stopped():
     """It is stopped, and ended by the shell, which has the terminal."""
     session = Session('Ctrl-Z and kill', ['/bin/bash', '--norc', '--noprofile', '-i'], 'plain')
@@ -278,6 +290,8 @@ def plays():
     yield faulting(0)
     yield faulting(1)
     yield deaf()
+    for pause in (0, 0.001, 0.003, 0.01, 0.03):
+        yield never_stopped(pause)
     yield stopped()
 
 

@@ -31,7 +31,7 @@ for file in "$GEOMINT_TOURS"/*.tour; do
     fi
     "$geomint" tour "$name" --list >text || fail "$name: --list"
     [ "$(grep -cE '^[0-9]+\. ' text)" = "$steps" ] || fail "$name: --list has other steps"
-    timeout 200 "$geomint" tour "$name" --out pages --size 480x300 2>err || fail "$name: $(cat err)"
+    timeout 600 "$geomint" tour "$name" --out pages --size 480x300 2>err || fail "$name: $(cat err)"
     [ "$(find pages -name "$name-??.png" | wc -l)" = "$steps" ] || fail "$name: not a picture a step"
     [ "$(find pages -name "$name-??-question.png" | wc -l)" = "$questions" ] || fail "$name: not one a question"
 done
