@@ -12,7 +12,8 @@
 
 enum {
     DEEPEST = 200,           /* parentheses in parentheses */
-    MOST_OPERANDS = 1 << 24, /* that are read, each as often as a loop comes by */
+    MOST_OPERANDS = 1 << 23, /* that are read, each as often as a loop comes by */
+    OF_AN_INDEX = 4,         /* so many operands of brackets and bounds count as one */
     UNARY = 12               /* the priority of minus before an operand */
 };
 
@@ -33,7 +34,7 @@ struct reader {
     const char *text;
     size_t at, end;
     int depth, fixed; /* of parentheses; of brackets and bounds */
-    long operands;
+    long operands;    /* times OF_AN_INDEX */
     bool failed;
     struct gm_fault *fault;
 };
@@ -486,7 +487,8 @@ static gm_node_id read_name(struct reader *reader)
 static gm_node_id read_operand(struct reader *reader)
 {
     const char next = peek(reader);
-    if (++reader->operands > MOST_OPERANDS) {
+    reader->operands += reader->fixed > 0 ? 1 : OF_AN_INDEX;
+    if (reader->operands > (long)MOST_OPERANDS * OF_AN_INDEX) {
         return fail(reader, reader->at, "the formula, with its loops written out, has more than %d operands",
                     MOST_OPERANDS);
     }
