@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/ground/arguments.h"
 #include "app/ground/share.h"
@@ -44,6 +45,11 @@ bool gm_system_path(const char *word, char *path, size_t size)
                          gm_system_ending, path, size) ||
            (own_folder(folder, sizeof folder)[0] &&
             gm_share_find(folder, word, gm_system_ending, path, size));
+}
+
+bool gm_system_folder(char *folder, size_t size)
+{
+    return access(gm_share_folder("systems", "GEOMINT_SYSTEMS", folder, size), X_OK) == 0;
 }
 
 void gm_system_each(void (*each)(const char *name, const void *data), const void *data)

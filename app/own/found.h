@@ -13,6 +13,9 @@ extern const char gm_system_ending[]; /* ".system" */
    ~/.config/geomint). Writes its path. */
 bool gm_system_path(const char *word, char *path, size_t size);
 
+/* The folder of the systems that the program brings; false: it is not there. */
+bool gm_system_folder(char *folder, size_t size);
+
 /* Calls `each` for the names of the systems there are. */
 void gm_system_each(void (*each)(const char *name, const void *data), const void *data);
 

@@ -472,10 +472,16 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_worded_is_formula(words[0])) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
     } else if (!scene) {
-        char found[GM_NEAR];
+        char found[GM_NEAR], folder[4096];
         const char *near = gm_system_near(words[0], found);
-        gm_refuse(message, "there is no scene \"%.40s\"%s%s", words[0],
-                  near ? "; did you mean " : "; see geomint list", near ? near : "");
+        const bool whole = near || gm_system_folder(folder, sizeof folder);
+        gm_refuse(message, "there is no scene \"%.40s\"%s%.200s", words[0],
+                  near    ? "; did you mean "
+                  : whole ? "; see geomint list"
+                          : ", and no folder of systems ",
+                  near    ? near
+                  : whole ? ""
+                          : folder);
     }
     return scene;
 }

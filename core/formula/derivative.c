@@ -65,7 +65,7 @@ gm_node_id gm_derivative_along(struct gm_formula *graph, gm_node_id root, const 
             slopes[i] = slope == GM_NO_NODE ? zero : slope;
         }
     }
-    graph->origin = SIZE_MAX;
+    graph->origin = GM_NO_PLACE;
     graph->simplifies = false;
     slope = graph->failed ? GM_NO_NODE : slopes[root];
     free(parts);
@@ -114,7 +114,7 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
                 adjoint[node.b] = add_product(graph, adjoint[node.b], adjoint[i], i, 1);
             }
         }
-        graph->origin = SIZE_MAX;
+        graph->origin = GM_NO_PLACE;
         graph->simplifies = false;
     } else {
         graph->failed = true;

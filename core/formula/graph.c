@@ -32,7 +32,7 @@ double gm_operation_value(enum gm_operation operation, double a, double b)
 
 void gm_formula_open(struct gm_formula *graph)
 {
-    *graph = (struct gm_formula){.place = SIZE_MAX, .origin = SIZE_MAX};
+    *graph = (struct gm_formula){.place = GM_NO_PLACE, .origin = GM_NO_PLACE};
 }
 
 void gm_formula_close(struct gm_formula *graph)
@@ -44,44 +44,49 @@ void gm_formula_close(struct gm_formula *graph)
     *graph = (struct gm_formula){0};
 }
 
-static uint64_t bits_of(double value)
-{
-    uint64_t bits = 0;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 /* a + b and b + a are the same bits, and one node */
 static bool commutes(const struct gm_node *node)
 {
     return node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_MULTIPLY;
 }
 
-static size_t hash_of(const struct gm_node *node)
+static uint32_t hash_of(const struct gm_node *node)
 {
     const bool turned = commutes(node) && node->a > node->b;
     const gm_node_id a = turned ? node->b : node->a, b = turned ? node->a : node->b;
-    uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15) ^ bits_of(node->value);
+    uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15);
     hash = (hash ^ a) * UINT64_C(0xbf58476d1ce4e5b9);
     hash = (hash ^ (hash >> 29) ^ b) * UINT64_C(0x94d049bb133111eb);
-    return (size_t)(hash ^ (hash >> 32));
+    return (uint32_t)(hash ^ (hash >> 32));
 }
 
 static bool is_same(const struct gm_node *x, const struct gm_node *y)
 {
     return x->operation == y->operation &&
-           ((x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x))) &&
-           bits_of(x->value) == bits_of(y->value);
+           ((x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x)));
 }
 
-/* The entry of the table that holds such a node, or the free one where it belongs. */
-static gm_node_id *entry_of(const struct gm_formula *graph, const struct gm_node *node)
+static gm_node_id number_in(uint64_t entry)
 {
-    size_t slot = hash_of(node) & (graph->slots - 1);
-    while (graph->table[slot] && !is_same(&graph->nodes[graph->table[slot] - 1], node)) {
+    return (gm_node_id)entry - 1;
+}
+
+/* The entry of the table that holds such a node, or the free one where it belongs. Of large graphs most of the time
+   is that of looking at a place in memory: nodes are looked at where all bits of the hash are theirs. */
+static uint64_t *entry_of(const struct gm_formula *graph, const struct gm_node *node, uint32_t hash)
+{
+    size_t slot = hash & (graph->slots - 1);
+    while (graph->table[slot] && (graph->table[slot] >> 32 != hash ||
+                                  !is_same(&graph->nodes[number_in(graph->table[slot])], node))) {
         slot = (slot + 1) & (graph->slots - 1);
     }
     return &graph->table[slot];
+}
+
+/* Such a node; GM_NO_NODE: there is none. */
+static gm_node_id find(const struct gm_formula *graph, struct gm_node node)
+{
+    return number_in(*entry_of(graph, &node, hash_of(&node)));
 }
 
 static bool grow(struct gm_formula *graph)
@@ -89,22 +94,26 @@ static bool grow(struct gm_formula *graph)
     const size_t capacity = graph->capacity ? 2 * graph->capacity : 32;
     struct gm_node *nodes = realloc(graph->nodes, capacity * sizeof *nodes);
     graph->nodes = nodes ? nodes : graph->nodes;
-    size_t *places = realloc(graph->places, capacity * sizeof *places);
+    uint32_t *places = realloc(graph->places, capacity * sizeof *places);
     graph->places = places ? places : graph->places;
-    size_t *origins = realloc(graph->origins, capacity * sizeof *origins);
+    uint32_t *origins = realloc(graph->origins, capacity * sizeof *origins);
     graph->origins = origins ? origins : graph->origins;
-    gm_node_id *table = calloc(2 * capacity, sizeof *table);
+    uint64_t *table = calloc(2 * capacity, sizeof *table);
     if (!nodes || !places || !origins || !table || graph->count >= GM_MOST_NODES) {
         free(table);
         return false;
+    }
+    for (size_t i = 0; i < graph->slots; i++) {
+        size_t slot = graph->table[i] >> 32 & (2 * capacity - 1);
+        while (graph->table[i] && table[slot]) {
+            slot = (slot + 1) & (2 * capacity - 1);
+        }
+        table[slot] = graph->table[i] ? graph->table[i] : table[slot];
     }
     free(graph->table);
     graph->table = table;
     graph->capacity = capacity;
     graph->slots = 2 * capacity;
-    for (gm_node_id i = 0; i < graph->count; i++) {
-        *entry_of(graph, &nodes[i]) = i + 1;
-    }
     return true;
 }
 
@@ -114,17 +123,19 @@ static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
         graph->failed = true;
         return 0;
     }
-    gm_node_id *entry = entry_of(graph, &node);
+    const uint32_t hash = hash_of(&node);
+    uint64_t *entry = entry_of(graph, &node, hash);
     if (!*entry) {
         graph->nodes[graph->count] = node;
-        graph->places[graph->count] = graph->simplifies ? SIZE_MAX : graph->place;
-        graph->origins[graph->count] = SIZE_MAX;
-        *entry = ++graph->count;
+        graph->places[graph->count] = graph->simplifies ? GM_NO_PLACE : graph->place;
+        graph->origins[graph->count] = GM_NO_PLACE;
+        *entry = (uint64_t)hash << 32 | ++graph->count;
     }
-    if (graph->simplifies && graph->origins[*entry - 1] == SIZE_MAX) {
-        graph->origins[*entry - 1] = graph->origin;
+    const gm_node_id number = number_in(*entry);
+    if (graph->simplifies && graph->origins[number] == GM_NO_PLACE) {
+        graph->origins[number] = graph->origin;
     }
-    return *entry - 1;
+    return number;
 }
 
 gm_node_id gm_formula_constant(struct gm_formula *graph, double value)
@@ -529,7 +540,7 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
                 graph->simplifies = true;
                 graph->origin = gm_formula_origin(graph, i);
                 others[i] = a == node.a && b == node.b ? i : gm_formula_apply(graph, node.operation, a, b);
-                graph->origin = SIZE_MAX;
+                graph->origin = GM_NO_PLACE;
                 graph->simplifies = false;
             }
         }
@@ -593,11 +604,13 @@ static gm_node_id twin_of(const struct gm_formula *graph, gm_node_id i, const bo
         !is_operation(graph, node->a, GM_CONSTANT)) {
         return GM_NO_NODE;
     }
-    const struct gm_node other = {.operation = GM_CONSTANT, .value = -graph->nodes[node->a].value};
-    const gm_node_id constant = *entry_of(graph, &other);
-    const struct gm_node twin = {.operation = node->operation, .a = constant - 1, .b = node->b};
-    const gm_node_id number = constant > 0 ? *entry_of(graph, &twin) : 0;
-    return number > 0 && met[number - 1] ? number - 1 : GM_NO_NODE;
+    const gm_node_id constant =
+        find(graph, (struct gm_node){.operation = GM_CONSTANT, .value = -graph->nodes[node->a].value});
+    const gm_node_id twin =
+        constant == GM_NO_NODE
+            ? GM_NO_NODE
+            : find(graph, (struct gm_node){.operation = node->operation, .a = constant, .b = node->b});
+    return twin != GM_NO_NODE && met[twin] ? twin : GM_NO_NODE;
 }
 
 /* A node, or what this node is with the other sign. */

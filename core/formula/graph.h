@@ -36,21 +36,29 @@ double gm_operation_value(enum gm_operation operation, double a, double b);
 typedef uint32_t gm_node_id;
 static const gm_node_id GM_NO_NODE = UINT32_MAX;
 
+/* Where in a text nothing is. */
+static const uint32_t GM_NO_PLACE = UINT32_MAX;
+
 struct gm_node {
     enum gm_operation operation;
-    gm_node_id a, b;
-    double value; /* of a constant */
+    union {
+        struct {
+            gm_node_id a, b;
+        };
+        double value; /* of a constant */
+    };
 };
 
 struct gm_formula {
     struct gm_node *nodes;
-    size_t *places;  /* where in the text a node was first written; SIZE_MAX: it was derived */
-    size_t *origins; /* where what it was derived from was written; SIZE_MAX: nowhere */
+    uint32_t *places;  /* where in the text a node was first written; GM_NO_PLACE: it was derived */
+    uint32_t *origins; /* where what it was derived from was written; GM_NO_PLACE: nowhere */
     gm_node_id count;
     size_t capacity;
-    gm_node_id *table; /* open addressing; 0: free, else number + 1 */
+    uint64_t *table; /* open addressing; 0: free, else number + 1, and above it all bits of the hash */
     size_t slots;
-    size_t place, origin; /* of the nodes to come: the former of those written, the latter of those derived */
+    uint32_t place,
+        origin; /* of the nodes to come: the former of those written, the latter of those derived */
     /* Numbers of a formula as written are those of its operations one by one: only constants are folded.
        While derivatives are built this is set, and more is simplified: gm_formula_apply says what. */
     bool simplifies;
@@ -118,9 +126,9 @@ static inline bool gm_is_constant(const struct gm_formula *graph, gm_node_id nod
 }
 
 /* Where in the text a node is, or else what it was derived from. */
-static inline size_t gm_formula_origin(const struct gm_formula *graph, gm_node_id node)
+static inline uint32_t gm_formula_origin(const struct gm_formula *graph, gm_node_id node)
 {
-    return graph->places[node] != SIZE_MAX ? graph->places[node] : graph->origins[node];
+    return graph->places[node] != GM_NO_PLACE ? graph->places[node] : graph->origins[node];
 }
 
 #endif

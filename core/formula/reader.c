@@ -13,6 +13,7 @@
 enum {
     DEEPEST = 200,           /* parentheses in parentheses */
     MOST_OPERANDS = 1 << 23, /* that are read, each as often as a loop comes by */
+    OF_AN_INDEX = 4,         /* so many operands of brackets and bounds count as one */
     UNARY = 12               /* the priority of minus before an operand */
 };
 
@@ -33,7 +34,7 @@ struct reader {
     const char *text;
     size_t at, end;
     int depth, fixed; /* of parentheses; of brackets and bounds */
-    long operands;
+    long operands;    /* times OF_AN_INDEX */
     bool failed;
     struct gm_fault *fault;
 };
@@ -357,7 +358,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
     struct gm_scope *scope = &reader->scope;
     if (!is_head(reader)) {
         const gm_node_id term = read_expression(reader, 0);
-        reader->graph->place = loop->begin;
+        reader->graph->place = (uint32_t)loop->begin;
         loop->value = loop->any ? gm_formula_apply(reader->graph, loop->operation, loop->value, term) : term;
         loop->any = true;
         return;
@@ -426,7 +427,7 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
                                           row->arity == 1 ? "one value" : "two values")
                                    : expected(reader, ")");
     }
-    reader->graph->place = begin;
+    reader->graph->place = (uint32_t)begin;
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
 
@@ -464,7 +465,7 @@ static gm_node_id read_name(struct reader *reader)
             reader->at += 3;
         }
         char sentence[GM_FAULT_SENTENCE] = "";
-        reader->graph->place = begin;
+        reader->graph->place = (uint32_t)begin;
         const enum gm_meaning meaning = reader->failed ? GM_KNOWN
                                         : scope->find  ? scope->find(scope->data, &name, &node, sentence)
                                                        : GM_UNKNOWN;
@@ -486,7 +487,8 @@ static gm_node_id read_name(struct reader *reader)
 static gm_node_id read_operand(struct reader *reader)
 {
     const char next = peek(reader);
-    if (++reader->operands > MOST_OPERANDS) {
+    reader->operands += reader->fixed > 0 ? 1 : OF_AN_INDEX;
+    if (reader->operands > (long)MOST_OPERANDS * OF_AN_INDEX) {
         return fail(reader, reader->at, "the formula, with its loops written out, has more than %d operands",
                     MOST_OPERANDS);
     }
@@ -521,7 +523,7 @@ static gm_node_id read_expression(struct reader *reader, int limit)
     } else if (first == '-' || first == '+') {
         reader->at++;
         left = read_expression(reader, UNARY);
-        graph->place = begin;
+        graph->place = (uint32_t)begin;
         left =
             first == '-' && !reader->failed ? gm_formula_apply(graph, GM_OPERATION_NEGATE, left, left) : left;
     } else {
@@ -534,7 +536,7 @@ static gm_node_id read_expression(struct reader *reader, int limit)
         }
         reader->at++;
         const gm_node_id right = read_expression(reader, operators[i].right);
-        graph->place = begin;
+        graph->place = (uint32_t)begin;
         left = reader->failed ? 0 : gm_formula_apply(graph, operators[i].operation, left, right);
         i = 0;
     }
@@ -559,7 +561,7 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
             expected(&reader, "an operator");
         }
     }
-    graph->place = SIZE_MAX;
+    graph->place = GM_NO_PLACE;
     return !reader.failed && !graph->failed;
 }
 

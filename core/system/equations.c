@@ -49,7 +49,7 @@ static void derive_poisson(struct gm_own_system *system, const gm_node_id *gradi
             const gm_node_id entry = system->bracket[i * n + k];
             system->graph.origin = gm_formula_origin(&system->graph, entry);
             const gm_node_id term = apply(system, GM_OPERATION_MULTIPLY, entry, gradient[k]);
-            system->graph.origin = SIZE_MAX;
+            system->graph.origin = GM_NO_PLACE;
             system->rates[i] = apply(system, GM_OPERATION_ADD, system->rates[i], term);
         }
     }
@@ -667,9 +667,9 @@ bool gm_equations_check_legendre(const struct gm_own_system *system, double *sta
         length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
                                    system->variables[i].name, start[i]);
     }
-    const size_t place = gm_formula_origin(&system->graph, system->energy);
+    const uint32_t place = gm_formula_origin(&system->graph, system->energy);
     return gm_fail(
-        fault, place == SIZE_MAX ? 0 : place,
+        fault, place == GM_NO_PLACE ? 0 : place,
         "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
         where);
 }
@@ -680,7 +680,7 @@ static size_t first_not_finite(struct gm_own_system *system, gm_node_id node, co
     size_t place = 0, count = 0;
     gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
     for (size_t k = 0; parts && k < count && place == 0; k++) {
-        const bool written = system->graph.places[parts[k]] != SIZE_MAX;
+        const bool written = system->graph.places[parts[k]] != GM_NO_PLACE;
         place = written && !isfinite(values[parts[k]]) ? system->graph.places[parts[k]] : 0;
     }
     system->graph.failed |= !parts;
@@ -882,8 +882,8 @@ static bool holds_only(struct gm_own_system *system, gm_node_id node, const size
             k++;
         }
         if (moves && k == count) {
-            const size_t place = system->graph.places[node];
-            good = gm_fail(fault, place == SIZE_MAX ? 0 : place, "%s does not hold %.60s", what,
+            const uint32_t place = system->graph.places[node];
+            good = gm_fail(fault, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
                            system->variables[part->a].name);
         }
     }

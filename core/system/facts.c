@@ -690,13 +690,13 @@ bool gm_facts_find(struct gm_own_system *system, struct gm_finding findings[GM_F
 static void write_place(const struct gm_own_system *system, gm_node_id term, bool derived, char *text,
                         size_t size)
 {
-    derived = derived && system->graph.origins[term] != SIZE_MAX;
-    const size_t place = derived ? system->graph.origins[term] : gm_formula_origin(&system->graph, term);
+    derived = derived && system->graph.origins[term] != GM_NO_PLACE;
+    const uint32_t place = derived ? system->graph.origins[term] : gm_formula_origin(&system->graph, term);
     text[0] = '\0';
-    if (place != SIZE_MAX && !system->typed) {
+    if (place != GM_NO_PLACE && !system->typed) {
         size_t line, column;
         gm_text_place(system->source, place, &line, &column);
-        derived |= system->graph.places[term] == SIZE_MAX;
+        derived |= system->graph.places[term] == GM_NO_PLACE;
         snprintf(text, size, " (%sline %zu, column %zu)", derived ? "from " : "", line, column);
     }
 }

@@ -567,9 +567,9 @@ static bool compute(struct reading *reading)
         bool exact = true;
         balls[id] = ball_of(reading, balls, id, &exact);
         if (!exact) {
-            const size_t place = reading->graph.places[id];
+            const uint32_t place = reading->graph.places[id];
             good = gm_fail_first(
-                &reading->fault, place == SIZE_MAX ? 0 : place,
+                &reading->fault, place == GM_NO_PLACE ? 0 : place,
                 "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
         }
     }

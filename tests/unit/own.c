@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Problems that the program brings, typed again as formulas: the same facets, the same numbers by every
    scheme, and the same bits where the operations are the same; and those of an ensemble for each of its
-   members. */
+   members. Tapes that several threads ask for at once are one. */
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,6 +16,7 @@
 
 #include "core/count.h"
 #include "core/kind.h"
+#include "core/ode/own/late.h"
 #include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
@@ -209,12 +211,66 @@ static void members_are_alone(void **state)
     }
 }
 
+/* Who asks for a tape, when all are there. */
+struct asking {
+    struct gm_late_tape *late;
+    pthread_barrier_t *all;
+    const struct gm_tape *tape;
+    double value;
+};
+
+static void *ask(void *data)
+{
+    struct asking *asking = data;
+    const double at[] = {3, 4};
+    pthread_barrier_wait(asking->all);
+    asking->tape = gm_late_tape(asking->late);
+    gm_late_tape_values(asking->late, at, &asking->value, 1);
+    return NULL;
+}
+
+static void threads_share_a_late_tape(void **state)
+{
+    (void)state;
+    enum { THREADS = 4, ROUNDS = 200 };
+    struct gm_formula graph;
+    gm_formula_open(&graph);
+    const gm_node_id x = gm_formula_variable(&graph, 0), y = gm_formula_variable(&graph, 1),
+                     node = gm_formula_apply(
+                         &graph, GM_OPERATION_SQRT,
+                         gm_formula_apply(&graph, GM_OPERATION_ADD,
+                                          gm_formula_apply(&graph, GM_OPERATION_MULTIPLY, x, x),
+                                          gm_formula_apply(&graph, GM_OPERATION_MULTIPLY, y, y)),
+                         0);
+    pthread_barrier_t all;
+    assert_int_equal(pthread_barrier_init(&all, NULL, THREADS), 0);
+    for (int round = 0; round < ROUNDS; round++) {
+        struct gm_late_tape late = {.graph = &graph, .nodes = &node, .count = 1, .inputs = 2};
+        struct asking asking[THREADS];
+        pthread_t threads[THREADS];
+        for (int i = 0; i < THREADS; i++) {
+            asking[i] = (struct asking){.late = &late, .all = &all};
+            assert_int_equal(pthread_create(&threads[i], NULL, ask, &asking[i]), 0);
+        }
+        for (int i = 0; i < THREADS; i++) {
+            assert_int_equal(pthread_join(threads[i], NULL), 0);
+            assert_non_null(asking[i].tape);
+            assert_ptr_equal(asking[i].tape, asking[0].tape);
+            assert_true(asking[i].value == 5);
+        }
+        gm_late_tape_close(&late);
+    }
+    pthread_barrier_destroy(&all);
+    gm_formula_close(&graph);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(facets_are_found),
         cmocka_unit_test(schemes_agree),
         cmocka_unit_test(members_are_alone),
+        cmocka_unit_test(threads_share_a_late_tape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
