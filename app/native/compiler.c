@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -100,7 +101,7 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     _exit(COULD_NOT_START);
 }
 
-bool gm_compilation_start(struct gm_compilation *compilation, const char *folder, const char *log,
+bool gm_compilation_start(struct gm_compilation *compilation, const char *folder,
                           const char *const *arguments, char *sentence)
 {
     char path[2 * GM_CACHE_PATH], aside[GM_CACHE_PATH + 8];
@@ -108,8 +109,7 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
     snprintf(aside, sizeof aside, "TMPDIR=%s", folder);
     char language[] = "LC_ALL=C", *const environment[] = {path, aside, language, NULL};
     const int where = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    snprintf(compilation->log, sizeof compilation->log, "%.3900s/%.100s", folder, log);
-    const int complaints = open(compilation->log, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+    const int complaints = memfd_create("complaints", MFD_CLOEXEC);
     const rlim_t seconds = (rlim_t)most_seconds();
     pid_t child = -1;
     if (where >= 0 && complaints >= 0) {
@@ -122,15 +122,15 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
     if (where >= 0) {
         close(where);
     }
-    if (complaints >= 0) {
-        close(complaints);
-    }
     if (child < 0) {
-        unlink(compilation->log);
+        if (complaints >= 0) {
+            close(complaints);
+        }
         return gm_refuse(sentence, "the compiler could not be started: %s", strerror(error));
     }
     setpgid(child, child); /* whoever of the two is first */
     compilation->process = child;
+    compilation->complaints = complaints;
     compilation->deadline = gm_clock_seconds() + most_seconds();
     return true;
 }
@@ -138,14 +138,8 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
 /* The first line that it complained with. */
 static void first_line(const struct gm_compilation *compilation, char *line, size_t size)
 {
-    FILE *file = fopen(compilation->log, "re");
-    line[0] = '\0';
-    if (file) {
-        if (!fgets(line, (int)size, file)) {
-            line[0] = '\0';
-        }
-        fclose(file);
-    }
+    const ssize_t length = pread(compilation->complaints, line, size - 1, 0);
+    line[length > 0 ? length : 0] = '\0';
     line[strcspn(line, "\n")] = '\0';
     gm_text_tame(line);
 }
@@ -165,7 +159,7 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     compilation->process = 0;
     char line[200];
     first_line(compilation, line, sizeof line);
-    unlink(compilation->log);
+    close(compilation->complaints);
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return GM_COMPILED;
     }
@@ -181,6 +175,6 @@ void gm_compilation_stop(struct gm_compilation *compilation)
         while (waitpid(compilation->process, NULL, 0) < 0 && errno == EINTR) {
         }
         compilation->process = 0;
-        unlink(compilation->log);
+        close(compilation->complaints);
     }
 }

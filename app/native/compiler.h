@@ -23,13 +23,13 @@ bool gm_compiler_find(char path[GM_CACHE_PATH], struct gm_digest *digest);
 struct gm_compilation {
     pid_t process; /* 0: none runs */
     double deadline;
-    char log[GM_CACHE_PATH]; /* the file of what it complains of */
+    int complaints; /* a file in memory, which a full disk does not lose */
 };
 enum gm_compiled { GM_COMPILED, GM_COMPILES, GM_COMPILES_NOT };
 
-/* Starts it with these arguments, which begin with the program and end with NULL, in this folder; what it
-   complains of goes to a file there. False with a sentence. */
-bool gm_compilation_start(struct gm_compilation *compilation, const char *folder, const char *log,
+/* Starts it with these arguments, which begin with the program and end with NULL, in this folder. False with a
+   sentence. */
+bool gm_compilation_start(struct gm_compilation *compilation, const char *folder,
                           const char *const *arguments, char *sentence);
 /* How it goes; where it has failed, a sentence. */
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence);

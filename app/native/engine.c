@@ -3,6 +3,7 @@
 #include "app/native/engine.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -81,8 +82,8 @@ struct build {
     const struct gm_loops *loops;
     struct gm_compilation compilation;
     struct gm_cache_key key;
-    char text_name[80], library_name[80], log_name[80]; /* while it compiles */
-    char sentence[GM_MESSAGE];                          /* where it is refused */
+    char text_name[80], library_name[80]; /* while it compiles */
+    char sentence[GM_MESSAGE];            /* where it is refused */
     bool said;
 };
 
@@ -232,12 +233,11 @@ static void compile(struct build *build, const char *folder, const char *compile
              ++number);
     snprintf(build->library_name, sizeof build->library_name, "%s-%d-%u.aside", build->key.text,
              (int)getpid(), number);
-    snprintf(build->log_name, sizeof build->log_name, "%s-%d-%u.log", build->key.text, (int)getpid(), number);
     snprintf(kernels, sizeof kernels, "-DGM_KERNELS=\"%s\"", build->text_name);
     snprintf(source, sizeof source, "%.3900s/core/ode/compiled/over_kernels.c", kernel_folder);
     if (!write_text(folder, build->text_name, text)) {
+        gm_refuse(build->sentence, "the cache could not be written: %s", strerror(errno));
         remove_aside(folder, build);
-        gm_refuse(build->sentence, "the cache could not be written");
         refuse(build);
         return;
     }
@@ -254,7 +254,7 @@ static void compile(struct build *build, const char *folder, const char *compile
         family_flags[part.family], alone_flag(part), kernels, "-I", kernel_folder, "-I", ".", "-o",
         build->library_name,       source,           "-lm",   NULL};
     memcpy(arguments + count, rest, sizeof rest);
-    if (gm_compilation_start(&build->compilation, folder, build->log_name, arguments, build->sentence)) {
+    if (gm_compilation_start(&build->compilation, folder, arguments, build->sentence)) {
         build->state = COMPILING;
     } else {
         remove_aside(folder, build);
@@ -344,7 +344,7 @@ static struct build *build_of(const struct gm_lane *lane)
     if (noted && noted->part.family == part.family && noted->part.alone == part.alone) {
         return *note;
     }
-    char *text = gm_own_problem_kernel(&lane->problem, &lacks);
+    char *text = gm_own_problem_kernel(&lane->problem, part.family, &lacks);
     struct gm_digest source = gm_digest_open();
     if (!text && !lacks) {
         return NULL;

@@ -112,7 +112,26 @@ status 0 run system L='v_q^2/2 - q^2/2' q=1 p=0 until=1 --engine native
 grep -q 'Lagrangian' err || fail "a Lagrangian is native: $(cat err)"
 GEOMINT_KERNEL=$folder status 0 run lorenz until=1 --engine native
 grep -q 'interpreted: the compiler failed' err || fail "without sources: $(cat err)"
+status 0 run driven-pendulum scheme=verlet until=1 --engine native
+grep -q 'interpreted: splittings have native loops where' err || fail "a splitting with the time: $(cat err)"
+status 0 cache --clear
 [ -z "$(ls "$XDG_CACHE_HOME/geomint")" ] || fail "what failed leaves $(ls "$XDG_CACHE_HOME/geomint")"
+# a disk that becomes full while the compiler works: what it complains of is told, and nothing stays
+mkdir disk
+cat >full.sh <<'END'
+mount -t tmpfs -o size=20k none disk || exit 77
+XDG_CACHE_HOME=$PWD/disk "$1" run lorenz until=1 --engine native --json >out 2>err || exit
+ls disk/geomint >left
+END
+unshare -rm sh full.sh "$geomint" 2>refusal
+code=$?
+if [ "$code" = 77 ] || [ -s refusal ]; then
+    echo "no disk of its own: $(cat refusal)"
+else
+    [ "$code" = 0 ] && grep -q '"engine":"interpreted"' out || fail "on a full disk: $(cat out err)"
+    grep -q 'the compiler failed: .*No space left on device' err || fail "of a full disk: $(cat err)"
+    [ ! -s left ] || fail "a full disk keeps $(cat left)"
+fi
 # a built-in problem has no engine
 status 0 run kepler until=1 --json --engine native
 grep -q '"engine"' out && fail "a built-in problem tells an engine"

@@ -55,6 +55,15 @@ status 0 run lorenz until=1000 --measure lyapunov --json
 between lyapunov .88 .93
 status 0 run kicked-rotor K=10 until=20000 --measure lyapunov --json
 between lyapunov 1.58 1.64
+# an order is of short steps, and a map's dt of 1 is none
+for words in symplectic-euler:1 verlet:2; do
+    status 0 certify "${words%:*}" --on kicked-rotor --json
+    python3 - out "${words#*:}" <<'END' || fail "the order of ${words%:*} on a map"
+import json, sys
+order = json.loads(open(sys.argv[1]).readline())["measured_order"]
+assert abs(order - int(sys.argv[2])) < 0.1, order
+END
+done
 # x'' + .3 x' + 2 x = 0 in the well, whatever the time that it carries does
 status 0 run duffing a=0 until=500 --measure lyapunov --json
 between lyapunov -.16 -.14

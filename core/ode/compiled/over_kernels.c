@@ -13,7 +13,8 @@
    and the kernels
        separable   K(velocity)(p, dq, parameters), K(force)(q, dp, parameters)
        otherwise   K(field)(y, f, parameters)
-       both        K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass
+       both        K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass;
+                   with GM_WITHOUT_JACOBIAN, which no implicit family takes, none
    The operations, and so the bits, are the same for every instruction set: nothing is contracted. */
 
 #include "core/ode/kernel/loops.h"
@@ -111,16 +112,20 @@ GM_HALF_OF(velocity, HALF)
 GM_HALF_OF(force, 0)
 #endif
 
+#ifndef GM_WITHOUT_JACOBIAN
 static void jacobian(const struct gm_problem *problem, const double *y, double *rows)
 {
     double square[GM_COMPONENTS][GM_COMPONENTS];
     jacobian_scalar(y, square, problem->parameters);
     memcpy(rows, square, sizeof square);
 }
+#endif
 
 const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
     .field = field,
+#ifndef GM_WITHOUT_JACOBIAN
     .jacobian = jacobian,
+#endif
 #if defined(GM_SEPARABLE) && defined(GM_LOOP_NONE)
     .velocity = velocity,
     .force = force,

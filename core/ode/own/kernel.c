@@ -248,7 +248,7 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
 {
     /* what moves with the time is a field to these loops, as it is to the interpreter's */
     const bool separable = source->tapes[GM_KERNEL_FORCE] && source->components % 2 == 0;
-    const bool wanted[GM_KERNEL_FUNCTIONS] = {
+    bool wanted[GM_KERNEL_FUNCTIONS] = {
         [GM_KERNEL_FIELD] = !separable,
         [GM_KERNEL_VELOCITY] = separable,
         [GM_KERNEL_FORCE] = separable,
@@ -263,7 +263,11 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
         registers = tape && tape->registers > registers ? tape->registers : registers;
         length += tape ? statements_of(tape) : 0;
     }
-    if (!wanted[GM_KERNEL_JACOBIAN] || length > MOST) {
+    if (!source->jacobian_wanted && wanted[GM_KERNEL_JACOBIAN] && length > MOST) {
+        wanted[GM_KERNEL_JACOBIAN] = false;
+        length -= statements_of(source->tapes[GM_KERNEL_JACOBIAN]);
+    }
+    if ((source->jacobian_wanted && !wanted[GM_KERNEL_JACOBIAN]) || length > MOST) {
         *lacks = "it is too large to be compiled";
         return NULL;
     }
@@ -276,8 +280,9 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
     FILE *out = made ? open_memstream(&text, &size) : NULL;
     bool good = out != NULL, known = true;
     if (good) {
-        fprintf(out, "#define GM_COMPONENTS %zu\n%s%s%s#include \"core/ode/kernel/formula.h\"\n",
+        fprintf(out, "#define GM_COMPONENTS %zu\n%s%s%s%s#include \"core/ode/kernel/formula.h\"\n",
                 source->components, separable ? "#define GM_SEPARABLE\n" : "",
+                wanted[GM_KERNEL_JACOBIAN] ? "" : "#define GM_WITHOUT_JACOBIAN\n",
                 wanted[GM_KERNEL_ENERGY] ? "#define GM_WITH_ENERGY\n" : "",
                 wanted[GM_KERNEL_POTENTIAL] ? "#define GM_WITH_POTENTIAL\n" : "");
         put_layout(out);

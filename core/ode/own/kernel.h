@@ -21,6 +21,8 @@ struct gm_kernel_source {
     size_t components;
     const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS]; /* NULL: there is none */
     const struct gm_sparse *jacobian;                 /* what the Jacobian's outputs are */
+    bool
+        jacobian_wanted; /* else it is left out where it is not there, or with it the text would be too large */
     /* Where constants are written out, and not led to by as many pointers as there are functions, problems
        lead by `parameters` to numbers: those inputs of the tapes from this one on. */
     bool written_out;

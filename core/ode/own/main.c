@@ -119,6 +119,7 @@ static char *kernel_of(struct gm_own_system *system, const char **lacks)
             .tapes = {&field, &velocity, &force, &slopes, energy.outputs > 0 ? &energy : NULL,
                       potential.outputs > 0 ? &potential : NULL},
             .jacobian = &jacobian,
+            .jacobian_wanted = true,
             .written_out = true,
             .parameters = system->parameters,
         };

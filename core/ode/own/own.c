@@ -653,7 +653,7 @@ static bool tapes_of_kernels(struct own *own, const struct gm_tape *tapes[GM_KER
     return good;
 }
 
-char *gm_own_problem_kernel(const struct gm_problem *problem, const char **lacks)
+char *gm_own_problem_kernel(const struct gm_problem *problem, int over, const char **lacks)
 {
     struct own *own = own_of(problem);
     if (own->model->system->kind == GM_LAGRANGIAN) {
@@ -664,7 +664,9 @@ char *gm_own_problem_kernel(const struct gm_problem *problem, const char **lacks
         *lacks = "the multipliers of constraints are found by an iteration, which is not compiled";
         return NULL;
     }
-    struct gm_kernel_source source = {.components = problem->n, .jacobian = &own->model->jacobian};
+    struct gm_kernel_source source = {.components = problem->n,
+                                      .jacobian = &own->model->jacobian,
+                                      .jacobian_wanted = over == GM_OVER_NONE || over == GM_OVER_IMPLICIT};
     *lacks = NULL;
     return tapes_of_kernels(own, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
 }
@@ -686,7 +688,7 @@ void gm_own_problem_take(struct gm_problem *problem, const struct gm_loops *loop
             own->constants[i] = tapes[i] ? tapes[i]->constants : NULL;
         }
         own->loops.field = loops->field;
-        own->loops.jacobian = loops->jacobian;
+        own->loops.jacobian = loops->jacobian ? loops->jacobian : own->interpreted.jacobian;
         memcpy(own->loops.over_kernels, loops->over_kernels, sizeof own->loops.over_kernels);
     }
 }

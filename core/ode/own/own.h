@@ -42,9 +42,9 @@ void gm_own_problem_close(struct gm_problem *problem);
 
 struct gm_loops; /* core/ode/kernel/loops.h */
 
-/* The text of its kernels (core/ode/own/kernel.h), malloc'ed; NULL with why there is none, or NULL for want
-   of memory. */
-char *gm_own_problem_kernel(const struct gm_problem *problem, const char **lacks);
+/* The text of its kernels (core/ode/own/kernel.h) for a family that has such loops (`over`, of
+   core/ode/kernel/loops.h), malloc'ed; NULL with why there is none, or NULL for want of memory. */
+char *gm_own_problem_kernel(const struct gm_problem *problem, int over, const char **lacks);
 /* Where whoever compiles it notes which compilation is its own; NULL at first. */
 void **gm_own_problem_note(const struct gm_problem *problem);
 /* From the next step on it is advanced by these loops, as far as they go, which outlive it; NULL: by the
