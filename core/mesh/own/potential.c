@@ -17,6 +17,7 @@ enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
 struct own {
     struct gm_potential functions; /* first: a potential is found to be this */
     struct gm_mesh mesh;
+    double alpha;
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
     struct gm_tape means /* V, V' */, bend /* V'' */, forces /* V', V'', V''' */;
@@ -144,10 +145,13 @@ static void weigh(struct own *own, const struct gm_own_mesh *chosen)
         strongest = fmax(strongest, fabs(at[0]));
         before = u;
     }
-    /* 2.5 of one soliton of sine-Gordon in Tyranowski and Desbrun's box of 25 */
-    const double usual = variation > 0 ? M_PI / 5 * mesh->length / variation : 0;
-    gm_mesh_weigh(mesh, chosen->density, isnan(chosen->alpha) ? usual : chosen->alpha,
-                  steepest > 0 ? steepest : 1, strongest > 0 ? steepest * steepest / strongest : 0);
+    /* 3/2 makes cells 1.8 times closer where it is steepest; that many waves do not draw all nodes at once is half of
+       Tyranowski and Desbrun's choice for one soliton, 2.5 where it rises by 2 pi in a box of 25 */
+    const double usual =
+        variation > 0 && steepest > 0 ? fmin(1.5 / steepest, M_PI / 10 * mesh->length / variation) : 0;
+    own->alpha = isnan(chosen->alpha) ? usual : chosen->alpha;
+    gm_mesh_weigh(mesh, chosen->density, own->alpha, steepest > 0 ? steepest : 1,
+                  strongest > 0 ? steepest * steepest / strongest : 0);
 }
 
 bool gm_own_mesh_open(struct gm_problem *problem, const struct gm_own_wave *wave, const double *values,
@@ -185,6 +189,11 @@ bool gm_own_mesh_open(struct gm_problem *problem, const struct gm_own_wave *wave
     start(own, chosen->half_length, &own->mesh.right, &slope, &rate);
     weigh(own, chosen);
     return true;
+}
+
+double gm_own_mesh_alpha(const struct gm_problem *problem)
+{
+    return ((const struct own *)problem->parameters)->alpha;
 }
 
 void gm_own_mesh_close(struct gm_problem *problem)

@@ -9,7 +9,7 @@
 struct gm_own_mesh {
     double half_length; /* -half_length <= x <= half_length */
     long points;        /* nodes between the ends */
-    double alpha;       /* NaN: one that puts about two fifths of the nodes where the field changes */
+    double alpha;       /* NaN: one that the start allows for */
     enum gm_mesh_density density;
 };
 
@@ -22,6 +22,9 @@ size_t gm_own_mesh_order(const struct gm_own_wave *wave);
 bool gm_own_mesh_open(struct gm_problem *problem, const struct gm_own_wave *wave, const double *values,
                       const struct gm_own_mesh *chosen);
 void gm_own_mesh_close(struct gm_problem *problem);
+
+/* alpha, resolved */
+double gm_own_mesh_alpha(const struct gm_problem *problem);
 
 /* Whether the start is finite, and rests at both ends but for a thousandth of its largest rate. A sentence if not. */
 bool gm_own_mesh_rests(const struct gm_problem *problem, const char *name, char *sentence, size_t size);
