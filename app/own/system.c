@@ -205,6 +205,18 @@ static bool derive(struct gm_own_system *system, struct gm_own_system *first,
     return gm_equations_derive(system, fault);
 }
 
+/* Whether a scheme of moving meshes is asked for, or, where none is, is the file's. */
+static bool on_moving_mesh(const struct gm_own_system *system, int count, char *const words[])
+{
+    static const char key[] = "scheme=";
+    for (int i = 1; i < count; i++) {
+        if (strncmp(words[i], key, strlen(key)) == 0) {
+            return gm_own_field_moves(words[i] + strlen(key));
+        }
+    }
+    return gm_own_field_moves(system->texts[GM_WORD_SCHEMES]);
+}
+
 /* Makes a scene of the lines, or finds the one that was kept. */
 static bool make(struct gm_made_system *made, const struct gm_system_lines *written, int count,
                  char *const words[], struct gm_system_trial *trial, char *message)
@@ -212,6 +224,7 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
     struct gm_own_system first, system;
     struct gm_fault fault;
     const bool typed = !written->path;
+    bool moves = false;
     const unsigned long refusals = gm_memory_refusals();
     struct gm_system_value *values = calloc((size_t)count, sizeof *values);
     size_t value_count = 0;
@@ -224,7 +237,8 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
     } else if (choose_words(made, &first, typed, count, words, values, &value_count, &trial->place,
                             message)) {
         char *all = gm_arguments_join("", &made->words);
-        if (!all || asprintf(&made->key, "%s\n%s", all, written->text) < 0) {
+        moves = on_moving_mesh(&first, count, words);
+        if (!all || asprintf(&made->key, "%d %s\n%s", moves, all, written->text) < 0) {
             made->key = NULL;
         }
         free(all);
@@ -242,7 +256,7 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
             const bool field = gm_system_is_field(&system);
             made->close = field ? gm_own_field_close : gm_system_scene_close;
             trial->scene = made->scene = field
-                                             ? gm_own_field_open(&system, made->name, own, message)
+                                             ? gm_own_field_open(&system, made->name, own, moves, message)
                                              : gm_system_scene_open(&system, made->name, own, typed, message);
             fault.offset = trial->scene || typed ? 0 : line_told(written->text, message);
             if (fault.offset > 0) {

@@ -27,7 +27,8 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
     }
     stage->y[0] = mesh->left;
     stage->y[length - 1] = mesh->right;
-    stage->x[length - 1] = mesh->length;
+    stage->x[0] = mesh->first;
+    stage->x[length - 1] = mesh->first + mesh->length;
     return true;
 }
 
@@ -72,7 +73,8 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
         return false;
     }
     const size_t count = stage->count;
-    mesh->potential->first(stage->middle, stage->rise, count, stage->w, stage->w_m, stage->w_r);
+    mesh->potential->first(mesh->potential, stage->middle, stage->rise, count, stage->w, stage->w_m,
+                           stage->w_r);
     const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
     const double *restrict rise = stage->rise, *restrict slope = stage->slope;
     const double *restrict w = stage->w, *restrict w_m = stage->w_m, *restrict w_r = stage->w_r;
@@ -108,7 +110,7 @@ static struct bending bending(const struct gm_mesh *mesh, const double y[2])
     double sum = 1, slope[2], bend[2];
     for (size_t i = 0; i < 2; i++) {
         double f[3];
-        mesh->potential->force(y[i], f);
+        mesh->potential->force(mesh->potential, y[i], f);
         sum += square * f[0] * f[0] / 2;
         slope[i] = square * f[0] * f[1];
         bend[i] = square * (f[1] * f[1] + f[0] * f[2]);
@@ -265,7 +267,7 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     const double u[2] = {stage->u[e], stage->u[e + 1]}, v[2] = {stage->v[e], stage->v[e + 1]};
     const double kvv = v[0] * v[0] + v[0] * v[1] + v[1] * v[1], k = (kvv / 3 - 1) / d;
     double w_mm, w_mr, w_rr;
-    mesh->potential->second(stage->middle[e], r, &w_mm, &w_mr, &w_rr);
+    mesh->potential->second(mesh->potential, stage->middle[e], r, &w_mm, &w_mr, &w_rr);
     spread(-d * w_mm, -d * w_mr, -stage->w_m[e], k - d * w_rr, -stage->w_r[e] - g * k, g * g * k,
            matrices->stiff);
     for (size_t i = 0; i < 2; i++) {

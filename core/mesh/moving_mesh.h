@@ -5,7 +5,7 @@
 #include "core/kind.h"
 #include "core/run.h"
 
-/* The facet moving-mesh: a scalar field on [0, length] with the Lagrangian density
+/* The facet moving-mesh: a scalar field on [first, first + length] with the Lagrangian density
        phi_t^2 / 2 - phi_X^2 / 2 - W(phi),
    fixed at both ends, on linear elements whose nodes move so that a mesh density is equidistributed.
    Tyranowski & Desbrun (2019), sections 2, 3 and 5.
@@ -21,11 +21,13 @@ struct gm_potential {
     const char *name;
     /* The means over n elements of W(phi) for phi linear with mean `middle` and difference `rise` of its
        ends: w and its derivatives by middle (m) and rise (r). */
-    void (*first)(const double *middle, const double *rise, size_t n, double *w, double *w_m, double *w_r);
+    void (*first)(const struct gm_potential *potential, const double *middle, const double *rise, size_t n,
+                  double *w, double *w_m, double *w_r);
     /* second derivatives of the same, of one element */
-    void (*second)(double middle, double rise, double *w_mm, double *w_mr, double *w_rr);
+    void (*second)(const struct gm_potential *potential, double middle, double rise, double *w_mm,
+                   double *w_mr, double *w_rr);
     /* dW/dphi and its two derivatives at one place */
-    void (*force)(double phi, double force[3]);
+    void (*force)(const struct gm_potential *potential, double phi, double force[3]);
 };
 extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
 extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
@@ -45,17 +47,32 @@ enum gm_mesh_reach { GM_REACH_FULL, GM_REACH_LIMITED, GM_REACH_TEMPERED };
 
 struct gm_mesh {
     size_t points;
-    double length, left, right; /* the field at both ends */
+    double first, length; /* where it begins */
+    double left, right;   /* the field at both ends */
     double alpha, curvature;
     enum gm_mesh_reach reach;
     double steepest; /* a slope, unless reach is full */
     const struct gm_potential *potential;
 };
 
+/* Of those, which one is meant: arclength, the error of interpolation, half of each, or arclength regularised. */
+enum gm_mesh_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED };
+
+/* Sets alpha, curvature, reach and steepest. `bend` times alpha^2 is the curvature with which the first two densities
+   have the same greatest value; the regularised ones begin to be at the slope `steepest`. */
+void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
+                   double bend);
+
+/* A field and its rate of change in time: value, slope and rate at x. */
+typedef void gm_mesh_profile(const void *context, double x, double *value, double *slope, double *rate);
+
 /* The facets of a problem on a moving mesh. */
 struct gm_moving_mesh {
     /* the mesh for the problem's parameters */
     void (*describe)(const struct gm_problem *problem, struct gm_mesh *mesh);
+    gm_mesh_profile *start; /* of the problem's parameters */
+    /* the solution, of them too; NaN where none is known */
+    double (*exact)(const void *parameters, double x, double t);
 };
 
 extern const struct gm_kind gm_kind_mesh;
@@ -64,9 +81,6 @@ static inline const struct gm_moving_mesh *gm_moving_mesh_of(const struct gm_pro
 {
     return problem->facets;
 }
-
-/* A field and its rate of change in time: value, slope and rate at x. */
-typedef void gm_mesh_profile(const void *context, double x, double *value, double *slope, double *rate);
 
 enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
 

@@ -68,9 +68,11 @@ static inline void sine_cosine(double x, double *sine, double *cosine)
     memcpy(cosine, &cosine_bits, sizeof *cosine);
 }
 
-static void sine_gordon_first(const double *restrict middle, const double *restrict rise, size_t n,
-                              double *restrict w, double *restrict w_m, double *restrict w_r)
+static void sine_gordon_first(const struct gm_potential *potential, const double *restrict middle,
+                              const double *restrict rise, size_t n, double *restrict w, double *restrict w_m,
+                              double *restrict w_r)
 {
+    (void)potential;
     for (size_t e = 0; e < n; e++) {
         const double h = rise[e] / 2;
         const double z = h * h;
@@ -92,8 +94,10 @@ static void sine_gordon_first(const double *restrict middle, const double *restr
     }
 }
 
-static void sine_gordon_second(double middle, double rise, double *w_mm, double *w_mr, double *w_rr)
+static void sine_gordon_second(const struct gm_potential *potential, double middle, double rise, double *w_mm,
+                               double *w_mr, double *w_rr)
 {
+    (void)potential;
     const double h = rise / 2, z = h * h;
     double s, slope, bend;
     if (fabs(h) < wide) {
@@ -110,8 +114,9 @@ static void sine_gordon_second(double middle, double rise, double *w_mm, double 
     *w_rr = -cos(middle) * bend / 4;
 }
 
-static void sine_gordon_force(double phi, double force[3])
+static void sine_gordon_force(const struct gm_potential *potential, double phi, double force[3])
 {
+    (void)potential;
     force[0] = sin(phi);
     force[1] = cos(phi);
     force[2] = -force[0];
@@ -126,9 +131,11 @@ const struct gm_potential gm_potential_sine_gordon = {
 
 /* phi^4: over an element phi^2 has the mean m^2 + r^2 / 12, phi^4 the mean m^4 + m^2 r^2 / 2 + r^4 / 80. */
 
-static void phi4_first(const double *restrict middle, const double *restrict rise, size_t n,
-                       double *restrict w, double *restrict w_m, double *restrict w_r)
+static void phi4_first(const struct gm_potential *potential, const double *restrict middle,
+                       const double *restrict rise, size_t n, double *restrict w, double *restrict w_m,
+                       double *restrict w_r)
 {
+    (void)potential;
     for (size_t e = 0; e < n; e++) {
         const double m = middle[e], r = rise[e], mm = m * m, rr = r * r;
         w[e] = ((mm - 1) * (mm - 1) + mm * rr / 2 + rr * rr / 80 - rr / 6) / 4;
@@ -137,15 +144,18 @@ static void phi4_first(const double *restrict middle, const double *restrict ris
     }
 }
 
-static void phi4_second(double middle, double rise, double *w_mm, double *w_mr, double *w_rr)
+static void phi4_second(const struct gm_potential *potential, double middle, double rise, double *w_mm,
+                        double *w_mr, double *w_rr)
 {
+    (void)potential;
     *w_mm = 3 * middle * middle - 1 + rise * rise / 4;
     *w_mr = middle * rise / 2;
     *w_rr = (middle * middle + 3 * rise * rise / 20 - 1. / 3) / 4;
 }
 
-static void phi4_force(double phi, double force[3])
+static void phi4_force(const struct gm_potential *potential, double phi, double force[3])
 {
+    (void)potential;
     force[0] = phi * (phi * phi - 1);
     force[1] = 3 * phi * phi - 1;
     force[2] = 6 * phi;

@@ -45,25 +45,19 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
                              : 1,
         .potential = sine_gordon ? &gm_potential_sine_gordon : &gm_potential_phi4,
     };
-    if (soliton->density == GM_LIMITED || soliton->density == GM_TEMPERED) {
-        mesh->reach = soliton->density == GM_LIMITED ? GM_REACH_LIMITED : GM_REACH_TEMPERED;
-        /* nothing has to be resolved that is steeper than a soliton in its middle */
-        mesh->steepest = lorentz(soliton) * (sine_gordon ? 2 : M_SQRT1_2);
-        mesh->alpha = alpha;
-        return;
-    }
-    const double share = soliton->density == GM_MIX ? sqrt(0.5) : 1;
-    if (soliton->density != GM_CURVATURE) {
-        mesh->alpha = share * alpha;
-    }
-    if (soliton->density != GM_ARCLENGTH) {
-        /* both densities have the same greatest value at a soliton of this speed */
-        const double steep = lorentz(soliton);
-        mesh->curvature = share * share * 4 * alpha * alpha * steep * steep;
-    }
+    /* nothing has to be resolved that is steeper than a soliton in its middle */
+    const double steep = lorentz(soliton);
+    gm_mesh_weigh(mesh, (enum gm_mesh_density)soliton->density, alpha, steep * (sine_gordon ? 2 : M_SQRT1_2),
+                  4 * steep * steep);
 }
 
-static const struct gm_moving_mesh moving_mesh = {.describe = describe};
+static double exact(const void *soliton, double x, double t)
+{
+    return gm_soliton_exact(soliton, x, t);
+}
+
+static const struct gm_moving_mesh moving_mesh = {
+    .describe = describe, .start = gm_soliton_profile, .exact = exact};
 
 void gm_soliton_problem(const struct gm_soliton *soliton, struct gm_problem *problem)
 {

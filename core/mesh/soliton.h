@@ -8,11 +8,10 @@
    mesh. Tyranowski & Desbrun (2019), section 5. */
 
 enum gm_soliton_field { GM_SINE_GORDON, GM_PHI4 };
-enum gm_soliton_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED };
 
 struct gm_soliton {
     int field;   /* enum gm_soliton_field */
-    int density; /* enum gm_soliton_density */
+    int density; /* enum gm_mesh_density */
     long solitons, points;
     double velocity, length;
     double alpha; /* NaN: one that puts about half of the nodes where the field changes */

@@ -10,6 +10,22 @@
    (Tyranowski & Desbrun 2019, section 5.2), which are halved where they are too long. */
 enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
 
+void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
+                   double bend)
+{
+    mesh->alpha = alpha;
+    mesh->curvature = 0;
+    mesh->reach = density == GM_LIMITED    ? GM_REACH_LIMITED
+                  : density == GM_TEMPERED ? GM_REACH_TEMPERED
+                                           : GM_REACH_FULL;
+    mesh->steepest = steepest;
+    if (density == GM_CURVATURE || density == GM_MIX) {
+        const double share = density == GM_MIX ? sqrt(0.5) : 1;
+        mesh->alpha = density == GM_MIX ? share * alpha : 0;
+        mesh->curvature = share * share * alpha * alpha * bend;
+    }
+}
+
 struct bench {
     struct gm_elements stage;
     struct gm_banded matrix;
@@ -37,7 +53,7 @@ static bool bench_open(struct bench *bench, const struct gm_mesh *mesh)
 static void even(const struct gm_mesh *mesh, double *x)
 {
     for (size_t k = 0; k <= mesh->points + 1; k++) {
-        x[k] = mesh->length * (double)k / (double)(mesh->points + 1);
+        x[k] = mesh->first + mesh->length * (double)k / (double)(mesh->points + 1);
     }
 }
 
@@ -167,7 +183,7 @@ static bool is_uniform(const struct gm_mesh *mesh, const double *state)
 {
     const size_t points = mesh->points;
     for (size_t k = 0; k < points; k++) {
-        const double x = mesh->length * (double)(k + 1) / (double)(points + 1);
+        const double x = mesh->first + mesh->length * (double)(k + 1) / (double)(points + 1);
         if (!(fabs(state[points + k] - x) <= 1e-12 * mesh->length) || state[3 * points + k] != 0) {
             return false;
         }
@@ -245,7 +261,7 @@ double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state)
 {
     const double *x = state + mesh->points;
-    double least = fmin(x[0], mesh->length - x[mesh->points - 1]);
+    double least = fmin(x[0] - mesh->first, mesh->first + mesh->length - x[mesh->points - 1]);
     for (size_t k = 1; k < mesh->points; k++) {
         least = fmin(least, x[k] - x[k - 1]);
     }

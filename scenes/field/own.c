@@ -5,7 +5,7 @@
        (M u)_t = R(u, u_x, ..),
    or the components of a multisymplectic form,
        K z_t + L z_x = grad S(z),
-   as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
+   or the wave equation between ends that hold u, on a moving mesh, as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
    integrals of densities. The scene is made while the program runs, and does not change afterwards. */
 #include "scenes/field/own.h"
 
@@ -14,14 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"
+#include "core/mesh/own/potential.h"
 #include "core/ode/own/evolution.h"
+#include "core/schemes.h"
 #include "core/system/equations.h"
 #include "core/tape.h"
 #include "scenes/field/wave_observables.h"
 #include "scenes/frame/written.h"
+#include "scenes/mesh/observed.h"
+#include "scenes/mesh/picture.h"
 
 enum {
     DT,
@@ -30,22 +35,24 @@ enum {
     POINTS,
     SPACE /* of an evolution */,
     SHOW = SPACE /* of others */,
-    BOUNDARY, /* but of a form */
+    BOUNDARY,         /* but of a form, and */
+    ALPHA = BOUNDARY, /* of a moving mesh */
+    DENSITY,
     COMMON_ROWS
 };
-enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 8, MOST_GRAPHS = 3 };
+enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 9, MOST_GRAPHS = 3 };
 
 struct own_field {
     struct gm_scene scene; /* first: a scene is found to be this */
     struct gm_own_system system;
-    struct gm_own_wave wave;           /* one of the three */
-    struct gm_own_evolution evolution; /* where `evolves` */
-    struct gm_own_form form;           /* where `is_form` */
-    bool evolves, is_form, solved;     /* solved: an exact solution is told */
+    struct gm_own_wave wave;              /* one of the three, on a moving mesh where `moves` */
+    struct gm_own_evolution evolution;    /* where `evolves` */
+    struct gm_own_form form;              /* where `is_form` */
+    bool evolves, is_form, moves, solved; /* solved: an exact solution is told */
     struct gm_parameter *rows;
     size_t row_count, values; /* the first row of the file's own */
     struct lane *initial;
-    struct gm_observable observables[COMMON + 1 + MOST_DENSITIES];
+    struct gm_observable observables[COMMON + 2 + MOST_DENSITIES];
     size_t observable_count;
     struct gm_tape densities[MOST_DENSITIES], jump; /* of all variables */
     size_t first_density;
@@ -60,12 +67,14 @@ struct own_field {
 /* Parameters of a run; behind the values of the file's own stand as many bytes: whether each was given. */
 struct lane {
     struct gm_timing timing;
+    int show; /* what the surfaces hold: scenes/field/local_laws.h; of a moving mesh enum gm_mesh_view */
     const struct own_field *own;
     double half_length;
     long points;
     int space; /* enum gm_derivatives */
     int walls;
-    int show; /* what the surfaces hold: scenes/field/local_laws.h */
+    double alpha; /* of a moving mesh */
+    int density;  /* enum gm_mesh_density */
     double values[];
 };
 
@@ -122,6 +131,8 @@ static void close_problem(struct gm_problem *problem)
 {
     if (problem->kind == &gm_kind_ode) {
         gm_own_evolution_shut(problem);
+    } else if (problem->kind == &gm_kind_mesh) {
+        gm_own_mesh_close(problem);
     } else if (!gm_field_of(problem) || gm_field_of(problem)->wave) {
         gm_own_wave_close(problem);
     } else {
@@ -142,6 +153,11 @@ static bool open_problem(const struct lane *lane, struct gm_problem *problem, co
     if (own->is_form) {
         return gm_own_form_open(problem, &own->form, values, &line);
     }
+    if (own->moves) {
+        const struct gm_own_mesh mesh = {lane->half_length, lane->points, lane->alpha,
+                                         (enum gm_mesh_density)lane->density};
+        return gm_own_mesh_open(problem, &own->wave, values, &mesh);
+    }
     if (!gm_own_wave_open(problem, &own->wave, values)) {
         return false;
     }
@@ -157,6 +173,7 @@ static bool closes(const struct own_field *own, const struct gm_problem *problem
 {
     return own->evolves   ? gm_own_evolution_closes(problem, sentence, GM_MESSAGE)
            : own->is_form ? gm_own_form_closes(problem, sentence, GM_MESSAGE)
+           : own->moves   ? gm_own_mesh_rests(problem, own->system.variables[0].name, sentence, GM_MESSAGE)
                           : gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
 }
 
@@ -185,6 +202,27 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     } else {
         gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
     }
+}
+
+static bool start_mesh(const void *parameters, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme, double *y, char *sentence)
+{
+    const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
+    const struct lane *lane = parameters;
+    struct gm_mesh mesh;
+    moving->describe(problem, &mesh);
+    return gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y) ||
+           gm_refuse(
+               sentence,
+               "no mesh of %ld nodes was found for alpha = %g: the homotopy from the uniform mesh fails; a "
+               "smaller alpha helps",
+               lane->points, lane->alpha);
+}
+
+/* The weight of the slope that was left to the start. */
+static void note_alpha(const struct gm_problem *problem, void *parameters)
+{
+    ((struct lane *)parameters)->alpha = gm_own_mesh_alpha(problem);
 }
 
 /* ---- what is observed ---- */
@@ -274,6 +312,33 @@ static double integral_of_cells(const struct gm_view *view, const struct gm_tape
     return sum * line->dx;
 }
 
+/* The integral of a density on a moving mesh, of the middles of its elements. */
+static double integral_of_elements(const struct gm_view *view, const struct gm_tape *density)
+{
+    const struct gm_own_system *system = &field_of(view)->system;
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    const size_t points = mesh.points;
+    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, value;
+    /* field, place and the velocities of both: at the node before, and at this one */
+    double before[4] = {mesh.left, mesh.first}, now[4];
+    for (size_t k = 0; values && k <= points; k++) {
+        const double end[4] = {mesh.right, mesh.first + mesh.length};
+        for (size_t i = 0; i < GM_COUNT(now); i++) {
+            now[i] = k < points ? view->state[i * points + k] : end[i];
+        }
+        const double width = now[1] - before[1], slope = (now[0] - before[0]) / width;
+        values[0] = (now[0] + before[0]) / 2;
+        values[1] = (now[2] + before[2] - slope * (now[3] + before[3])) / 2;
+        values[system->velocities] = (now[1] + before[1]) / 2;
+        values[system->velocities + 1] = slope;
+        gm_tape_values(density, values, &value, 1);
+        sum += width * value;
+        memcpy(before, now, sizeof now);
+    }
+    free(values);
+    return sum;
+}
+
 /* The integral of a density, of a wave in the middle between the two levels of the state. */
 static double integral(const struct gm_view *view)
 {
@@ -286,6 +351,9 @@ static double integral(const struct gm_view *view)
     }
     if (own->is_form) {
         return integral_of_cells(view, &own->densities[number]);
+    }
+    if (own->moves) {
+        return integral_of_elements(view, &own->densities[number]);
     }
     const double *u = view->state, *other = u + line->points, gap = other[line->points];
     double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
@@ -386,6 +454,30 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, graphs, graphs_of(own, graphs));
 }
 
+static void draw_mesh(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct own_field *own = ((const struct lane *)lanes[0]->parameters)->own;
+    const size_t nodes = gm_own_mesh_order(&own->wave);
+    struct gm_mesh_look look = {
+        .front = gm_picture_text(picture, "means of V by %zu of Gauss’s points", nodes),
+        .name = own->system.variables[0].name,
+        .scale = GM_LINEAR,
+        .low = own->low,
+        .high = own->high,
+    };
+    const double most = 5 * fmax(fabs(own->low), fabs(own->high));
+    for (size_t i = 0; i < count; i++) {
+        const double *state = gm_lane_view(lanes[i]).state;
+        for (size_t k = 0; k < lanes[i]->problem.n / 4; k++) {
+            if (fabs(state[k]) <= most) {
+                gm_range_add(&look.low, &look.high, state[k]);
+            }
+        }
+    }
+    picture->title = own->scene.title;
+    gm_mesh_draw(lanes, count, picture, &look);
+}
+
 /* The limit of the scheme's steps at the state that a run was started in. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
@@ -435,7 +527,7 @@ static bool make_rows(struct own_field *own)
 {
     const struct gm_own_system *system = &own->system;
     const size_t parameters = system->velocities - system->parameters;
-    own->values = own->is_form ? BOUNDARY : COMMON_ROWS;
+    own->values = own->is_form ? BOUNDARY : own->moves ? COMMON_ROWS : DENSITY;
     own->row_count = own->values + parameters;
     own->rows = calloc(own->row_count, sizeof *own->rows);
     own->initial = calloc(1, sizeof *own->initial + parameters * (sizeof(double) + 1));
@@ -447,8 +539,9 @@ static bool make_rows(struct own_field *own)
     own->initial->own = own;
     const long least = own->evolves ? 5 : 3;
     const double half_length = number_of(own, values, GM_WORD_HALF_LENGTH, 20),
-                 points = number_of(own, values, GM_WORD_POINTS, 400),
-                 dt = number_of(own, values, GM_WORD_DT, gm_written_rounded(half_length / points)),
+                 grid = number_of(own, values, GM_WORD_POINTS, 400),
+                 points = own->moves ? fmax(1, floor(grid / 4)) : grid, /* they are where they are needed */
+        dt = number_of(own, values, GM_WORD_DT, gm_written_rounded(half_length / grid)),
                  steps = number_of(own, values, GM_WORD_STEPS, 2 * half_length / dt),
                  until = number_of(own, values, GM_WORD_UNTIL, steps * dt);
     static const char *const spaces[] = {"differences", "fourier", NULL};
@@ -471,6 +564,26 @@ static bool make_rows(struct own_field *own)
         common[SPACE] = (struct gm_parameter)GM_CHOICE_ROW(
             struct lane, space, "space", space ? space : spaces[0], spaces,
             "derivatives: central differences of order 2, or of waves through the nodes");
+    }
+    if (own->moves) {
+        static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
+        static const char *const views[] = {"all", "field", "mesh", "energy", "convergence", NULL};
+        common[POINTS] =
+            (struct gm_parameter)GM_INTEGER_ROW(struct lane, points, "points", number_text(own, points), 1,
+                                                1e5, "nodes between the ends", .logarithmic = true);
+        common[SHOW] = (struct gm_parameter)GM_CHOICE_ROW(
+            struct lane, show, "show", "all", views,
+            "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
+            .live = true);
+        common[ALPHA] = (struct gm_parameter)GM_REAL_ROW(
+            struct lane, alpha, "alpha", "auto", 0, 1e6,
+            "weight of the field's slope in the mesh density; auto: 3/2 over the largest slope at the start, or π/10 of the "
+            "length over what u goes up and down there, whichever is less",
+            .automatic = true);
+        common[DENSITY] = (struct gm_parameter)GM_CHOICE_ROW(
+            struct lane, density, "density", "arclength", densities,
+            "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
+            "tempered where the field is steeper than at the start");
     }
     memcpy(own->rows, common, own->values * sizeof *common);
     bool good = true;
@@ -504,7 +617,7 @@ static bool make_rows(struct own_field *own)
 
 static bool make_observables(struct own_field *own, char *sentence)
 {
-    static const struct gm_observable common[COMMON] = {
+    static const struct gm_observable common[] = {
         GM_WAVE_INVARIANTS, GM_WAVE_LAWS,
         GM_OBSERVABLE("longest_step", longest_step, "longest stable step of linear theory",
                       .missing = "linear theory sets this scheme no limit")};
@@ -520,16 +633,24 @@ static bool make_observables(struct own_field *own, char *sentence)
         GM_OBSERVABLE("crest", crest, "x where u is highest"),
         GM_LOCAL_LAWS,
     };
+    static const struct gm_observable moving[] = {GM_MESH_ENERGIES, GM_MESH_NODES},
+                                      errors[] = {GM_MESH_ERRORS};
     static const struct gm_observable error =
         GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
     const struct gm_own_system *system = &own->system;
-    own->observable_count = own->evolves ? GM_COUNT(evolving) : own->is_form ? GM_COUNT(of_form) : COMMON;
-    memcpy(own->observables,
-           own->evolves   ? evolving
-           : own->is_form ? of_form
-                          : common,
-           own->observable_count * sizeof *common);
-    if (own->solved) {
+    const struct gm_observable *list = own->evolves   ? evolving
+                                       : own->is_form ? of_form
+                                       : own->moves   ? moving
+                                                      : common;
+    own->observable_count = own->evolves   ? GM_COUNT(evolving)
+                            : own->is_form ? GM_COUNT(of_form)
+                            : own->moves   ? GM_COUNT(moving)
+                                           : GM_COUNT(common);
+    memcpy(own->observables, list, own->observable_count * sizeof *list);
+    if (own->solved && own->moves) {
+        memcpy(own->observables + own->observable_count, errors, sizeof errors);
+        own->observable_count += GM_COUNT(errors);
+    } else if (own->solved) {
         own->observables[own->observable_count++] = error;
     }
     own->first_density = own->observable_count;
@@ -567,15 +688,18 @@ static bool make_observables(struct own_field *own, char *sentence)
 static bool make_schemes(struct own_field *own, const struct gm_problem *problem, char *sentence)
 {
     size_t count;
-    if (!gm_written_schemes(own->system.texts[GM_WORD_SCHEMES], problem, own->schemes, MOST_PREFERRED, &count,
-                            sentence)) {
+    const char *text = own->system.texts[GM_WORD_SCHEMES];
+    if (!gm_written_schemes(own->moves && !gm_own_field_moves(text) ? NULL : text, problem, own->schemes,
+                            MOST_PREFERRED, &count, sentence)) {
         return false;
     }
     static const char *const evolving[] = {"etdrk4", "midpoint", NULL};
     static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4", NULL};
+    static const char *const moving[] = {"multiplier-lobatto4", "control-gauss4", "uniform-gauss4", NULL};
     own->scene.schemes = count > 0      ? own->schemes
                          : own->evolves ? evolving
                          : own->is_form ? boxes
+                         : own->moves   ? moving
                                         : gm_wave_schemes;
     return true;
 }
@@ -622,6 +746,21 @@ static const char *title_of(struct own_field *own)
     return kept ? kept : "Waves in a potential of one’s own";
 }
 
+bool gm_own_field_moves(const char *schemes)
+{
+    for (size_t length; schemes && *schemes; schemes += length) {
+        schemes += strspn(schemes, " ,");
+        length = strcspn(schemes, " ,");
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)(length < 60 ? length : 60), schemes);
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        if (scheme && scheme->family->kind == &gm_kind_mesh) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool make(struct own_field *own, const char *name, const char *const *words, char *sentence)
 {
     struct gm_own_system *system = &own->system;
@@ -634,6 +773,10 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
                          "an equation by matrices is one on a ring: what its components are in the mirror "
                          "of a wall is not told");
     }
+    if (own->moves && system->texts[GM_WORD_BOUNDARY] &&
+        strcmp(system->texts[GM_WORD_BOUNDARY], "walls") == 0) {
+        return gm_refuse(sentence, "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u");
+    }
     if (!(own->evolves   ? gm_own_evolution_derive(&own->evolution, system)
           : own->is_form ? gm_own_form_derive(&own->form, system)
                          : gm_own_wave_derive(&own->wave, system)) ||
@@ -644,7 +787,8 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
                    : own->is_form ? own->form.exact[0]
                                   : own->wave.exact) != GM_NO_NODE;
     const struct gm_system_item *jump = gm_system_item_of(system, GM_WORD_JUMP, 0);
-    own->track = (struct gm_track)GM_SURFACE_TRACK(record_shown);
+    own->track =
+        own->moves ? (struct gm_track)GM_MESH_PATHS_TRACK : (struct gm_track)GM_SURFACE_TRACK(record_shown);
     own->scene = (struct gm_scene){
         .name = name,
         .title = title_of(own),
@@ -666,7 +810,9 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         .setup = setup,
         .close = close_problem,
         .start = start,
-        .draw = draw,
+        .start_with = own->moves ? start_mesh : NULL,
+        .chosen = own->moves ? note_alpha : NULL,
+        .draw = own->moves ? draw_mesh : draw,
         .failure = tell_failure,
     };
     struct gm_problem problem;
@@ -674,11 +820,19 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         !setup(own->initial, &problem, sentence)) {
         return false;
     }
-    const size_t points = problem.line.points;
-    double *y = malloc(problem.n * sizeof *y);
+    const size_t points = own->moves ? 400 : problem.line.points;
+    double *y = malloc((own->moves ? points : problem.n) * sizeof *y);
     bool good = y && make_observables(own, sentence) && make_schemes(own, &problem, sentence);
-    if (good) {
+    if (good && own->moves) {
+        for (size_t i = 0; i < points; i++) {
+            const double x = own->initial->half_length * (2 * (double)i / (double)(points - 1) - 1);
+            double slope, rate;
+            gm_moving_mesh_of(&problem)->start(problem.parameters, x, &y[i], &slope, &rate);
+        }
+    } else if (good) {
         start(own->initial, &problem, y);
+    }
+    if (good) {
         own->low = own->high = y[0];
         for (size_t i = 0; i < points; i++) {
             gm_range_add(&own->low, &own->high, y[i]);
@@ -701,7 +855,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
 }
 
 const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const char *name,
-                                         const char *const *words, char *sentence)
+                                         const char *const *words, bool moves, char *sentence)
 {
     struct own_field *own = calloc(1, sizeof *own);
     if (!own) {
@@ -710,6 +864,7 @@ const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const cha
         return NULL;
     }
     own->system = *system;
+    own->moves = moves && system->kind == GM_FIELD;
     if (!make(own, name, words, sentence)) {
         gm_own_field_close(&own->scene);
         return NULL;

@@ -6,9 +6,11 @@
 #include "scenes/frame/scene.h"
 
 /* Makes a scene of a system that is a field, and takes it: as gm_system_scene_open (scenes/ode/system.h) does
-   of all others. */
+   of all others. A wave equation is on a moving mesh where that is said. */
 const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const char *name,
-                                         const char *const *words, char *sentence);
+                                         const char *const *words, bool moves, char *sentence);
+/* Whether one of these schemes, by blanks or commas, is one of moving meshes; NULL: no. */
+bool gm_own_field_moves(const char *schemes);
 void gm_own_field_close(const struct gm_scene *scene);
 
 #endif

@@ -13,13 +13,16 @@
        figure 11         error over nodes
        figure 12         which strategy gets ahead, which lags behind, and where they break down
        figures 13, 14    the energy */
-#include "scenes/mesh/soliton_draw.h"
-
 #include <math.h>
 
-#include "core/larger.h"
+#include "core/mesh/soliton.h"
+#include "scenes/mesh/observed.h"
+#include "scenes/mesh/picture.h"
 
-enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
+struct parameters {
+    struct gm_mesh_parameters shown;
+    struct gm_soliton own;
+};
 
 static const char *const fields[] = {"sine-gordon", "phi4", NULL};
 static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
@@ -28,39 +31,39 @@ static const char *const shows[] = {"all", "field", "mesh", "energy", "convergen
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-6, 10),
     GM_UNTIL("50"),
-    GM_INTEGER_ROW(struct gm_soliton_scene, own.solitons, "solitons", "1", 1, 2,
+    GM_INTEGER_ROW(struct parameters, own.solitons, "solitons", "1", 1, 2,
                    "one soliton, or two that bounce off each other"),
-    GM_INTEGER_ROW(struct gm_soliton_scene, own.points, "points", "31", 1, 1e5, "nodes between the ends",
+    GM_INTEGER_ROW(struct parameters, own.points, "points", "31", 1, 1e5, "nodes between the ends",
                    .logarithmic = true),
-    GM_REAL_ROW(struct gm_soliton_scene, own.velocity, "velocity", "0.9", 0.01, 0.999999,
+    GM_REAL_ROW(struct parameters, own.velocity, "velocity", "0.9", 0.01, 0.999999,
                 "of the solitons; 1 is that of light"),
-    GM_REAL_ROW(struct gm_soliton_scene, own.alpha, "alpha", "auto", 0, 1000,
+    GM_REAL_ROW(struct parameters, own.alpha, "alpha", "auto", 0, 1000,
                 "weight of the field's slope in the mesh density; auto: 2.5 for one soliton, 1.5 for two",
                 .automatic = true),
     GM_CHOICE_ROW(
-        struct gm_soliton_scene, own.density, "density", "arclength", densities,
+        struct parameters, own.density, "density", "arclength", densities,
         "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
         "tempered where the field is steeper than a soliton"),
-    GM_CHOICE_ROW(struct gm_soliton_scene, own.field, "potential", "sine-gordon", fields,
+    GM_CHOICE_ROW(struct parameters, own.field, "potential", "sine-gordon", fields,
                   "W(φ) = 1 − cos φ or (φ² − 1)²/4"),
-    GM_REAL_ROW(struct gm_soliton_scene, own.length, "length", "25", 1, 1e4, "distance of the walls",
+    GM_REAL_ROW(struct parameters, own.length, "length", "25", 1, 1e4, "distance of the walls",
                 .logarithmic = true),
     GM_CHOICE_ROW(
-        struct gm_soliton_scene, show, "show", "all", shows,
+        struct parameters, shown.show, "show", "all", shows,
         "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .live = true),
 };
 
 static void resolve(void *own)
 {
-    struct gm_soliton_scene *soliton = own;
+    struct parameters *soliton = own;
     soliton->own.alpha = gm_soliton_alpha(&soliton->own);
 }
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct gm_soliton_scene *soliton = own;
+    const struct parameters *soliton = own;
     gm_soliton_problem(&soliton->own, problem);
     return true;
 }
@@ -68,7 +71,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 static bool start_with(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
                        double *y, char *sentence)
 {
-    const struct gm_soliton_scene *soliton = own;
+    const struct parameters *soliton = own;
     struct gm_mesh mesh;
     gm_moving_mesh_of(problem)->describe(problem, &mesh);
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton->own, y)) {
@@ -91,56 +94,11 @@ static bool start_with(const void *own, const struct gm_problem *problem, const 
         soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
 }
 
-static bool moves(const struct gm_view *view)
-{
-    return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
-}
-
-static double solution_error(const struct gm_view *view)
-{
-    const struct gm_soliton_scene *soliton = view->parameters;
-    const size_t points = (size_t)soliton->own.points;
-    double largest = 0;
-    for (size_t k = 0; k < points; k++) {
-        const double difference =
-            fabs(view->state[k] - gm_soliton_exact(&soliton->own, view->state[points + k], view->t));
-        largest = gm_larger(largest, difference);
-    }
-    return largest;
-}
-
-/* The time by which the exact solution has to be shifted to fit the nodes best (least squares, by Gauss and
-   Newton's iteration): positive where the numerical one is ahead. At a bounce, where the field stands still,
-   it cannot be told: NaN where none below 1 is found, and where no exact solution is known. */
-static double lead(const struct gm_view *view)
-{
-    enum { MOST_ITERATIONS = 6 };
-    const double near = 1e-5, close_enough = 1e-4;
-    const struct gm_soliton_scene *soliton = view->parameters;
-    const size_t points = (size_t)soliton->own.points;
-    double shift = 0;
-    for (int i = 0; i < MOST_ITERATIONS; i++) {
-        double sum = 0, weight = 0;
-        for (size_t k = 0; k < points; k++) {
-            const double x = view->state[points + k], t = view->t + shift;
-            const double exact = gm_soliton_exact(&soliton->own, x, t);
-            const double rate = (gm_soliton_exact(&soliton->own, x, t + near) - exact) / near;
-            sum += (view->state[k] - exact) * rate;
-            weight += rate * rate;
-        }
-        shift += sum / weight;
-        if (!(fabs(sum / weight) > close_enough)) {
-            break;
-        }
-    }
-    return fabs(shift) < 1 ? shift : NAN;
-}
-
 /* Where the first soliton is: where the field, linear between the nodes, is half of its height, π. NaN where
    it is not, or has no such height (phi^4). */
 static double position(const struct gm_view *view)
 {
-    const struct gm_soliton_scene *soliton = view->parameters;
+    const struct parameters *soliton = view->parameters;
     const size_t points = (size_t)soliton->own.points;
     const double *field = view->state, *place = field + points;
     for (size_t k = 1; k < points && soliton->own.field == GM_SINE_GORDON; k++) {
@@ -152,96 +110,49 @@ static double position(const struct gm_view *view)
     return NAN;
 }
 
-static double energy(const struct gm_view *view)
-{
-    const struct gm_mesh mesh = gm_soliton_mesh(view);
-    return gm_mesh_energy(&mesh, view->state);
-}
-
 static double energy_continuum_error(const struct gm_view *view)
 {
-    const struct gm_soliton_scene *soliton = view->parameters;
+    const struct parameters *soliton = view->parameters;
     const double continuum = gm_soliton_energy(&soliton->own);
-    return fabs(energy(view) - continuum) / continuum;
-}
-
-static double constraint_defect(const struct gm_view *view)
-{
-    const struct gm_mesh mesh = gm_soliton_mesh(view);
-    return moves(view) ? gm_mesh_constraint_defect(&mesh, view->state) : NAN;
-}
-
-static double multiplier_norm(const struct gm_view *view)
-{
-    return gm_mesh_multiplier_norm(view->run);
-}
-
-static double smallest_cell(const struct gm_view *view)
-{
-    const struct gm_mesh mesh = gm_soliton_mesh(view);
-    return gm_mesh_smallest_cell(&mesh, view->state);
-}
-
-static double newton_iterations(const struct gm_view *view)
-{
-    return (double)view->run->iterations;
-}
-
-static double factorisations(const struct gm_view *view)
-{
-    return gm_mesh_factorisations(view->run);
+    return fabs(gm_view_mesh_energy(view) - continuum) / continuum;
 }
 
 static const struct gm_observable observables[] = {
-    [GM_SOLITON_ERROR] =
-        GM_LOG_OBSERVABLE("solution_error", solution_error, "error  max |φ − exact| at the nodes"),
-    GM_OBSERVABLE("lead", lead, "time ahead of the exact solution",
-                  .missing = "no shift in time brings the exact solution near"),
+    GM_MESH_ERRORS,
     GM_OBSERVABLE("position", position, "place of the soliton, φ = π", .missing = "the field is nowhere π"),
-    GM_OBSERVABLE("energy", energy, "discrete energy"),
-    GM_KEPT_OBSERVABLE("energy_error", energy, "E", "energy error"),
+    GM_MESH_ENERGIES,
     GM_LOG_OBSERVABLE("energy_continuum_error", energy_continuum_error,
                       "difference from the solitons' energy"),
-    GM_LOG_OBSERVABLE("constraint_defect", constraint_defect, "defect of the mesh constraint",
-                      .missing = "this mesh does not move"),
-    GM_OBSERVABLE("multiplier_norm", multiplier_norm, "largest multiplier"),
-    GM_LOG_OBSERVABLE("smallest_cell", smallest_cell, "smallest cell"),
-    GM_OBSERVABLE("newton_iterations", newton_iterations, "Newton iterations"),
-    GM_OBSERVABLE("factorisations", factorisations, "matrices factored"),
+    GM_MESH_NODES,
 };
 
-/* Paths of all nodes, or of evenly chosen ones. */
-static size_t path_stride(size_t points)
-{
-    return (points + PATHS - 1) / PATHS;
-}
+static const struct gm_track tracks[] = {GM_MESH_PATHS_TRACK};
 
-static size_t path_count(const struct gm_view *view)
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const size_t points = view->problem->n / 4, stride = path_stride(points);
-    return (points + stride - 1) / stride;
+    const struct parameters *soliton = lanes[0]->parameters;
+    const char *who = soliton->own.solitons == 2 ? "two solitons" : "a soliton";
+    static const char *const titles[] = {
+        [GM_MESH_ALL] = "Mesh points that follow %s",
+        [GM_MESH_FIELD] = "Mesh points that follow %s",
+        [GM_MESH_PATHS] = "The paths of mesh points that follow %s",
+        [GM_MESH_ENERGY] = "The energy of %s on a moving mesh",
+        [GM_MESH_CONVERGENCE] = "What moving the mesh gains: %s",
+    };
+    picture->title = gm_picture_text(picture, titles[soliton->shown.show], who);
+    const struct gm_view view = gm_lane_view(lanes[0]);
+    const struct gm_mesh mesh = gm_mesh_of(&view);
+    const bool phi4 = soliton->own.field == GM_PHI4;
+    const struct gm_mesh_look look = {
+        .front =
+            gm_picture_text(picture, "%s,  velocity %g", phi4 ? "φ⁴" : "sine-Gordon", soliton->own.velocity),
+        .name = "φ",
+        .scale = phi4 ? GM_LINEAR : GM_PI,
+        .low = fmin(mesh.left, mesh.right),
+        .high = phi4 ? 1 : fmax(mesh.left, mesh.right),
+    };
+    gm_mesh_draw(lanes, count, picture, &look);
 }
-
-static double path_interval(const void *own)
-{
-    return ((const struct gm_timing *)own)->until / (RECORDS / 2 - 1);
-}
-
-static void record_paths(const struct gm_view *view, double *entry)
-{
-    const size_t points = view->problem->n / 4, stride = path_stride(points);
-    for (size_t k = 0; k < points; k += stride) {
-        *entry++ = view->state[points + k];
-    }
-}
-
-static const struct gm_track tracks[] = {
-    [GM_SOLITON_PATHS] = {.key = "paths",
-                          .width = path_count,
-                          .interval = path_interval,
-                          .bound = RECORDS,
-                          .record = record_paths},
-};
 
 static const char *const schemes[] = {"multiplier-lobatto4", "control-gauss4",         "uniform-gauss4",
                                       "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4",
@@ -390,7 +301,7 @@ const struct gm_scene gm_scene_soliton = {
         "Watch the energy: the multiplier strategy keeps it, with the control-theoretic one it wanders, although "
         "both meshes follow the soliton equally well.",
     .time = "what light needs for a length of 1",
-    .size = sizeof(struct gm_soliton_scene),
+    .size = sizeof(struct parameters),
     .parameters = parameters,
     .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
@@ -405,5 +316,5 @@ const struct gm_scene gm_scene_soliton = {
     .resolve = resolve,
     .setup = setup,
     .start_with = start_with,
-    .draw = gm_soliton_draw,
+    .draw = draw,
 };

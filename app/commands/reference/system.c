@@ -18,6 +18,7 @@
 #include "core/formula/derivative.h"
 #include "core/formula/number.h"
 #include "core/memory.h"
+#include "core/mesh/own/potential.h"
 #include "core/ode/own/evolution.h"
 #include "core/ode/own/own.h"
 #include "core/schemes.h"
@@ -43,6 +44,7 @@ struct report {
     struct gm_own_model model;
     struct gm_own_evolution evolution;
     struct gm_own_form form;
+    struct gm_own_wave wave;
     struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
 };
 
@@ -334,22 +336,38 @@ static void print_facts(const struct report *report)
     }
 }
 
-static void print_schemes(const struct report *report)
+/* Those that fit, and those of another kind of grid. */
+static void print_names(const struct report *report, const struct gm_kind *other)
 {
-    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_own_model_lacks(&report->model);
-    printf("\nschemes that fit\n");
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     for (size_t i = 0; out && i < gm_scheme_count(); i++) {
-        if (fits(report, gm_scheme_at(i))) {
-            fprintf(out, "%s ", gm_scheme_at(i)->name);
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (other ? scheme->family->kind == other : fits(report, scheme)) {
+            fprintf(out, "%s ", scheme->name);
         }
     }
     if (out && fclose(out) == 0) {
-        gm_print_wrapped(lacks[0] ? lacks : text, printf("  "), 2);
+        gm_print_wrapped(text, printf("  "), 2);
     }
     free(text);
+}
+
+static void print_schemes(const struct report *report)
+{
+    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_own_model_lacks(&report->model);
+    printf("\nschemes that fit\n");
+    if (lacks[0]) {
+        gm_print_wrapped(lacks, printf("  "), 2);
+    } else {
+        print_names(report, NULL);
+    }
+    if (report->system.kind == GM_FIELD) {
+        printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
+               gm_own_mesh_order(&report->wave));
+        print_names(report, &gm_kind_mesh);
+    }
 }
 
 static void print_parameters_json(const struct gm_own_system *system)
@@ -594,7 +612,6 @@ static bool open_problem(struct report *report)
 {
     double *start = NULL;
     if (gm_system_is_field(&report->system)) {
-        struct gm_own_wave wave;
         const struct gm_line any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
         const bool waves = report->system.kind == GM_FIELD;
         start = gm_equations_start(&report->system, NULL);
@@ -602,8 +619,8 @@ static bool open_problem(struct report *report)
         const bool opened =
             start && (form ? gm_own_form_derive(&report->form, &report->system) &&
                                  gm_own_form_open(&report->problem, &report->form, start, &any)
-                      : waves ? gm_own_wave_derive(&wave, &report->system) &&
-                                    gm_own_wave_open(&report->problem, &wave, start)
+                      : waves ? gm_own_wave_derive(&report->wave, &report->system) &&
+                                    gm_own_wave_open(&report->problem, &report->wave, start)
                               : gm_own_evolution_derive(&report->evolution, &report->system) &&
                                     gm_own_evolution_open(&report->problem, &report->evolution, start, &any,
                                                           GM_SPACE_DIFFERENCES));

@@ -4,21 +4,7 @@
 #define GM_CORE_FIELD_OWN_POTENTIAL_H
 
 #include "core/field/field.h"
-#include "core/system/system.h"
-
-enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far as levels are made of them */
-
-/* A field's formulas, of its system's graph. */
-struct gm_own_wave {
-    const struct gm_own_system *system;
-    gm_node_id slope, curvature; /* V', V'' */
-    double degree;               /* of V' in u; INFINITY: it is written as no polynomial */
-    /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
-    gm_node_id start[GM_OWN_START], exact;
-};
-
-/* Derives them; false where memory was refused. The graph grows. */
-bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system);
+#include "core/system/potential.h"
 
 /* The problem with these values of all variables (gm_equations_start); the caller sets line and n, as of
    gm_problem_wave. False where memory was refused. To be closed in both cases. */

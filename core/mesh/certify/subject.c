@@ -14,9 +14,18 @@ bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_schem
 {
     subject->soliton =
         (struct gm_soliton){.solitons = 1, .points = points, .velocity = 0.5, .length = 12, .alpha = 1};
-    gm_soliton_problem(&subject->soliton, &subject->problem);
-    gm_moving_mesh_of(&subject->problem)->describe(&subject->problem, &subject->mesh);
-    return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &subject->soliton,
+    struct gm_problem problem;
+    gm_soliton_problem(&subject->soliton, &problem);
+    return gm_mesh_subject_open_on(subject, scheme, &problem);
+}
+
+bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                             const struct gm_problem *problem)
+{
+    const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
+    subject->problem = *problem;
+    moving->describe(problem, &subject->mesh);
+    return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters,
                          subject->start);
 }
 

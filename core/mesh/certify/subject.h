@@ -5,7 +5,8 @@
 #include "core/mesh/soliton.h"
 #include "core/scheme.h"
 
-/* What schemes on meshes are certified on: one soliton on a few nodes, and derivatives along its motions. */
+/* What schemes on meshes are certified on: a field on a few nodes, one soliton as a rule, and derivatives along its
+   motions. */
 
 enum {
     GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
@@ -25,8 +26,13 @@ struct gm_mesh_step {
     double dt;
 };
 
-/* A mesh of `points` nodes for a scheme, with its start; false where memory is short. */
+/* A soliton on a mesh of `points` nodes for a scheme, with its start; false where memory is short. The subject holds
+   its parameters, and stays where it is. */
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points);
+
+/* The same of a problem of as many nodes at most, with its own start. */
+bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                             const struct gm_problem *problem);
 
 /* Steps of a run that starts from the state `from`; false if it fails. */
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,

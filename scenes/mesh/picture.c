@@ -1,46 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pictures of the soliton scene: the field with its nodes over the exact solution, the paths of the
-   nodes, the energy; or the error over the number of nodes. */
+#include "scenes/mesh/picture.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "scenes/frame/graph.h"
-#include "scenes/mesh/soliton_draw.h"
+#include "scenes/mesh/observed.h"
 
 enum { EXACT_POINTS = 1500 };
 
-struct gm_mesh gm_soliton_mesh(const struct gm_view *view)
+static void field_axes(struct gm_panel *panel, const struct gm_mesh *mesh, const struct gm_mesh_look *look)
 {
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
-    return mesh;
+    const double room = 0.16 * (look->high - look->low);
+    panel->axes = true;
+    panel->x = (struct gm_axis){
+        .label = "X", .scale = GM_LINEAR, .low = mesh->first, .high = mesh->first + mesh->length};
+    panel->y = (struct gm_axis){
+        .label = look->name, .scale = look->scale, .low = look->low - room, .high = look->high + room};
 }
 
-static void field_axes(struct gm_panel *panel, const struct gm_soliton_scene *soliton,
+static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,
                        const struct gm_mesh *mesh)
 {
-    const double low = fmin(mesh->left, mesh->right);
-    const double high = soliton->own.field == GM_PHI4 ? 1 : fmax(mesh->left, mesh->right);
-    const double room = 0.16 * (high - low);
-    panel->axes = true;
-    panel->x = (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = mesh->length};
-    panel->y = (struct gm_axis){.label = "φ",
-                                .scale = soliton->own.field == GM_PHI4 ? GM_LINEAR : GM_PI,
-                                .low = low - room,
-                                .high = high + room};
-}
-
-static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view)
-{
-    const struct gm_soliton_scene *soliton = view->parameters;
     double *points = gm_picture_memory(picture, 2 * EXACT_POINTS * sizeof *points);
     if (!points) {
         return;
     }
     for (size_t i = 0; i < EXACT_POINTS; i++) {
-        const double x = soliton->own.length * (double)i / (EXACT_POINTS - 1);
+        const double x = mesh->first + mesh->length * (double)i / (EXACT_POINTS - 1);
         points[2 * i] = x;
-        points[2 * i + 1] = gm_soliton_exact(&soliton->own, x, view->t);
+        points[2 * i + 1] = gm_mesh_exact(view, x, view->t);
     }
     gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 2.4, GM_SOLID}, points, EXACT_POINTS, false);
 }
@@ -53,13 +42,13 @@ static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, 
     if (!nodes) {
         return NULL;
     }
-    nodes[0] = 0;
+    nodes[0] = mesh->first;
     nodes[1] = mesh->left;
     for (size_t k = 0; k < points; k++) {
         nodes[2 * k + 2] = state[points + k];
         nodes[2 * k + 3] = state[k];
     }
-    nodes[2 * points + 2] = mesh->length;
+    nodes[2 * points + 2] = mesh->first + mesh->length;
     nodes[2 * points + 3] = mesh->right;
     return nodes;
 }
@@ -67,7 +56,7 @@ static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, 
 static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_mesh mesh = gm_soliton_mesh(&view);
+    const struct gm_mesh mesh = gm_mesh_of(&view);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     double *nodes = nodes_of(picture, &mesh, view.start);
     if (nodes && view.t != view.t0) {
@@ -88,20 +77,22 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
 
 static const char *error_text(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const double error = gm_lane_observe(lane, GM_SOLITON_ERROR);
+    const int error_of = gm_scene_observable(lane->scene, "solution_error");
+    const double error = error_of < 0 ? NAN : gm_lane_observe(lane, (size_t)error_of);
     return isfinite(error) ? gm_picture_text(picture, "solution error %.3f", error) : "";
 }
 
-static void draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+static void draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        const struct gm_mesh_look *look)
 {
     struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
             const struct gm_view view = gm_lane_view(walk.lane);
-            const struct gm_mesh mesh = gm_soliton_mesh(&view);
+            const struct gm_mesh mesh = gm_mesh_of(&view);
             panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
-            field_axes(panel, view.parameters, &mesh);
-            draw_exact(picture, panel, &view);
+            field_axes(panel, &mesh, look);
+            draw_exact(picture, panel, &view, &mesh);
         }
         draw_field(picture, panel, walk.lane);
     }
@@ -110,7 +101,7 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
 static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                        bool crowded)
 {
-    const struct gm_entries *entries = &lane->entries[GM_SOLITON_PATHS];
+    const struct gm_entries *entries = &lane->entries[0];
     const struct gm_view view = gm_lane_view(lane);
     const size_t points = view.problem->n / 4, rows = entries->count + 1;
     const size_t stride = (points + entries->width - 1) / entries->width; /* of the nodes with a path */
@@ -133,8 +124,8 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
 {
     struct gm_panel *before = picture->last, *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        const struct gm_soliton_scene *soliton = walk.lane->parameters;
-        const struct gm_entries *paths = &walk.lane->entries[GM_SOLITON_PATHS];
+        const struct gm_mesh_parameters *parameters = walk.lane->parameters;
+        const struct gm_entries *paths = &walk.lane->entries[0];
         const double t = walk.lane->run->t;
         if (walk.first && named) {
             panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
@@ -144,11 +135,13 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
         }
         if (walk.first) {
             panel->axes = true;
-            panel->x = (struct gm_axis){.label = "X", .low = 0, .high = soliton->own.length};
+            const struct gm_view view = gm_lane_view(walk.lane);
+            const struct gm_mesh mesh = gm_mesh_of(&view);
+            panel->x = (struct gm_axis){.label = "X", .low = mesh.first, .high = mesh.first + mesh.length};
             panel->y = (struct gm_axis){.label = "t", .low = 0, .high = 0};
         }
         panel->y.low = fmin(panel->y.low, fmin(paths->times[0], t));
-        panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, t));
+        panel->y.high = fmax(panel->y.high, fmax(parameters->timing.until, t));
         draw_paths(picture, panel, walk.lane, paths->width > 40);
     }
     for (panel = before ? before->next : picture->first; panel; panel = panel->next) {
@@ -161,22 +154,22 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
 /* The largest error so far against the number of elements, a line for each scheme. */
 static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
+    const int error = gm_asked_series(picture, lanes[0]->scene, "solution_error");
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "largest error at any node and step");
     double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
     double *largest = gm_picture_memory(picture, count * sizeof *largest);
     double *points = gm_picture_memory(picture, 2 * count * sizeof *points);
-    if (!largest || !points) {
+    if (!largest || !points || error < 0) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
         const struct gm_history *history = &lanes[i]->history;
-        const struct gm_soliton_scene *soliton = lanes[i]->parameters;
         largest[i] = lanes[i]->run->status == GM_OK ? 0 : NAN;
         for (size_t b = 0; b < history->count; b++) {
-            largest[i] = fmax(history->bins[b * history->series + GM_SOLITON_ERROR].high, largest[i]);
+            largest[i] = fmax(history->bins[b * history->series + (size_t)error].high, largest[i]);
         }
         largest[i] = lanes[i]->run->status == GM_OK ? largest[i] : NAN;
-        gm_range_add(&low_x, &high_x, (double)(soliton->own.points + 1));
+        gm_range_add(&low_x, &high_x, (double)(lanes[i]->problem.n / 4 + 1));
         gm_range_add(&low_y, &high_y, largest[i]);
     }
     gm_range_round(&low_y, &high_y, GM_LOG);
@@ -197,8 +190,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         size_t made = 0;
         for (size_t k = i; k < count; k++) {
             if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
-                const struct gm_soliton_scene *soliton = lanes[k]->parameters;
-                points[2 * made] = (double)(soliton->own.points + 1);
+                points[2 * made] = (double)(lanes[k]->problem.n / 4 + 1);
                 points[2 * made + 1] = largest[k];
                 made++;
             }
@@ -220,28 +212,29 @@ static const char *step_text(struct gm_picture *picture, double dt)
     return fabs(dt) < 1e-4 ? gm_power_text(picture, dt) : gm_picture_text(picture, "%.6g", dt);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                            const struct gm_mesh_look *look)
 {
-    const struct gm_soliton_scene *soliton = lanes[0]->parameters;
-    const bool named = soliton->show != GM_SOLITON_CONVERGENCE;
+    const struct gm_mesh_parameters *parameters = lanes[0]->parameters;
+    const size_t points = lanes[0]->problem.n / 4;
+    const bool named = parameters->show != GM_MESH_CONVERGENCE;
     const bool one_step = gm_one_step(lanes, count);
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
-        const struct gm_soliton_scene *other = lanes[i]->parameters;
-        one_size &= other->own.points == soliton->own.points;
+        one_size &= lanes[i]->problem.n / 4 == points;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
-    const bool fields = soliton->show == GM_SOLITON_ALL || soliton->show == GM_SOLITON_FIELD;
-    return gm_picture_text(picture, "%s,  velocity %g%s%s%s%s%s%s",
-                           soliton->own.field == GM_PHI4 ? "φ⁴" : "sine-Gordon", soliton->own.velocity,
-                           one_size ? gm_picture_text(picture, ",  %ld node%s", soliton->own.points,
-                                                      soliton->own.points == 1 ? "" : "s")
-                                    : "",
-                           one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
-                           one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
-                           !fields                            ? ""
-                           : lanes[0]->run->t != lanes[0]->t0 ? ";  grey: exact,  red: at the start"
-                                                              : ";  grey: exact");
+    const bool fields = parameters->show == GM_MESH_ALL || parameters->show == GM_MESH_FIELD;
+    const struct gm_view view = gm_lane_view(lanes[0]);
+    const bool exact = isfinite(gm_mesh_exact(&view, gm_mesh_of(&view).first, view.t0)),
+               later = lanes[0]->run->t != lanes[0]->t0;
+    return gm_picture_text(
+        picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
+        one_size ? gm_picture_text(picture, ",  %zu node%s", points, points == 1 ? "" : "s") : "",
+        one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
+        one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",
+        fields && exact ? "  grey: exact" : "", fields && exact && later ? "," : "",
+        fields && later ? "  red: at the start" : "");
 }
 
 /* How far a lane's energy has gone from its start so far. */
@@ -284,44 +277,30 @@ static void draw_energies(struct gm_picture *picture, const struct gm_lane *cons
     picture->state_columns = gm_panel_count(lanes, count) > 3 ? 2 : 1;
 }
 
-void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                  const struct gm_mesh_look *look)
 {
-    const struct gm_soliton_scene *soliton = lanes[0]->parameters;
-    const bool two = soliton->own.solitons == 2;
-    const char *who = two ? "two solitons" : "a soliton";
-    switch (soliton->show) {
-    case GM_SOLITON_MESH:
-        picture->title = gm_picture_text(picture, "The paths of mesh points that follow %s", who);
-        break;
-    case GM_SOLITON_ENERGY:
-        picture->title = gm_picture_text(picture, "The energy of %s on a moving mesh", who);
-        break;
-    case GM_SOLITON_CONVERGENCE:
-        picture->title = gm_picture_text(picture, "What moving the mesh gains: %s", who);
-        break;
-    default:
-        picture->title = gm_picture_text(picture, "Mesh points that follow %s", who);
-    }
-    picture->subtitle = subtitle(picture, lanes, count);
+    const int show = ((const struct gm_mesh_parameters *)lanes[0]->parameters)->show;
+    picture->subtitle = subtitle(picture, lanes, count, look);
     gm_draw_clock(picture, lanes, count);
     const size_t panels = gm_panel_count(lanes, count);
-    if (soliton->show == GM_SOLITON_CONVERGENCE) {
+    if (show == GM_MESH_CONVERGENCE) {
         draw_convergence(picture, lanes, count);
         return;
     }
     /* of many lanes the paths alone are shown, which are what the scene is about */
-    const bool all = soliton->show == GM_SOLITON_ALL, both = all && panels <= 4;
-    if (both || soliton->show == GM_SOLITON_FIELD) {
-        draw_fields(picture, lanes, count);
+    const bool all = show == GM_MESH_ALL, both = all && panels <= 4;
+    if (both || show == GM_MESH_FIELD) {
+        draw_fields(picture, lanes, count, look);
     }
-    if (all || soliton->show == GM_SOLITON_MESH) {
+    if (all || show == GM_MESH_PATHS) {
         draw_meshes(picture, lanes, count, !both);
     }
     /* three side by side leave no hole */
     if (both || (panels == 3 && !all)) {
         picture->state_columns = panels;
     }
-    if (soliton->show == GM_SOLITON_ENERGY) {
+    if (show == GM_MESH_ENERGY) {
         draw_energies(picture, lanes, count);
     }
     if (all) {
@@ -337,6 +316,8 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
                                        .calm_low = 1e-4,
                                        .calm_high = 10,
                                        .floor = 1e-4};
-        gm_draw_graphs(picture, lanes, count, &error, 1);
+        if (gm_scene_observable(lanes[0]->scene, error.observable) >= 0) {
+            gm_draw_graphs(picture, lanes, count, &error, 1);
+        }
     }
 }

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Waves in a potential that somebody wrote, on whatever nodes. */
+#ifndef GM_CORE_SYSTEM_POTENTIAL_H
+#define GM_CORE_SYSTEM_POTENTIAL_H
+
+#include "core/system/system.h"
+
+enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far as levels are made of them */
+
+/* A field's formulas, of its system's graph. */
+struct gm_own_wave {
+    const struct gm_own_system *system;
+    gm_node_id by_u[3]; /* V', V'', V''' */
+    double degree;      /* of V' in u; INFINITY: it is written as no polynomial */
+    /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
+    gm_node_id start[GM_OWN_START], start_slope /* u_x */, exact;
+};
+
+/* Derives them; false where memory was refused. The graph grows. */
+bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes/mesh/observed.h"
+
+#include <math.h>
+
+#include "core/larger.h"
+
+enum { PATHS = 255 /* most nodes whose paths are recorded */ };
+
+struct gm_mesh gm_mesh_of(const struct gm_view *view)
+{
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
+    return mesh;
+}
+
+double gm_mesh_exact(const struct gm_view *view, double x, double t)
+{
+    return gm_moving_mesh_of(view->problem)->exact(view->problem->parameters, x, t);
+}
+
+static bool moves(const struct gm_view *view)
+{
+    return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
+}
+
+double gm_view_mesh_error(const struct gm_view *view)
+{
+    const size_t points = view->problem->n / 4;
+    double largest = 0;
+    for (size_t k = 0; k < points; k++) {
+        const double difference =
+            fabs(view->state[k] - gm_mesh_exact(view, view->state[points + k], view->t));
+        largest = gm_larger(largest, difference);
+    }
+    return largest;
+}
+
+/* The time by which the exact solution has to be shifted to fit the nodes best (least squares, by Gauss and
+   Newton's iteration): positive where the numerical one is ahead. At a bounce, where the field stands still,
+   it cannot be told: NaN where none below 1 is found, and where no exact solution is known. */
+double gm_view_lead(const struct gm_view *view)
+{
+    enum { MOST_ITERATIONS = 6 };
+    const double near = 1e-5, close_enough = 1e-4;
+    const size_t points = view->problem->n / 4;
+    double shift = 0;
+    for (int i = 0; i < MOST_ITERATIONS; i++) {
+        double sum = 0, weight = 0;
+        for (size_t k = 0; k < points; k++) {
+            const double x = view->state[points + k], t = view->t + shift;
+            const double exact = gm_mesh_exact(view, x, t);
+            const double rate = (gm_mesh_exact(view, x, t + near) - exact) / near;
+            sum += (view->state[k] - exact) * rate;
+            weight += rate * rate;
+        }
+        shift += sum / weight;
+        if (!(fabs(sum / weight) > close_enough)) {
+            break;
+        }
+    }
+    return fabs(shift) < 1 ? shift : NAN;
+}
+
+double gm_view_mesh_energy(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return gm_mesh_energy(&mesh, view->state);
+}
+
+double gm_view_constraint_defect(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return moves(view) ? gm_mesh_constraint_defect(&mesh, view->state) : NAN;
+}
+
+double gm_view_multiplier_norm(const struct gm_view *view)
+{
+    return gm_mesh_multiplier_norm(view->run);
+}
+
+double gm_view_smallest_cell(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return gm_mesh_smallest_cell(&mesh, view->state);
+}
+
+double gm_view_newton_iterations(const struct gm_view *view)
+{
+    return (double)view->run->iterations;
+}
+
+double gm_view_factorisations(const struct gm_view *view)
+{
+    return gm_mesh_factorisations(view->run);
+}
+
+/* Paths of all nodes, or of evenly chosen ones. */
+static size_t path_stride(size_t points)
+{
+    return (points + PATHS - 1) / PATHS;
+}
+
+size_t gm_mesh_path_count(const struct gm_view *view)
+{
+    const size_t points = view->problem->n / 4, stride = path_stride(points);
+    return (points + stride - 1) / stride;
+}
+
+double gm_mesh_path_interval(const void *parameters)
+{
+    return ((const struct gm_timing *)parameters)->until / (GM_MESH_RECORDS / 2 - 1);
+}
+
+void gm_mesh_record_paths(const struct gm_view *view, double *entry)
+{
+    const size_t points = view->problem->n / 4, stride = path_stride(points);
+    for (size_t k = 0; k < points; k += stride) {
+        *entry++ = view->state[points + k];
+    }
+}

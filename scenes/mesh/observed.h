@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_MESH_OBSERVED_H
+#define GM_SCENES_MESH_OBSERVED_H
+
+#include "core/mesh/moving_mesh.h"
+#include "scenes/frame/scene.h"
+
+/* What is observed of every field on a moving mesh. */
+
+struct gm_mesh gm_mesh_of(const struct gm_view *view);
+/* The solution; NaN where none is known. */
+double gm_mesh_exact(const struct gm_view *view, double x, double t);
+
+double gm_view_mesh_error(const struct gm_view *view);
+double gm_view_lead(const struct gm_view *view);
+double gm_view_mesh_energy(const struct gm_view *view);
+double gm_view_constraint_defect(const struct gm_view *view);
+double gm_view_multiplier_norm(const struct gm_view *view);
+double gm_view_smallest_cell(const struct gm_view *view);
+double gm_view_newton_iterations(const struct gm_view *view);
+double gm_view_factorisations(const struct gm_view *view);
+
+/* With an exact solution; then what needs none. */
+#define GM_MESH_ERRORS                                                                                       \
+    GM_LOG_OBSERVABLE("solution_error", gm_view_mesh_error, "error  max |φ − exact| at the nodes"),          \
+        GM_OBSERVABLE("lead", gm_view_lead, "time ahead of the exact solution",                              \
+                      .missing = "no shift in time brings the exact solution near")
+#define GM_MESH_ENERGIES                                                                                     \
+    GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),                                         \
+        GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error")
+#define GM_MESH_NODES                                                                                        \
+    GM_LOG_OBSERVABLE("constraint_defect", gm_view_constraint_defect, "defect of the mesh constraint",       \
+                      .missing = "this mesh does not move"),                                                 \
+        GM_OBSERVABLE("multiplier_norm", gm_view_multiplier_norm, "largest multiplier"),                     \
+        GM_LOG_OBSERVABLE("smallest_cell", gm_view_smallest_cell, "smallest cell"),                          \
+        GM_OBSERVABLE("newton_iterations", gm_view_newton_iterations, "Newton iterations"),                  \
+        GM_OBSERVABLE("factorisations", gm_view_factorisations, "matrices factored")
+
+/* The paths of all nodes, or of evenly chosen ones. */
+#define GM_MESH_PATHS_TRACK                                                                                  \
+    {                                                                                                        \
+        .key = "paths", .width = gm_mesh_path_count, .interval = gm_mesh_path_interval,                      \
+        .bound = GM_MESH_RECORDS, .record = gm_mesh_record_paths                                             \
+    }
+enum { GM_MESH_RECORDS = 400 };
+size_t gm_mesh_path_count(const struct gm_view *view);
+double gm_mesh_path_interval(const void *parameters);
+void gm_mesh_record_paths(const struct gm_view *view, double *entry);
+
+#endif

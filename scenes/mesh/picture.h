@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_MESH_PICTURE_H
+#define GM_SCENES_MESH_PICTURE_H
+
+#include "scenes/frame/lane.h"
+
+/* The pictures of fields on moving meshes: the field with its nodes over the exact solution, the paths of the nodes,
+   the energy; or the error over the number of nodes. */
+
+enum gm_mesh_view {
+    GM_MESH_ALL,
+    GM_MESH_FIELD,
+    GM_MESH_PATHS,
+    GM_MESH_ENERGY,
+    GM_MESH_CONVERGENCE,
+};
+
+/* The parameters of such a scene begin with these; its first track is that of the paths (scenes/mesh/observed.h). */
+struct gm_mesh_parameters {
+    struct gm_timing timing;
+    int show; /* enum gm_mesh_view */
+};
+
+/* What differs from scene to scene; the title is the picture's. */
+struct gm_mesh_look {
+    const char *front, *name; /* what the subtitle begins with; of the field */
+    enum gm_scale scale;
+    double low, high; /* of the field */
+};
+
+void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                  const struct gm_mesh_look *look);
+
+#endif
