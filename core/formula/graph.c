@@ -50,10 +50,22 @@ static bool commutes(const struct gm_node *node)
     return node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_MULTIPLY;
 }
 
+static uint64_t bits_of(double value)
+{
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 static uint32_t hash_of(const struct gm_node *node)
 {
-    const bool turned = commutes(node) && node->a > node->b;
-    const gm_node_id a = turned ? node->b : node->a, b = turned ? node->a : node->b;
+    const bool constant = node->operation == GM_CONSTANT, turned = commutes(node) && node->a > node->b;
+    const uint64_t a = constant ? bits_of(node->value)
+                       : turned ? node->b
+                                : node->a,
+                   b = constant ? 0
+                       : turned ? node->a
+                                : node->b;
     uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15);
     hash = (hash ^ a) * UINT64_C(0xbf58476d1ce4e5b9);
     hash = (hash ^ (hash >> 29) ^ b) * UINT64_C(0x94d049bb133111eb);
@@ -62,8 +74,10 @@ static uint32_t hash_of(const struct gm_node *node)
 
 static bool is_same(const struct gm_node *x, const struct gm_node *y)
 {
-    return x->operation == y->operation &&
-           ((x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x)));
+    if (x->operation != y->operation || x->operation == GM_CONSTANT) {
+        return x->operation == y->operation && bits_of(x->value) == bits_of(y->value);
+    }
+    return (x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x));
 }
 
 static gm_node_id number_in(uint64_t entry)

@@ -41,10 +41,9 @@ static const uint32_t GM_NO_PLACE = UINT32_MAX;
 
 struct gm_node {
     enum gm_operation operation;
+    gm_node_id a;
     union {
-        struct {
-            gm_node_id a, b;
-        };
+        gm_node_id b;
         double value; /* of a constant */
     };
 };

@@ -96,6 +96,7 @@ size_t gm_span_until(const char *text, struct gm_span span, const char *separato
 bool gm_span_take(const char *text, struct gm_span *rest, const char *separator, struct gm_span *piece)
 {
     if (rest->begin >= rest->end) {
+        *piece = (struct gm_span){rest->begin, rest->begin};
         return false;
     }
     const size_t end = gm_span_until(text, *rest, separator);

@@ -28,7 +28,7 @@ bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault);
 struct gm_span gm_span_trimmed(const char *text, struct gm_span span);
 /* The next separator outside of parentheses and brackets, or the end. */
 size_t gm_span_until(const char *text, struct gm_span span, const char *separator);
-/* Takes the piece before the next separator off the front, trimmed; false where nothing is left. */
+/* Takes the piece before the next separator off the front, trimmed; false, and an empty piece, where nothing is left. */
 bool gm_span_take(const char *text, struct gm_span *rest, const char *separator, struct gm_span *piece);
 /* Its words with one blank between them; malloc'ed, NULL: out of memory. */
 char *gm_span_words(const char *text, struct gm_span span);

@@ -43,13 +43,6 @@ static double margin_of(double width, double wanted)
     return fmin(wanted, 0.035 * width);
 }
 
-/* Between what stands below each other: a line at least, so that in a terminal of few rows too no title stands on
-   the axis above it. */
-static double gap_of(const struct gm_metrics *metrics, double wanted)
-{
-    return fmax(wanted * metrics->scale, metrics->line[GM_TEXT_TICK]);
-}
-
 /* Only the lowest of graphs with a common axis names it. */
 static bool names_x(const struct group *group, size_t i)
 {
@@ -122,7 +115,7 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, group, true);
     const double width = cell_width(group, &border, column_gap * scale) - border.left - border.right;
-    const double height = cell_height(group, gap_of(list->metrics, row_gap)) - border.top - border.bottom;
+    const double height = cell_height(group, row_gap * scale) - border.top - border.bottom;
     double aspect = 0.0;
     for (size_t i = 0; i < group->count && aspect == 0.0; i++) {
         aspect = aspect_of(group->frames[i].panel);
@@ -249,7 +242,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
         border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
     }
     const double column = cell_width(group, &border, column_gap * scale),
-                 row = cell_height(group, gap_of(list->metrics, row_gap));
+                 row = cell_height(group, row_gap * scale);
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
@@ -258,8 +251,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_panel *panel = group->frames[i].panel;
         const double x = group->area.x + (double)(i % group->columns) * (column + column_gap * scale);
-        const double y =
-            group->area.y + (double)(i / group->columns) * (row + gap_of(list->metrics, row_gap));
+        const double y = group->area.y + (double)(i / group->columns) * (row + row_gap * scale);
         struct gm_box box = {x + border.left, y + border.top, width, height};
         const double aspect = aspect_of(panel);
         if (aspect > 0.0 && !expands(panel)) {
@@ -433,8 +425,8 @@ static void try_below(struct gm_label_list *list, const struct gm_box *area, str
     struct group beside = *states, below = *states, graph = *graphs;
     below.area = graph.area = *area;
     below.area.height *= below_share;
-    graph.area.y += below.area.height + gap_of(metrics, row_gap);
-    graph.area.height -= below.area.height + gap_of(metrics, row_gap);
+    graph.area.y += below.area.height + row_gap * metrics->scale;
+    graph.area.height -= below.area.height + row_gap * metrics->scale;
     const double gain = choose_grid(list, &below, below.count) / choose_grid(list, &beside, beside.count);
     if (below.detail <= beside.detail && gain > below_gain) {
         states->area = below.area;
@@ -457,7 +449,7 @@ static double height_needed(const struct gm_label_list *list, const struct group
         tallest = fmax(tallest, width / aspect);
     }
     const double needed = (double)states->rows * (tallest + border.top + border.bottom) +
-                          (double)(states->rows - 1) * gap_of(list->metrics, row_gap);
+                          (double)(states->rows - 1) * row_gap * scale;
     return fmin(needed, states->area.height);
 }
 
@@ -466,7 +458,7 @@ static double width_needed(const struct gm_label_list *list, const struct group 
 {
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, states, false);
-    const double height = cell_height(states, gap_of(list->metrics, row_gap)) - border.top - border.bottom;
+    const double height = cell_height(states, row_gap * scale) - border.top - border.bottom;
     double widest = 0.0;
     for (size_t i = 0; i < states->count; i++) {
         const struct gm_panel *panel = states->frames[i].panel;
@@ -488,7 +480,7 @@ static double width_needed(const struct gm_label_list *list, const struct group 
 static void try_row_below(struct gm_label_list *list, const struct gm_box *area, struct group *states,
                           struct group *graphs)
 {
-    const double gap = gap_of(list->metrics, group_gap);
+    const double gap = group_gap * list->metrics->scale;
     struct group beside = *states, below = *states;
     below.area = *area;
     below.area.height = fmax(0.0, (1.0 - row_share) * area->height - gap);

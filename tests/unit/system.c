@@ -548,6 +548,7 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
     {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
+    {"rate: x = -x\nstart: x = 1\nsection: ; x, x\n", 3, 10, "where something is 0"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 2, 4, "singular at the start, q = 1: momenta"},
     {"coordinates: a b\nL: (v_a + v_b)^2\nstart: a = 1, b = 0.5, p_a = 1, p_b = 1\n", 2, 4,
      "singular at the start, a = 1, b = 0.5: momenta"},
