@@ -1019,13 +1019,26 @@ GM_CLONES __attribute__((noinline)) static void add_row(double *restrict to, con
     }
 }
 
+/* Of every member by itself: what is far from 0 is left to libm. */
+static void sines_of(const struct gm_tape *tape, const double *x, double *sine, size_t count)
+{
+    tape->sines(x, sine, count);
+    for (size_t i = 0; i < count; i++) {
+        if (!(fabs(x[i]) <= GM_SINES_TO)) {
+            sine[i] = sin(x[i]);
+        }
+    }
+}
+
 /* An operation for a block of members: at[register] is its row, or of a constant its one number. */
 static inline void compute_rows_of(const struct gm_tape *tape, const struct gm_instruction *now,
                                    double *const *at, size_t count)
 {
     const bool one_a = now->a - tape->inputs < tape->constant_count,
                one_b = now->b - tape->inputs < tape->constant_count;
-    if (now->a == now->to) {
+    if (now->operation == GM_OPERATION_SIN && tape->sines && !one_a) {
+        sines_of(tape, at[now->a], at[now->to], count);
+    } else if (now->a == now->to) {
         add_row(at[now->to], at[now->b], one_b, now->operation == GM_OPERATION_SUBTRACT, count);
     } else {
         compute_row(now->operation, at[now->to], at[now->a], one_a, at[now->b], one_b, count);
@@ -1126,7 +1139,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
 
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m)
 {
-    if (m == 1) {
+    if (m == 1 && !tape->sines) {
         one_state(tape, inputs, outputs);
     } else {
         gm_tape_block(tape, inputs, m, outputs, m, m);

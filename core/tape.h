@@ -34,6 +34,8 @@ struct gm_sums {
     uint32_t to, count, rows, at;
 };
 
+enum { GM_SINES_TO = 100000 };
+
 /* The registers: inputs, constants, outputs, and what lies between. It does not change while it is computed,
    so threads may share it. */
 struct gm_tape {
@@ -45,6 +47,9 @@ struct gm_tape {
     double *constants;
     size_t inputs, constant_count, outputs, registers;
     size_t first_used, last_used; /* the inputs that occur are among [first, last) */
+    /* In the place of libm's sine where |x| <= GM_SINES_TO: set behind gm_tape_open where no other engine computes the
+       same; else NULL. */
+    void (*sines)(const double *x, double *sine, size_t count);
 };
 
 /* The code of `count` nodes. Variables 0 .. inputs - 1 are its inputs, every other one is the constant

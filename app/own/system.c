@@ -205,16 +205,24 @@ static bool derive(struct gm_own_system *system, struct gm_own_system *first,
     return gm_equations_derive(system, fault);
 }
 
-/* Whether a scheme of moving meshes is asked for, or, where none is, is the file's. */
-static bool on_moving_mesh(const struct gm_own_system *system, int count, char *const words[])
+/* Whether a scheme of moving meshes is asked for, or, where none is, is the file's: *moves. False with a sentence
+   where a field would be on both kinds of grids. */
+static bool choose_mesh(const struct gm_own_system *system, int count, char *const words[], bool *moves,
+                        char *message)
 {
     static const char key[] = "scheme=";
+    const char *schemes = system->texts[GM_WORD_SCHEMES];
     for (int i = 1; i < count; i++) {
         if (strncmp(words[i], key, strlen(key)) == 0) {
-            return gm_own_field_moves(words[i] + strlen(key));
+            schemes = words[i] + strlen(key);
         }
     }
-    return gm_own_field_moves(system->texts[GM_WORD_SCHEMES]);
+    size_t others;
+    *moves = system->kind == GM_FIELD && gm_own_field_moving(schemes, &others) > 0;
+    return !*moves || others == 0 ||
+           gm_refuse(message,
+                     "some of these schemes move their mesh, and others do not know how: a picture has one "
+                     "kind of them");
 }
 
 /* Makes a scene of the lines, or finds the one that was kept. */
@@ -234,10 +242,10 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
     }
     if (!gm_system_read(&first, written->text, written->length, NULL, 0, &fault)) {
         trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
-    } else if (choose_words(made, &first, typed, count, words, values, &value_count, &trial->place,
+    } else if (choose_mesh(&first, count, words, &moves, message) &&
+               choose_words(made, &first, typed, count, words, values, &value_count, &trial->place,
                             message)) {
         char *all = gm_arguments_join("", &made->words);
-        moves = on_moving_mesh(&first, count, words);
         if (!all || asprintf(&made->key, "%d %s\n%s", moves, all, written->text) < 0) {
             made->key = NULL;
         }

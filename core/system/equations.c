@@ -1037,6 +1037,13 @@ static bool is_skew(struct gm_own_system *system, size_t which, struct gm_fault 
                 !holds_only(system, entries[j * n + i], NULL, 0, "an entry of a matrix", fault)) {
                 return false;
             }
+            for (size_t side = 0; side < 2; side++) {
+                const size_t at = side == 0 ? i * n + j : j * n + i;
+                const struct gm_node *entry = &system->graph.nodes[entries[at]];
+                if (entry->operation == GM_CONSTANT && !isfinite(entry->value)) {
+                    return gm_fail(fault, places[at], "an entry of %s is no finite number", names[which]);
+                }
+            }
             const gm_node_id sum = apply(system, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
             if (system->graph.failed) {
                 return false;

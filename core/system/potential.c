@@ -6,8 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/count.h"
-
 /* The degree of a formula as a polynomial in variable 0; INFINITY where it is not written as one, or there is no
    memory to tell. */
 static double degree_of(const struct gm_formula *graph, gm_node_id formula)
@@ -82,10 +80,11 @@ static void derive_start(struct gm_own_wave *wave, struct gm_own_system *system)
 {
     enum { U, U_T, F = 0, F1, F2 };
     const size_t x = system->velocities;
-    gm_node_id *at = wave->start, force[3] = {wave->by_u[F], wave->by_u[F1], wave->by_u[F2]}, u[1];
+    gm_node_id *at = wave->start, force[GM_OWN_DERIVATIVES] = {wave->by_u[F], wave->by_u[F1], wave->by_u[F2]},
+               u[1];
     u[0] = at[0] = system->variables[U].start;
     at[1] = system->variables[U_T].start;
-    if (system->graph.failed || !gm_formula_substitute(&system->graph, force, 3, u, 1)) {
+    if (system->graph.failed || !gm_formula_substitute(&system->graph, force, GM_OWN_DERIVATIVES, u, 1)) {
         system->graph.failed = true;
         return;
     }
@@ -108,7 +107,7 @@ bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system)
 {
     *wave = (struct gm_own_wave){.system = system, .exact = system->variables[0].exact};
     gm_node_id last = system->energy;
-    for (size_t k = 0; k < GM_COUNT(wave->by_u); k++) {
+    for (size_t k = 0; k < GM_OWN_DERIVATIVES; k++) {
         last = wave->by_u[k] = over(system, last, 0);
     }
     wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->by_u[0]);

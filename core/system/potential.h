@@ -5,13 +5,14 @@
 
 #include "core/system/system.h"
 
-enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far as levels are made of them */
+/* u and its derivatives over t at the start, as far as levels are made of them; derivatives of V */
+enum { GM_OWN_START = 5, GM_OWN_DERIVATIVES = 3 };
 
 /* A field's formulas, of its system's graph. */
 struct gm_own_wave {
     const struct gm_own_system *system;
-    gm_node_id by_u[3]; /* V', V'', V''' */
-    double degree;      /* of V' in u; INFINITY: it is written as no polynomial */
+    gm_node_id by_u[GM_OWN_DERIVATIVES]; /* V', V'', V''' */
+    double degree;                       /* of V' in u; INFINITY: it is written as no polynomial */
     /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
     gm_node_id start[GM_OWN_START], start_slope /* u_x */, exact;
 };

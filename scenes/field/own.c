@@ -689,8 +689,9 @@ static bool make_schemes(struct own_field *own, const struct gm_problem *problem
 {
     size_t count;
     const char *text = own->system.texts[GM_WORD_SCHEMES];
-    if (!gm_written_schemes(own->moves && !gm_own_field_moves(text) ? NULL : text, problem, own->schemes,
-                            MOST_PREFERRED, &count, sentence)) {
+    size_t others;
+    if (!gm_written_schemes(own->moves && gm_own_field_moving(text, &others) == 0 ? NULL : text, problem,
+                            own->schemes, MOST_PREFERRED, &count, sentence)) {
         return false;
     }
     static const char *const evolving[] = {"etdrk4", "midpoint", NULL};
@@ -746,19 +747,21 @@ static const char *title_of(struct own_field *own)
     return kept ? kept : "Waves in a potential of one’s own";
 }
 
-bool gm_own_field_moves(const char *schemes)
+size_t gm_own_field_moving(const char *schemes, size_t *others)
 {
+    size_t moving = 0;
+    *others = 0;
     for (size_t length; schemes && *schemes; schemes += length) {
         schemes += strspn(schemes, " ,");
         length = strcspn(schemes, " ,");
         char name[64];
         snprintf(name, sizeof name, "%.*s", (int)(length < 60 ? length : 60), schemes);
-        const struct gm_scheme *scheme = gm_scheme_find(name);
-        if (scheme && scheme->family->kind == &gm_kind_mesh) {
-            return true;
-        }
+        const struct gm_scheme *scheme = length > 0 ? gm_scheme_find(name) : NULL;
+        const bool moves = scheme && scheme->family->kind == &gm_kind_mesh;
+        moving += moves;
+        *others += length > 0 && !moves;
     }
-    return false;
+    return moving;
 }
 
 static bool make(struct own_field *own, const char *name, const char *const *words, char *sentence)

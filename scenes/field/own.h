@@ -9,8 +9,8 @@
    of all others. A wave equation is on a moving mesh where that is said. */
 const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const char *name,
                                          const char *const *words, bool moves, char *sentence);
-/* Whether one of these schemes, by blanks or commas, is one of moving meshes; NULL: no. */
-bool gm_own_field_moves(const char *schemes);
+/* How many of these schemes, by blanks or commas, are of moving meshes; NULL: none. Of what is left: *others. */
+size_t gm_own_field_moving(const char *schemes, size_t *others);
 void gm_own_field_close(const struct gm_scene *scene);
 
 #endif

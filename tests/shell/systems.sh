@@ -193,6 +193,38 @@ cmp -s first.svg second.svg || fail 'again makes another picture'
 "$geomint" run double-sine-gordon half_length=1 2>err
 [ $? = 1 ] && grep -q 'ring' err || fail "double-sine-gordon on a short ring: $(cat err)"
 
+# on a moving mesh: the scheme says so, and a picture of it is made again
+"$geomint" run phi4 scheme=multiplier-lobatto4 points=31 until=2 --measure energy_error,smallest_cell --json >out 2>err ||
+    fail "phi4 on a moving mesh: $(cat err)"
+python3 -c 'import json, sys
+seen = json.loads(open("out").readline())["observables"]
+assert seen["energy_error"] < 1e-5 and 0 < seen["smallest_cell"] < 60 / 32, seen' || fail 'phi4 on a moving mesh'
+"$geomint" render phi4 scheme=multiplier-lobatto4 points=31 until=1 --size 200x120 -o first.svg 2>err &&
+    "$geomint" again first.svg -o second.svg 2>err && cmp -s first.svg second.svg || fail "phi4, again: $(cat err)"
+"$geomint" run phi4 scheme=multiplier-lobatto4 points=31 until=2 --checkpoint half 2>err >out &&
+    "$geomint" run phi4 scheme=multiplier-lobatto4 points=31 until=4 --continue half --json --state >out 2>err &&
+    "$geomint" run phi4 scheme=multiplier-lobatto4 points=31 until=4 --json --state >whole 2>err || fail "phi4, continued: $(cat err)"
+sed 's/"seconds":[^,]*,//' out >continued
+sed 's/"seconds":[^,]*,//' whole | cmp -s continued - || fail 'phi4 on a moving mesh goes on otherwise'
+# refused_mesh SENTENCE WORDS...
+refused_mesh() {
+    sentence=$1
+    shift
+    "$geomint" run "$@" >out 2>err
+    [ $? = 1 ] && grep -q "$sentence" err || fail "$*: $(cat err)"
+}
+refused_mesh 'some of these schemes move their mesh' phi4 scheme=box,multiplier-lobatto4
+refused_mesh 'between 1 and 100000' phi4 scheme=multiplier-lobatto4 points=0
+printf 'field: u\nV: u^2/2\nstart: u = exp(-x^2), u_t = 1\n' >restless.system
+refused_mesh 'held at both ends' ./restless.system scheme=uniform-gauss2
+printf 'field: u\nV: u^2/2\nboundary: walls\nstart: u = exp(-x^2), u_t = 0\n' >walled.system
+refused_mesh 'the ends of a moving mesh hold u' ./walled.system scheme=uniform-gauss2
+printf 'field: u\nV: u^2/2\nstart: u = 1/(x - 20), u_t = 0\n' >restless.system
+refused_mesh 'not finite where x = 20' ./restless.system scheme=control-gauss4
+printf 'components: u v\nK-matrix: 0, 1/0 | -1/0, 0\nL-matrix: 0, 1 | -1, 0\nS: u^2 + v^2\nstart: u = 0, v = 0\n' >restless.system
+refused_mesh 'an entry of K is no finite number' ./restless.system
+rm restless.system walled.system half whole continued
+
 # value FILE KEY: of the first lane
 value() {
     python3 -c 'import json, sys; run = json.loads(open(sys.argv[1]).readline())

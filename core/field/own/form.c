@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/count.h"
+#include "core/linear/sine.h"
 #include "core/tape.h"
 
 struct own {
@@ -161,6 +162,7 @@ bool gm_own_form_open(struct gm_problem *problem, const struct gm_own_form *form
                 gm_tape_open(&own->hessian, &system->graph, form->hessian, n * n, n, values) &&
                 gm_tape_open(&own->starts, &system->graph, form->starts, n, 1, values) &&
                 (!own->has_exact || gm_tape_open(&own->exact, &system->graph, form->exact, n, 2, values));
+    own->gradient.sines = gm_sines; /* no other engine computes forms */
     if (good) {
         gm_formula_evaluate(&system->graph, system->graph.count, values, all);
         for (size_t i = 0; i < n * n; i++) {

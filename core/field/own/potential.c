@@ -17,6 +17,8 @@
 #include "core/field/problems/wave.h"
 #include "core/tape.h"
 
+enum { ROOM = 128 }; /* of numbers that a tape computes together */
+
 struct own {
     struct gm_field facets;
     struct gm_form form;
@@ -53,7 +55,6 @@ static double curvature(const struct gm_problem *problem, double u)
 
 static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
 {
-    enum { ROOM = 128 };
     double values[ROOM]; /* u and slope may be the same, inputs and outputs of a tape not */
     for (size_t first = 0; first < count; first += ROOM) {
         const size_t some = count - first < ROOM ? count - first : ROOM;
@@ -181,15 +182,34 @@ void gm_own_wave_close(struct gm_problem *problem)
 
 /* ---- the start ---- */
 
-/* u(x, t) by Taylor's formula about t = 0. */
-static double near_start(const struct own *own, double x, double t)
+/* u(t) by Taylor's formula about t = 0, of rates that lie apart. */
+static double taylor(const double *rates, size_t apart, double t)
 {
-    double rates[GM_OWN_START], u = 0;
-    gm_tape_values(&own->start, &x, rates, 1);
+    double u = 0;
     for (size_t k = GM_OWN_START; k-- > 0;) {
-        u = rates[k] + u * t / (double)(k + 1);
+        u = rates[k * apart] + u * t / (double)(k + 1);
     }
     return u;
+}
+
+static double near_start(const struct own *own, double x, double t)
+{
+    double rates[GM_OWN_START];
+    gm_tape_values(&own->start, &x, rates, 1);
+    return taylor(rates, 1, t);
+}
+
+/* What the tape tells of nodes from number `first` on, at most ROOM, [k * that many + i]: how many. */
+static size_t rates_of(const struct own *own, const struct gm_line *line, size_t first,
+                       double rates[GM_OWN_START * ROOM])
+{
+    const size_t some = line->points - first < ROOM ? line->points - first : ROOM;
+    double x[ROOM];
+    for (size_t i = 0; i < some; i++) {
+        x[i] = gm_line_node(line, first + i);
+    }
+    gm_tape_values(&own->start, x, rates, some);
+    return some;
 }
 
 double gm_own_wave_exact(const struct gm_problem *problem, double x, double t)
@@ -207,10 +227,15 @@ void gm_own_wave_levels(const struct gm_problem *problem, double gap, double *y)
 {
     const struct own *own = own_of(problem);
     const size_t points = problem->line.points;
-    for (size_t i = 0; i < points; i++) {
-        const double x = gm_line_node(&problem->line, i);
-        y[i] = near_start(own, x, 0);
-        y[points + i] = own->has_exact ? gm_own_wave_exact(problem, x, gap) : near_start(own, x, gap);
+    double rates[GM_OWN_START * ROOM];
+    for (size_t first = 0, some; first < points; first += some) {
+        some = rates_of(own, &problem->line, first, rates);
+        for (size_t i = 0; i < some; i++) {
+            const double x = gm_line_node(&problem->line, first + i);
+            y[first + i] = rates[i];
+            y[points + first + i] =
+                own->has_exact ? gm_own_wave_exact(problem, x, gap) : taylor(rates + i, some, gap);
+        }
     }
     y[2 * points] = gap;
 }
@@ -220,20 +245,22 @@ bool gm_own_wave_closes(const struct gm_problem *problem, const char *name, char
     const struct gm_line *line = &problem->line;
     const struct own *own = own_of(problem);
     double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < line->points; i++) {
-        const double x = gm_line_node(line, i);
-        double rates[GM_OWN_START];
-        gm_tape_values(&own->start, &x, rates, 1);
+    double rates[GM_OWN_START * ROOM];
+    for (size_t i = 0, first = 0, some = 0; i < line->points; i++) {
+        if (i == first + some) {
+            first = i;
+            some = rates_of(own, line, first, rates);
+        }
         for (size_t k = 0; k < GM_OWN_START; k++) {
-            if (!isfinite(rates[k])) {
+            if (!isfinite(rates[k * some + i - first])) {
                 static const char *const which[] = {"", "_t", "_tt", "_ttt", "_tttt"};
                 snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, which[k],
-                         x);
+                         gm_line_node(line, i));
                 return false;
             }
         }
-        low = fmin(low, rates[0]);
-        high = fmax(high, rates[0]);
+        low = fmin(low, rates[i - first]);
+        high = fmax(high, rates[i - first]);
     }
     const double left = near_start(own, line->first, 0), right = near_start(own, -line->first, 0);
     if (line->walls && line->jump != 0) {
