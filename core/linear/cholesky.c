@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. */
+/* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. It is opened when a flow is: with its
+   LAPACK, BLAS and METIS it is a quarter of all that the program would load at every start. */
 #include "core/linear/cholesky.h"
 
+#include <dlfcn.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +14,7 @@
 #include <suitesparse/umfpack.h>
 
 #include "core/linear/supernodes.h"
+#include "core/memory.h"
 
 /* L L' = P A P': L and P are CHOLMOD's, which makes them once; solving with them, again and again, is not. */
 struct gm_cholesky {
@@ -20,25 +24,82 @@ struct gm_cholesky {
     double *permuted, *scratch;
 };
 
-/* The libraries' memory is the program's, where a refusal is noted: CHOLMOD may go on with an ordering that
-   needs less, and another rounding. */
-static void let_libraries_take(void)
+#define FUNCTIONS(F)                                                                                         \
+    F(cholmod_analyze)                                                                                       \
+    F(cholmod_factorize)                                                                                     \
+    F(cholmod_finish) F(cholmod_free_factor) F(cholmod_start) F(umfpack_di_defaults)                         \
+        F(umfpack_di_free_numeric) F(umfpack_di_free_symbolic) F(umfpack_di_numeric) F(umfpack_di_solve)     \
+            F(umfpack_di_symbolic)
+
+/* clang-format off */
+static struct {
+#define POINTER(name) __typeof__(name) *name;
+    FUNCTIONS(POINTER)
+} suite;
+/* clang-format on */
+
+static char missing[256]; /* what hinders, once it was tried */
+
+static bool find(void *library, const char *function, void *pointer)
 {
-#if SUITESPARSE_MAIN_VERSION >= 7
-    SuiteSparse_config_malloc_func_set(malloc);
-    SuiteSparse_config_calloc_func_set(calloc);
-    SuiteSparse_config_realloc_func_set(realloc);
-#else
-    SuiteSparse_config.malloc_func = malloc;
-    SuiteSparse_config.calloc_func = calloc;
-    SuiteSparse_config.realloc_func = realloc;
-#endif
+    void *found = library ? dlsym(library, function) : NULL;
+    memcpy(pointer, &found, sizeof found);
+    return found;
 }
 
-static void prepare_libraries(void)
+/* The libraries' memory is the program's, where a refusal is noted: CHOLMOD may go on with an ordering that
+   needs less, and another rounding. */
+static bool let_libraries_take(void *library)
+{
+#if SUITESPARSE_MAIN_VERSION >= 7
+    __typeof__(SuiteSparse_config_malloc_func_set) *set_malloc;
+    __typeof__(SuiteSparse_config_calloc_func_set) *set_calloc;
+    __typeof__(SuiteSparse_config_realloc_func_set) *set_realloc;
+    if (!find(library, "SuiteSparse_config_malloc_func_set", &set_malloc) ||
+        !find(library, "SuiteSparse_config_calloc_func_set", &set_calloc) ||
+        !find(library, "SuiteSparse_config_realloc_func_set", &set_realloc)) {
+        return false;
+    }
+    set_malloc(malloc);
+    set_calloc(calloc);
+    set_realloc(realloc);
+#else
+    struct SuiteSparse_config_struct *config;
+    if (!find(library, "SuiteSparse_config", &config)) {
+        return false;
+    }
+    config->malloc_func = malloc;
+    config->calloc_func = calloc;
+    config->realloc_func = realloc;
+#endif
+    return true;
+}
+
+/* The loader's own sentence says whether it was memory that it lacked. */
+static void open_libraries(void)
+{
+/* a file's name ends with the version of the interface that the headers have */
+#define NAME(library, version) SO(library, version)
+#define SO(library, version) "lib" #library ".so." #version
+    void *cholmod = dlopen(NAME(cholmod, CHOLMOD_MAIN_VERSION), RTLD_NOW | RTLD_LOCAL);
+    void *umfpack = cholmod ? dlopen(NAME(umfpack, UMFPACK_MAIN_VERSION), RTLD_NOW | RTLD_LOCAL) : NULL;
+    bool good = umfpack && let_libraries_take(cholmod);
+#define FIND(name) good = good && find(#name[0] == 'c' ? cholmod : umfpack, #name, &suite.name);
+    FUNCTIONS(FIND)
+    if (!good) {
+        const char *reason = dlerror();
+        snprintf(missing, sizeof missing, "%s", reason ? reason : "it lacks a function");
+        if (strstr(missing, "memory")) {
+            gm_memory_refused();
+        }
+    }
+}
+
+const char *gm_cholesky_missing(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, let_libraries_take);
+    pthread_once(&once, open_libraries);
+    return missing[0] ? missing : NULL;
 }
 
 static size_t largest_panel(const struct gm_supernodes *triangle)
@@ -85,13 +146,12 @@ static bool narrow(struct gm_cholesky *cholesky)
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision)
 {
-    struct gm_cholesky *cholesky = calloc(1, sizeof *cholesky);
+    struct gm_cholesky *cholesky = gm_cholesky_missing() ? NULL : calloc(1, sizeof *cholesky);
     if (!cholesky) {
         return NULL;
     }
     cholmod_common *common = &cholesky->common;
-    prepare_libraries();
-    cholmod_start(common);
+    suite.cholmod_start(common);
     common->print = 0;
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->error_handler = NULL;
@@ -108,8 +168,8 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
                              .xtype = CHOLMOD_REAL,
                              .dtype = CHOLMOD_DOUBLE,
                              .packed = 1};
-    cholmod_factor *factor = cholesky->factor = cholmod_analyze(&matrix, common);
-    bool good = factor && cholmod_factorize(&matrix, factor, common) && common->status == CHOLMOD_OK &&
+    cholmod_factor *factor = cholesky->factor = suite.cholmod_analyze(&matrix, common);
+    bool good = factor && suite.cholmod_factorize(&matrix, factor, common) && common->status == CHOLMOD_OK &&
                 factor->minor == n;
     if (good) {
         struct gm_supernodes *triangle = &cholesky->triangle;
@@ -141,8 +201,8 @@ void gm_cholesky_close(struct gm_cholesky *cholesky)
     if (!cholesky) {
         return;
     }
-    cholmod_free_factor(&cholesky->factor, &cholesky->common);
-    cholmod_finish(&cholesky->common);
+    suite.cholmod_free_factor(&cholesky->factor, &cholesky->common);
+    suite.cholmod_finish(&cholesky->common);
     free(cholesky->permuted);
     free(cholesky->scratch);
     free(cholesky);
@@ -165,14 +225,17 @@ bool gm_lu_solve(size_t n, const int *start, const int *column, const double *va
 {
     double control[UMFPACK_CONTROL];
     void *symbolic = NULL, *numeric = NULL;
-    prepare_libraries();
-    umfpack_di_defaults(control);
+    if (gm_cholesky_missing()) {
+        return false;
+    }
+    suite.umfpack_di_defaults(control);
     /* the rows are the columns of the transpose */
     bool good =
-        umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, control, NULL) == UMFPACK_OK &&
-        umfpack_di_numeric(start, column, value, symbolic, &numeric, control, NULL) == UMFPACK_OK &&
-        umfpack_di_solve(UMFPACK_At, start, column, value, x, b, numeric, control, NULL) == UMFPACK_OK;
-    umfpack_di_free_symbolic(&symbolic);
-    umfpack_di_free_numeric(&numeric);
+        suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, control, NULL) ==
+            UMFPACK_OK &&
+        suite.umfpack_di_numeric(start, column, value, symbolic, &numeric, control, NULL) == UMFPACK_OK &&
+        suite.umfpack_di_solve(UMFPACK_At, start, column, value, x, b, numeric, control, NULL) == UMFPACK_OK;
+    suite.umfpack_di_free_symbolic(&symbolic);
+    suite.umfpack_di_free_numeric(&numeric);
     return good;
 }

@@ -10,6 +10,9 @@
    allocates nothing, and its bits do not depend on a BLAS but through the factor's. */
 struct gm_cholesky;
 
+/* Opens the libraries, if they are not yet; NULL, or why they cannot be. Without them nothing is factored. */
+const char *gm_cholesky_missing(void);
+
 /* A rough factor stands in single precision, in half the memory, where a solution keeps three digits then; it
    preconditions. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };

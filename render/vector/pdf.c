@@ -9,13 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <cairo-ft.h>
-#include <cairo-pdf.h>
 #include <fontconfig/fontconfig.h>
 
 #include "render/cells/text.h"
 #include "render/drawing/page.h"
 #include "render/files/temporary.h"
+#include "render/vector/cairo.h"
 #include "render/vector/field_image.h"
 
 enum { STOPS = 64 };
@@ -31,8 +30,8 @@ struct gm_pdf {
 
 static void set_ink(struct gm_pdf *pdf, struct gm_ink ink)
 {
-    cairo_set_source_rgba(pdf->cairo, ink.colour.r / 255.0, ink.colour.g / 255.0, ink.colour.b / 255.0,
-                          ink.alpha);
+    gm_cairo.set_source_rgba(pdf->cairo, ink.colour.r / 255.0, ink.colour.g / 255.0, ink.colour.b / 255.0,
+                             ink.alpha);
 }
 
 static void clip(void *self, int left, int top, int width, int height)
@@ -41,20 +40,20 @@ static void clip(void *self, int left, int top, int width, int height)
     const int wanted[4] = {left, top, width, height};
     if (memcmp(wanted, pdf->clip, sizeof wanted) != 0) {
         memcpy(pdf->clip, wanted, sizeof wanted);
-        cairo_reset_clip(pdf->cairo);
-        cairo_rectangle(pdf->cairo, left, top, width, height);
-        cairo_clip(pdf->cairo);
+        gm_cairo.reset_clip(pdf->cairo);
+        gm_cairo.rectangle(pdf->cairo, left, top, width, height);
+        gm_cairo.clip(pdf->cairo);
     }
 }
 
 static void put_path(struct gm_pdf *pdf, const struct gm_polyline *line, bool closed)
 {
-    cairo_new_path(pdf->cairo);
+    gm_cairo.new_path(pdf->cairo);
     for (size_t i = 0; i < line->count; i++) {
-        cairo_line_to(pdf->cairo, line->points[i].x, line->points[i].y);
+        gm_cairo.line_to(pdf->cairo, line->points[i].x, line->points[i].y);
     }
     if (closed || line->count == 1) {
-        cairo_close_path(pdf->cairo);
+        gm_cairo.close_path(pdf->cairo);
     }
 }
 
@@ -67,20 +66,20 @@ static void line(void *self, const struct gm_polyline *line, const struct gm_str
     }
     put_path(pdf, line, line->closed);
     set_ink(pdf, stroke->ink);
-    cairo_set_line_width(pdf->cairo, stroke->width);
-    cairo_set_dash(pdf->cairo, pattern, (int)stroke->parts, 0.0);
-    cairo_stroke(pdf->cairo);
+    gm_cairo.set_line_width(pdf->cairo, stroke->width);
+    gm_cairo.set_dash(pdf->cairo, pattern, (int)stroke->parts, 0.0);
+    gm_cairo.stroke(pdf->cairo);
 }
 
 static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
 {
     struct gm_pdf *pdf = self;
     set_ink(pdf, ink);
-    cairo_set_line_width(pdf->cairo, width);
-    cairo_set_dash(pdf->cairo, NULL, 0, 0.0);
-    cairo_move_to(pdf->cairo, centre.x, centre.y);
-    cairo_close_path(pdf->cairo);
-    cairo_stroke(pdf->cairo);
+    gm_cairo.set_line_width(pdf->cairo, width);
+    gm_cairo.set_dash(pdf->cairo, NULL, 0, 0.0);
+    gm_cairo.move_to(pdf->cairo, centre.x, centre.y);
+    gm_cairo.close_path(pdf->cairo);
+    gm_cairo.stroke(pdf->cairo);
 }
 
 static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
@@ -89,7 +88,7 @@ static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
     if (ink.alpha > 0.0) {
         put_path(pdf, line, true);
         set_ink(pdf, ink);
-        cairo_fill(pdf->cairo);
+        gm_cairo.fill(pdf->cairo);
     }
 }
 
@@ -97,8 +96,8 @@ static void box(void *self, float left, float top, float right, float bottom, st
 {
     struct gm_pdf *pdf = self;
     set_ink(pdf, ink);
-    cairo_rectangle(pdf->cairo, left, top, right - left, bottom - top);
-    cairo_fill(pdf->cairo);
+    gm_cairo.rectangle(pdf->cairo, left, top, right - left, bottom - top);
+    gm_cairo.fill(pdf->cairo);
 }
 
 /* ---- fields ---- */
@@ -111,16 +110,17 @@ static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_col
         const struct gm_rgb rgb = gm_field_image_colour(map, theme, i);
         colours[i] = 0xff000000u | (uint32_t)rgb.r << 16 | (uint32_t)rgb.g << 8 | rgb.b;
     }
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
-    unsigned char *data = cairo_image_surface_get_data(surface);
-    const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
+    cairo_surface_t *surface =
+        gm_cairo.image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
+    unsigned char *data = gm_cairo.image_surface_get_data(surface);
+    const size_t stride = (size_t)gm_cairo.image_surface_get_stride(surface);
     for (size_t y = 0; data && y < (size_t)image->rows; y++) {
         for (size_t x = 0; x < (size_t)image->columns; x++) {
             memcpy(data + y * stride + 4 * x, &colours[image->pixels[y * (size_t)image->columns + x]],
                    sizeof *colours);
         }
     }
-    cairo_surface_mark_dirty(surface);
+    gm_cairo.surface_mark_dirty(surface);
     return surface;
 }
 
@@ -134,13 +134,13 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
     }
     if (image.width > 0) {
         cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
-        cairo_save(pdf->cairo);
-        cairo_translate(pdf->cairo, image.left, image.top);
-        cairo_scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
-        cairo_set_source_surface(pdf->cairo, surface, 0.0, 0.0);
-        cairo_paint_with_alpha(pdf->cairo, mark->style.alpha);
-        cairo_restore(pdf->cairo);
-        cairo_surface_destroy(surface);
+        gm_cairo.save(pdf->cairo);
+        gm_cairo.translate(pdf->cairo, image.left, image.top);
+        gm_cairo.scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
+        gm_cairo.set_source_surface(pdf->cairo, surface, 0.0, 0.0);
+        gm_cairo.paint_with_alpha(pdf->cairo, mark->style.alpha);
+        gm_cairo.restore(pdf->cairo);
+        gm_cairo.surface_destroy(surface);
         pdf->fields++;
     }
     gm_field_image_close(&image);
@@ -149,18 +149,18 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_pdf *pdf = self;
-    cairo_pattern_t *pattern = cairo_pattern_create_linear(0.0, box.y + box.height, 0.0, box.y);
+    cairo_pattern_t *pattern = gm_cairo.pattern_create_linear(0.0, box.y + box.height, 0.0, box.y);
     for (int i = 0; i <= STOPS; i++) {
         const struct gm_rgb rgb = gm_colour_map_at(map, pdf->painter.look.theme, (double)i / STOPS);
-        cairo_pattern_add_color_stop_rgb(pattern, (double)i / STOPS, rgb.r / 255.0, rgb.g / 255.0,
-                                         rgb.b / 255.0);
+        gm_cairo.pattern_add_color_stop_rgb(pattern, (double)i / STOPS, rgb.r / 255.0, rgb.g / 255.0,
+                                            rgb.b / 255.0);
     }
     const double left = floor(box.x + 0.5), top = floor(box.y + 0.5);
-    cairo_set_source(pdf->cairo, pattern);
-    cairo_rectangle(pdf->cairo, left, top, floor(box.x + box.width + 0.5) - left,
-                    floor(box.y + box.height + 0.5) - top);
-    cairo_fill(pdf->cairo);
-    cairo_pattern_destroy(pattern);
+    gm_cairo.set_source(pdf->cairo, pattern);
+    gm_cairo.rectangle(pdf->cairo, left, top, floor(box.x + box.width + 0.5) - left,
+                       floor(box.y + box.height + 0.5) - top);
+    gm_cairo.fill(pdf->cairo);
+    gm_cairo.pattern_destroy(pattern);
 }
 
 /* ---- letters ---- */
@@ -174,7 +174,7 @@ static cairo_font_face_t *font_of(const char *file)
     }
     FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)file);
     FcPatternAddInteger(pattern, FC_INDEX, 0);
-    cairo_font_face_t *font = cairo_ft_font_face_create_for_pattern(pattern);
+    cairo_font_face_t *font = gm_cairo.ft_font_face_create_for_pattern(pattern);
     FcPatternDestroy(pattern);
     return font;
 }
@@ -188,26 +188,27 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
     cairo_text_cluster_t *clusters = NULL;
     cairo_text_cluster_flags_t flags;
     int glyph_count = 0, cluster_count = 0;
-    cairo_save(pdf->cairo);
-    cairo_translate(pdf->cairo, writing->upwards ? floor(writing->x + 0.5) : writing->x,
-                    writing->upwards ? writing->y : floor(writing->y + 0.5));
+    gm_cairo.save(pdf->cairo);
+    gm_cairo.translate(pdf->cairo, writing->upwards ? floor(writing->x + 0.5) : writing->x,
+                       writing->upwards ? writing->y : floor(writing->y + 0.5));
     if (writing->upwards) {
-        cairo_rotate(pdf->cairo, -0.5 * M_PI);
+        gm_cairo.rotate(pdf->cairo, -0.5 * M_PI);
     }
-    cairo_set_font_face(pdf->cairo, pdf->fonts[writing->font]);
-    cairo_set_font_size(pdf->cairo, writing->letters);
+    gm_cairo.set_font_face(pdf->cairo, pdf->fonts[writing->font]);
+    gm_cairo.set_font_size(pdf->cairo, writing->letters);
     set_ink(pdf, writing->ink);
     const cairo_status_t status =
-        cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(pdf->cairo), 0.0, 0.0, text, bytes, &glyphs,
-                                         &glyph_count, &clusters, &cluster_count, &flags);
+        gm_cairo.scaled_font_text_to_glyphs(gm_cairo.get_scaled_font(pdf->cairo), 0.0, 0.0, text, bytes,
+                                            &glyphs, &glyph_count, &clusters, &cluster_count, &flags);
     if (status == CAIRO_STATUS_SUCCESS) {
-        cairo_show_text_glyphs(pdf->cairo, text, bytes, glyphs, glyph_count, clusters, cluster_count, flags);
+        gm_cairo.show_text_glyphs(pdf->cairo, text, bytes, glyphs, glyph_count, clusters, cluster_count,
+                                  flags);
     } else if (status == CAIRO_STATUS_NO_MEMORY) {
         pdf->short_of_memory = true;
     }
-    cairo_glyph_free(glyphs);
-    cairo_text_cluster_free(clusters);
-    cairo_restore(pdf->cairo);
+    gm_cairo.glyph_free(glyphs);
+    gm_cairo.text_cluster_free(clusters);
+    gm_cairo.restore(pdf->cairo);
 }
 
 static const struct gm_pen pen = {.clip = clip,
@@ -257,10 +258,10 @@ static void set_metadata(cairo_surface_t *surface, const char *title, const stru
     if (stream) {
         fclose(stream);
     }
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject ? subject : "");
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "geomint " GM_VERSION);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+    gm_cairo.pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+    gm_cairo.pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject ? subject : "");
+    gm_cairo.pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "geomint " GM_VERSION);
+    gm_cairo.pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     free(subject);
 }
 
@@ -269,21 +270,21 @@ static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, stru
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         pdf->fonts[i] = font_of(gm_glyphs_file(pdf->painter.glyphs, (enum gm_font)i));
     }
-    cairo_font_options_t *options = cairo_font_options_create();
-    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-    cairo_set_font_options(pdf->cairo, options);
-    cairo_font_options_destroy(options);
-    cairo_set_line_cap(pdf->cairo, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_join(pdf->cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_fill_rule(pdf->cairo, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_font_options_t *options = gm_cairo.font_options_create();
+    gm_cairo.font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    gm_cairo.font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    gm_cairo.set_font_options(pdf->cairo, options);
+    gm_cairo.font_options_destroy(options);
+    gm_cairo.set_line_cap(pdf->cairo, CAIRO_LINE_CAP_ROUND);
+    gm_cairo.set_line_join(pdf->cairo, CAIRO_LINE_JOIN_ROUND);
+    gm_cairo.set_fill_rule(pdf->cairo, CAIRO_FILL_RULE_EVEN_ODD);
     set_ink(pdf, (struct gm_ink){gm_theme_colour(look->theme, GM_PAPER), 1.0});
-    cairo_paint(pdf->cairo);
+    gm_cairo.paint(pdf->cairo);
     if (!gm_page_draw(&pdf->painter, picture)) {
         pdf->short_of_memory = true;
     }
     for (int i = 0; i < GM_FONT_COUNT; i++) {
-        cairo_font_face_destroy(pdf->fonts[i]);
+        gm_cairo.font_face_destroy(pdf->fonts[i]);
     }
 }
 
@@ -296,16 +297,16 @@ static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, str
     const double width = points * (paged ? look->page_width / mm : look->width / dpi);
     const double height = points * (paged ? look->page_height / mm : look->height / dpi);
     struct bytes bytes = {0};
-    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
+    cairo_surface_t *surface = gm_cairo.pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
     set_metadata(surface, look->title ? look->title : picture->title, texts, count);
-    pdf->cairo = cairo_create(surface);
-    cairo_scale(pdf->cairo, width / look->width, height / look->height);
+    pdf->cairo = gm_cairo.create(surface);
+    gm_cairo.scale(pdf->cairo, width / look->width, height / look->height);
     draw_page(pdf, look, picture);
-    const bool drawn = cairo_status(pdf->cairo) == CAIRO_STATUS_SUCCESS;
-    cairo_destroy(pdf->cairo);
-    cairo_surface_finish(surface);
-    const bool finished = cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS;
-    cairo_surface_destroy(surface);
+    const bool drawn = gm_cairo.status(pdf->cairo) == CAIRO_STATUS_SUCCESS;
+    gm_cairo.destroy(pdf->cairo);
+    gm_cairo.surface_finish(surface);
+    const bool finished = gm_cairo.surface_status(surface) == CAIRO_STATUS_SUCCESS;
+    gm_cairo.surface_destroy(surface);
     if (!drawn || !finished || pdf->short_of_memory) {
         free(bytes.at);
         return NULL;
@@ -320,12 +321,15 @@ bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_
     struct gm_pdf pdf = {.clip = {0, 0, look->width, look->height}};
     char *bytes = NULL;
     size_t size = 0;
-    const bool opened = gm_page_open(&pdf.painter, &pen, &pdf, look, message);
+    const bool found = gm_cairo_open(message);
+    const bool opened = found && gm_page_open(&pdf.painter, &pen, &pdf, look, message);
     if (opened) {
         bytes = make_file(&pdf, look, picture, texts, count, &size);
     }
     gm_page_close(&pdf.painter);
-    const int error = bytes ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    const int error = bytes                                ? gm_temporary_write(path, bytes, size)
+                      : found || strstr(message, "memory") ? ENOMEM
+                                                           : ENOENT;
     free(bytes);
     *fields = pdf.fields;
     if (error != 0 && opened) {
@@ -338,6 +342,8 @@ bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_
 const char *gm_pdf_backend(void)
 {
     static char name[48];
-    snprintf(name, sizeof name, "Cairo %s", cairo_version_string());
+    char message[GM_MESSAGE];
+    snprintf(name, sizeof name, "Cairo %s",
+             gm_cairo_open(message) ? gm_cairo.version_string() : CAIRO_VERSION_STRING);
     return name;
 }

@@ -82,8 +82,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     flow->viscosity = 1 / own->reynolds;
     flow->reynolds = own->reynolds;
     flow->tracers = (size_t)own->tracers;
-    gm_flows_problem(problem, flow, "cavity");
-    return true;
+    return gm_flows_problem(problem, flow, "cavity", sentence);
 }
 
 static const struct gm_observable observables[] = {

@@ -87,8 +87,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     flow->time_unit = 1 / own->viscosity;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
-    gm_flows_problem(problem, flow, "channel");
-    return true;
+    return gm_flows_problem(problem, flow, "channel", sentence);
 }
 
 static const struct gm_profile line = {"three-quarters", {1.5 * M_PI, 0}, {1.5 * M_PI, 1}, 101, NULL};

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/cholesky.h"
 #include "render/files/regular_file.h"
 
 #define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
@@ -270,10 +271,16 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
     return false;
 }
 
-void gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name)
+bool gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name, char *sentence)
 {
+    const char *missing = gm_cholesky_missing();
+    if (missing) {
+        gm_flow_close(flow);
+        return gm_refuse(sentence, "the equations of a flow are solved by SuiteSparse: %s", missing);
+    }
     *problem = (struct gm_problem){
         .name = name, .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
+    return true;
 }
 
 void gm_flows_close(struct gm_problem *problem)

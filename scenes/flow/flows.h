@@ -94,8 +94,9 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind standard, enum gm_ver
 /* Writes why a boundary makes no flow; true for GM_BOUNDARY_OK. */
 bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence);
 
-/* Makes flow the problem's; gm_flows_close frees it again. */
-void gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name);
+/* Makes flow the problem's; gm_flows_close frees it again. False with a sentence, and flow is freed, where there is
+   nothing that could solve its equations. */
+bool gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name, char *sentence);
 void gm_flows_close(struct gm_problem *problem);
 
 /* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over

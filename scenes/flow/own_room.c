@@ -195,8 +195,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     flow->diffusivity = chosen->viscosity / chosen->schmidt;
     flow->tracers = (size_t)chosen->tracers;
     flow->smoke = chosen->smoke;
-    gm_flows_problem(problem, flow, "room");
-    return true;
+    return gm_flows_problem(problem, flow, "room", sentence);
 }
 
 /* Why the boundary could give nothing in the next step. */

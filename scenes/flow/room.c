@@ -157,8 +157,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     flow->time_unit = perimeter;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
-    gm_flows_problem(problem, flow, "room");
-    return true;
+    return gm_flows_problem(problem, flow, "room", sentence);
 }
 
 static const struct gm_observable observables[] = {

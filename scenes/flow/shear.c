@@ -110,8 +110,7 @@ static bool make(const struct gm_flows *own, const struct shear *shear, struct g
     flow->speed = 1;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
-    gm_flows_problem(problem, flow, shear->name);
-    return true;
+    return gm_flows_problem(problem, flow, shear->name, sentence);
 }
 
 static bool setup_couette(const void *own, struct gm_problem *problem, char *sentence)

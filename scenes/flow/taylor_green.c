@@ -50,8 +50,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     }
     flow->viscosity = own->viscosity;
     flow->tracers = (size_t)own->tracers;
-    gm_flows_problem(problem, flow, "taylor-green");
-    return true;
+    return gm_flows_problem(problem, flow, "taylor-green", sentence);
 }
 
 static double wave_number(const struct gm_flows *own)

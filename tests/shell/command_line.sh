@@ -409,6 +409,17 @@ cmp -s version out || fail 'geomint --version is not geomint -V'
 for word in '^geomint [0-9]' '^pictures: PNG' '^loops: [a-z0-9]*; systems of one.s own: interpreted' 'libpng [0-9]' 'GSL [0-9]'; do
     grep -q "$word" out || fail "--version does not say $word"
 done
+# what is loaded only when it is used is missed only then
+mkdir broken
+for library in libcairo.so.2 libcholmod.so.3 libcholmod.so.4 libcholmod.so.5; do
+    : >broken/$library
+done
+export LD_LIBRARY_PATH="$PWD/broken"
+refused 1 'the equations of a flow are solved by SuiteSparse: .*libcholmod.so.[0-9]*: file too short$' \
+    run couette steps=1
+refused 3 'a PDF needs Cairo, but .*libcairo.so.2: file too short$' render disc until=1 -o broken/a.pdf
+status 0 run disc steps=1
+unset LD_LIBRARY_PATH
 status 0 terminal
 grep -q 'painter .*\(OSMesa\|EGL\), OpenGL [0-9]' out || fail 'terminal does not say what paints'
 

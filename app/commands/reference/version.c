@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint --version: the program, what it can do here, and the libraries it runs with. What paints its
-   pictures is loaded only to paint, and told by `geomint terminal`. */
+/* geomint --version: the program, what it can do here, and the libraries it runs with; Cairo and CHOLMOD, which are
+   loaded only for PDF and for flows, are those that it was made with. What paints its pictures is told by
+   `geomint terminal`. */
 #include <curses.h>
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -17,11 +18,11 @@
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
-#include "render/vector/pdf.h"
+#include "render/vector/cairo.h"
 
 static void print_libraries(void)
 {
-    int major = 0, minor = 0, patch = 0, sparse[3] = {0};
+    int major = 0, minor = 0, patch = 0;
     FT_Library freetype;
     if (FT_Init_FreeType(&freetype) != 0) {
         gm_memory_refused(); /* nothing else keeps it from starting */
@@ -29,12 +30,12 @@ static void print_libraries(void)
     }
     FT_Library_Version(freetype, &major, &minor, &patch);
     FT_Done_FreeType(freetype);
-    cholmod_version(sparse);
     int fonts = FcGetVersion();
     printf("libpng %s, libdeflate %s, FreeType %d.%d.%d, fontconfig %d.%d.%d\n", png_get_libpng_ver(NULL),
            LIBDEFLATE_VERSION_STRING, major, minor, patch, fonts / 10000, fonts / 100 % 100, fonts % 100);
-    printf("%s\n", gm_pdf_backend());
-    printf("%s, GSL %s, CHOLMOD %d.%d.%d\n", curses_version(), gsl_version, sparse[0], sparse[1], sparse[2]);
+    printf("Cairo %s\n", CAIRO_VERSION_STRING);
+    printf("%s, GSL %s, CHOLMOD %d.%d.%d\n", curses_version(), gsl_version, CHOLMOD_MAIN_VERSION,
+           CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION);
 }
 
 /* What depends on programs of others is looked for, and started only when it is wanted. */
