@@ -2,6 +2,7 @@
 /* The work-precision diagram: every scheme a line; the few that matter coloured and named, the others
    grey. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/studies/work.h"
@@ -148,6 +149,23 @@ static size_t letters_of(const char *text)
     return letters;
 }
 
+static int compare(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+/* Values in rising order; NULL: out of memory. */
+static const double *rising(struct gm_picture *picture, const double *values, size_t count)
+{
+    double *sorted = gm_picture_memory(picture, count * sizeof *sorted);
+    if (sorted) {
+        memcpy(sorted, values, count * sizeof *sorted);
+        qsort(sorted, count, sizeof *sorted, compare);
+    }
+    return sorted;
+}
+
 static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
                       const struct gm_work_line *const *chosen, size_t chosen_count)
 {
@@ -175,6 +193,10 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
         }
     }
     gm_range_round(&panel->x.low, &panel->x.high, GM_LOG);
+    if (cost == GM_COST_RESOLUTION && !table->smaller_is_finer) {
+        panel->x.ticks = rising(picture, table->resolutions, table->resolution_count);
+        panel->x.tick_count = panel->x.ticks ? table->resolution_count : 0;
+    }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
     for (size_t i = 0; i < table->line_count; i++) {
         if (!holds(chosen, chosen_count, &table->lines[i])) {

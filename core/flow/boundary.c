@@ -39,18 +39,18 @@ static double length_of(const struct gm_complex *complex, const struct gm_openin
     return length;
 }
 
-/* The integral of the profile over edge e, from the part s of the piece on, by Gauss's rule of three
-   points. */
+/* The integral of the profile over edge e, from the part s of the piece on, by Lobatto's rule of four points: its
+   ends are among them, so that a profile that is not finite there is met. */
 static double through_edge(const struct gm_complex *complex, const struct gm_side *side, size_t e, double s,
                            double length, bool magnitude)
 {
-    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834},
-                        weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    static const double node[4] = {-1, -0.4472135954999579, 0.4472135954999579, 1},
+                        weight[4] = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
     const double own = complex->length[complex->boundary_edge[e]];
     const double *a = complex->point + 2 * complex->boundary_vertex[e],
                  *b = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, e)];
     double sum = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         const double part = (1 + node[i]) / 2;
         const double at[2] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
         const double speed = side->profile(side->data, s + part * own / length, at);
@@ -94,6 +94,7 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
         /* of a mesh that lies over itself no loop is within another */
         const bool elsewhere = flow->openings > 0 && gm_complex_loop(complex, e) !=
                                                          gm_complex_loop(complex, flow->opening[0].first);
+        flow->faulty = side;
         if (flow->hole[complex->boundary_vertex[e]] > 0 || elsewhere) {
             return GM_BOUNDARY_IN_HOLE;
         }
@@ -112,6 +113,7 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
             return GM_BOUNDARY_SHORT;
         }
     }
+    flow->faulty = 0;
     const bool whole = inlets + outlets == complex->boundary && complex->boundary > 0 && flow->openings < 2;
     return whole                           ? GM_BOUNDARY_WHOLE
            : (inlets > 0) != (outlets > 0) ? inlets > 0 ? GM_BOUNDARY_NO_OUTLET : GM_BOUNDARY_NO_INLET
@@ -156,6 +158,7 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
         double size = 0;
         opening->profile = through_profile(flow->complex, &maker->sides[opening->side], opening, &size);
         side_profile[opening->side] += opening->profile;
+        flow->faulty = opening->side;
         if (size > 0 && !(opening->profile > 1e-9 * size)) {
             return GM_BOUNDARY_PROFILE;
         }
@@ -163,6 +166,7 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
     for (size_t i = 0; i < flow->openings; i++) {
         struct gm_opening *opening = &flow->opening[i];
         const struct gm_side *side = &maker->sides[opening->side];
+        flow->faulty = opening->side;
         if (side->profile && side->flow > 0 && !(side_profile[opening->side] > 0)) {
             return GM_BOUNDARY_PROFILE;
         }
@@ -180,6 +184,7 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
         }
         *(opening->inlet ? &in : &out) += opening->flow;
     }
+    flow->faulty = 0;
     if (!isfinite(in) || !isfinite(out)) {
         return GM_BOUNDARY_OVERFLOW;
     }

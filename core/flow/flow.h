@@ -84,6 +84,7 @@ struct gm_flow {
     struct gm_flow_place *smoking;
     size_t smoking_count;
     struct gm_inflow inflow;
+    size_t faulty; /* the side at which a boundary is none (core/flow/boundary.h); 0: it is no single one */
     /* Where what the boundary gives changes in time: has `now` give what it does at the time t. False where
        that is no boundary: something is not finite, or flows do not balance. NULL: nothing changes. */
     bool (*give)(const struct gm_flow *flow, double t, struct gm_flow *now);
@@ -222,5 +223,8 @@ struct gm_sample {
 };
 bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
                     struct gm_sample *sample);
+/* The pressure p/rho at a point, after the last step: the total one fitted to that of the 24 triangles nearest, less
+   |u|^2/2. False where there is none. */
+bool gm_flow_pressure_at(const struct gm_flow *flow, const double *y, double x, double z, double *pressure);
 
 #endif

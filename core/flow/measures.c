@@ -242,15 +242,16 @@ enum { NEAREST = 24, TERMS = 10, VALUES = 4 };
 
 struct near {
     double distance, x, z;
-    size_t vertex;
+    size_t index;
 };
 
-/* The vertices nearest to a point, on a torus their nearest images; relative places. */
-static size_t find_nearest(const struct gm_complex *complex, double x, double z, struct near nearest[NEAREST])
+/* Of points, those nearest to a place, on a torus their nearest images; relative places. */
+static size_t find_nearest(const struct gm_complex *complex, const double *points, size_t all, double x,
+                           double z, struct near nearest[NEAREST])
 {
     size_t count = 0;
-    for (size_t v = 0; v < complex->vertices; v++) {
-        double d[2] = {complex->point[2 * v] - x, complex->point[2 * v + 1] - z};
+    for (size_t v = 0; v < all; v++) {
+        double d[2] = {points[2 * v] - x, points[2 * v + 1] - z};
         for (int c = 0; c < 2; c++) {
             const double period = complex->period[c];
             d[c] -= period > 0 ? period * round(d[c] / period) : 0;
@@ -303,18 +304,19 @@ static void least_squares(double a[NEAREST][TERMS + VALUES], size_t rows, double
     }
 }
 
-bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z, struct gm_sample *sample)
+/* Cubic polynomials fitted to values at the points nearest to a place. The first coefficients are what they are
+   there, and their derivatives times `scale`. False where there are too few points. */
+static bool fit(const struct gm_complex *complex, const double *points, size_t all,
+                const double *const fields[VALUES], double x, double z, double solution[VALUES][TERMS],
+                double *scale)
 {
     struct near nearest[NEAREST];
-    const size_t rows = find_nearest(flow->complex, x, z, nearest);
+    const size_t rows = find_nearest(complex, points, all, x, z, nearest);
     if (rows < TERMS) {
         return false;
     }
-    const double farthest = sqrt(nearest[rows - 1].distance);
-    const double *const fields[VALUES] = {y, gm_flow_block(flow, y, GM_FLOW_THETA),
-                                          gm_flow_block(flow, y, GM_FLOW_OMEGA),
-                                          flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL};
-    double a[NEAREST][TERMS + VALUES], solution[VALUES][TERMS];
+    const double farthest = *scale = sqrt(nearest[rows - 1].distance);
+    double a[NEAREST][TERMS + VALUES];
     for (size_t i = 0; i < rows; i++) {
         const struct near *near = &nearest[i];
         const double p = near->x / farthest, q = near->z / farthest;
@@ -325,15 +327,47 @@ bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, doubl
             a[i][k] = weight * terms[k];
         }
         for (size_t s = 0; s < VALUES; s++) {
-            a[i][TERMS + s] = fields[s] ? weight * fields[s][near->vertex] : 0;
+            a[i][TERMS + s] = fields[s] ? weight * fields[s][near->index] : 0;
         }
     }
     least_squares(a, rows, solution);
+    return true;
+}
+
+bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z, struct gm_sample *sample)
+{
+    const struct gm_complex *complex = flow->complex;
+    const double *const fields[VALUES] = {y, gm_flow_block(flow, y, GM_FLOW_THETA),
+                                          gm_flow_block(flow, y, GM_FLOW_OMEGA),
+                                          flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL};
+    double solution[VALUES][TERMS], scale;
+    if (!fit(complex, complex->point, complex->vertices, fields, x, z, solution, &scale)) {
+        return false;
+    }
     *sample = (struct gm_sample){.psi = solution[0][0],
-                                 .u = solution[0][2] / farthest,
-                                 .v = -solution[0][1] / farthest,
+                                 .u = solution[0][2] / scale,
+                                 .v = -solution[0][1] / scale,
                                  .theta = solution[1][0],
                                  .omega = solution[2][0],
                                  .temperature = solution[3][0]};
     return true;
+}
+
+bool gm_flow_pressure_at(const struct gm_flow *flow, const double *y, double x, double z, double *pressure)
+{
+    const struct gm_complex *complex = flow->complex;
+    double *total = malloc(3 * complex->triangles * sizeof *total), solution[VALUES][TERMS], scale;
+    const double *const fields[VALUES] = {total};
+    struct gm_sample sample;
+    bool good = total && gm_flow_pressure(flow, y, total) && gm_flow_sample(flow, y, x, z, &sample);
+    for (size_t t = 0; good && t < complex->triangles; t++) {
+        gm_complex_centre(complex, t, total + complex->triangles + 2 * t);
+    }
+    good =
+        good && fit(complex, total + complex->triangles, complex->triangles, fields, x, z, solution, &scale);
+    if (good) {
+        *pressure = solution[0][0] - (sample.u * sample.u + sample.v * sample.v) / 2;
+    }
+    free(total);
+    return good;
 }

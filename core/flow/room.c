@@ -144,7 +144,9 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
                                              keys[k]);
                 }
             }
-            return gm_fail(fault, rest.begin, "%s: takes %s", words[line->word].word, list);
+            return gm_fail(fault, rest.begin, "%s: takes %s%s", words[line->word].word, list,
+                           given || line->word == GM_ROOM_START ? ""
+                                                                : "; a name with blanks is in double quotes");
         }
         size_t equals = rest.begin + length;
         equals += strspn(room->text + equals, " \t\r\n");
@@ -208,7 +210,10 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
             name.end++;
         }
         const size_t length = name.end - name.begin;
-        if (length == 0 || length >= GM_ROOM_NAME || (quoted && name.end == value.end)) {
+        if (quoted && name.end == value.end) {
+            return gm_fail(fault, value.begin, "%s: the name has no closing quote", words[word].word);
+        }
+        if (length == 0 || length >= GM_ROOM_NAME) {
             return gm_fail(fault, value.begin, "%s: needs a name, of at most 63 bytes", words[word].word);
         }
         memcpy(line->name, room->text + name.begin, length);
@@ -566,7 +571,9 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
         if (!met) {
             char names[160];
             return gm_fail(fault, line->place,
-                           "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
+                           tag != 0
+                               ? "the curves \"%.40s\" are not on the mesh's boundary"
+                               : "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
                            line->name, gm_triangulation_group_names(mesh, names, sizeof names));
         }
     }
@@ -637,6 +644,7 @@ static bool set_sides(const struct gm_room *room, const unsigned char *side_of, 
     if (good) {
         *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
         good = *boundary == GM_BOUNDARY_OK;
+        fault->offset = !good && flow->faulty > 0 ? room->lines[flow->faulty - 1].place : 0;
         if (*boundary == GM_BOUNDARY_UNBALANCED) {
             tell_balance(room, flow, fault);
         }

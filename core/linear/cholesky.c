@@ -229,6 +229,8 @@ bool gm_lu_solve(size_t n, const int *start, const int *column, const double *va
         return false;
     }
     suite.umfpack_di_defaults(control);
+    /* nested dissection, by METIS, takes longer than minimum degree does, and pays from about here on */
+    control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
     /* the rows are the columns of the transpose */
     bool good =
         suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, control, NULL) ==

@@ -214,6 +214,11 @@ size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values)
     if (max == 0) {
         return 0;
     }
+    const size_t own = axis->tick_count;
+    if (own > 0 && own <= max && axis->ticks[0] >= low && axis->ticks[own - 1] <= high) {
+        memcpy(values, axis->ticks, own * sizeof *values);
+        return own;
+    }
     switch (axis->scale) {
     case GM_LOG:
         return ticks_log(low, high, max, values);

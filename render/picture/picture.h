@@ -82,7 +82,9 @@ enum gm_scale { GM_LINEAR, GM_LOG, GM_PI /* linear, ticks at fractions of pi */ 
 struct gm_axis {
     const char *label; /* with its unit; "" for none */
     enum gm_scale scale;
-    double low, high; /* the range shown, low < high; positive on a log axis */
+    double low, high;    /* the range shown, low < high; positive on a log axis */
+    const double *ticks; /* in rising order, where they stand if they have room; NULL: at round values */
+    size_t tick_count;
 };
 
 /* Where a panel stands: states share a grid on the left, graphs stand on the right. */

@@ -166,7 +166,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .scalar_high = hot,
         .vorticity_range = 4,
         .speed_high = 1,
-        .scalar_name = "temperature θ",
+        .names = {[GM_SHOW_SCALAR] = "temperature θ"},
         .profiles = profiles,
         .profiles_below = true,
     };

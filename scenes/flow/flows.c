@@ -252,8 +252,9 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
     case GM_BOUNDARY_NO_OUTLET:
         return gm_refuse(sentence, "the mesh has an inlet but no outlet");
     case GM_BOUNDARY_SHORT:
-        return gm_refuse(sentence,
-                         "a piece of an inlet or an outlet is a single edge; it needs two at least");
+        return gm_refuse(
+            sentence,
+            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)");
     case GM_BOUNDARY_WHOLE:
         return gm_refuse(sentence, "the whole boundary is inlet or outlet");
     case GM_BOUNDARY_IN_HOLE:

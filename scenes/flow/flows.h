@@ -179,14 +179,14 @@ struct gm_look {
         const char *name;
         size_t offset;
     } told[2];
-    const char *remark;           /* NULL: none */
-    const char *clock_unit;       /* after the clock's time; "" */
-    const char *axes[2];          /* of the field, x and y, where one lane is shown; NULL: none are drawn */
-    double scalar_high;           /* the scalar's range; 0: inlet_scalar */
-    const char *scalar_name;      /* beside its colours; NULL: "concentration θ" */
-    double temperature[2];        /* its range */
-    const char *temperature_name; /* beside its colours */
-    double vorticity_range;       /* what the colours end at */
+    const char *remark;     /* NULL: none */
+    const char *clock_unit; /* after the clock's time; "" */
+    const char *axes[2];    /* of the field, x and y, where one lane is shown; NULL: none are drawn */
+    double scalar_high;     /* the scalar's range; 0: inlet_scalar */
+    double temperature[2];  /* its range */
+    const char
+        *names[GM_SHOW_TEMPERATURE + 1]; /* beside the colours, by what is shown; NULL: without a unit */
+    double vorticity_range;              /* what the colours end at */
     double speed_high;
     const char *const *sides; /* names of openings, by the number of their side; NULL: "inlet", "outlet" */
     const double *levels;     /* of psi, where they are not chosen by the flow through; NULL */
@@ -204,7 +204,7 @@ struct gm_look {
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 
-/* Two panels: u and theta along the profile, which runs upwards, the exact ones dashed and grey beneath. */
+/* Two panels: u and theta along the profile, which runs upwards, the exact ones dashed and grey on them. */
 void gm_flows_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                             enum gm_place place, const struct gm_profile *line, double (*velocity)(double y),
                             double (*theta)(double y));

@@ -77,6 +77,21 @@ static double probe_speed(const struct gm_view *view)
     return sampled(view, &sample) + hypot(sample.u, sample.v);
 }
 
+static bool has_stepped(const struct gm_view *view)
+{
+    return view->run && view->run->steps > 0;
+}
+
+static double probe_pressure(const struct gm_view *view)
+{
+    const double *at = subject_of(view)->at;
+    double pressure;
+    return has_stepped(view) &&
+                   gm_flow_pressure_at(gm_flow_of(view->problem), view->state, at[0], at[1], &pressure)
+               ? pressure
+               : NAN;
+}
+
 /* Through the pieces of a side: air, or the scalar that goes with it. */
 static double through(const struct gm_view *view, bool scalar)
 {
@@ -106,11 +121,6 @@ static double opening_flow(const struct gm_view *view)
 static double opening_scalar_flow(const struct gm_view *view)
 {
     return through(view, true);
-}
-
-static bool has_stepped(const struct gm_view *view)
-{
-    return view->run && view->run->steps > 0;
 }
 
 static double wall_heat(const struct gm_view *view)
@@ -154,12 +164,22 @@ static bool read_mesh(const struct gm_own_room *own, const struct gm_flows *chos
     return gm_flows_file(own->mesh, (enum gm_star)chosen->star, mesh, sentence);
 }
 
-static void tell(const struct gm_own_room *own, const struct gm_fault *fault, char *sentence)
+/* What is wrong with the room, at its line; of its boundary as a whole, without one. Nothing where nothing is. */
+static void tell(const struct gm_own_room *own, const struct gm_fault *fault, enum gm_boundary_fault boundary,
+                 char *sentence)
 {
     size_t line = 0, column = 0;
+    char whole[GM_MESSAGE] = "";
+    if (!fault->sentence[0] && gm_flows_boundary(boundary, whole)) {
+        return;
+    }
+    if (whole[0] && fault->offset == 0) {
+        gm_refuse(sentence, "%s", whole);
+        return;
+    }
     gm_text_place(own->room.text, fault->offset, &line, &column);
     gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", own->path, line, column,
-              fault->sentence[0] ? fault->sentence : "not enough memory");
+              whole[0] ? whole : fault->sentence);
 }
 
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
@@ -171,7 +191,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     enum gm_boundary_fault boundary;
     if (own->overfull) {
         return gm_refuse(sentence,
-                         "a room has at most %d observables: two of an opening or a probe, three of a hole",
+                         "a room has at most %d observables: two of an opening, three of a probe or a hole",
                          MOST_OBSERVED);
     }
     if (own->doubled) {
@@ -184,10 +204,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     struct gm_flow *flow = gm_room_flow(&own->room, &mesh, &fault, &boundary);
     gm_triangulation_close(&mesh);
     if (!flow) {
-        if (boundary != GM_BOUNDARY_OK && !fault.sentence[0]) {
-            return gm_flows_boundary(boundary, sentence);
-        }
-        tell(own, &fault, sentence);
+        gm_refuse(sentence, "not enough memory");
+        tell(own, &fault, boundary, sentence);
         return false;
     }
     flow->reynolds *= own->room.viscosity / chosen->viscosity;
@@ -211,11 +229,7 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
         enum gm_boundary_fault boundary;
         gm_room_fault(&own->room, gm_flow_of(view->problem), view->t + view->run->dt * half / 2, &fault,
                       &boundary);
-        if (fault.sentence[0]) {
-            tell(own, &fault, sentence);
-        } else if (boundary != GM_BOUNDARY_OK) {
-            gm_flows_boundary(boundary, sentence);
-        }
+        tell(own, &fault, boundary, sentence);
     }
     snprintf(text, size, "%s", sentence);
 }
@@ -320,9 +334,18 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .axes = {units ? gm_picture_text(picture, "x / %s", length) : "x",
                  units ? gm_picture_text(picture, "y / %s", length) : "y"},
         .scalar_high = high > 0 ? high : 1,
-        .scalar_name = own->room.scalar,
         .temperature = {warm[0], warm[1]},
-        .temperature_name = degree[0] ? gm_picture_text(picture, "temperature / %s", degree) : "temperature",
+        .names =
+            {
+                [GM_SHOW_SCALAR] = own->room.scalar,
+                [GM_SHOW_VORTICITY] = time[0] ? gm_picture_text(picture, "vorticity ω / (1/%s)", time) : NULL,
+                [GM_SHOW_SPEED] =
+                    time[0] ? gm_picture_text(picture, "speed |u| / (%s/%s)", length, time) : NULL,
+                [GM_SHOW_PRESSURE] =
+                    time[0] ? gm_picture_text(picture, "total pressure / (%s²/%s²)", length, time) : NULL,
+                [GM_SHOW_TEMPERATURE] =
+                    degree[0] ? gm_picture_text(picture, "temperature / %s", degree) : NULL,
+            },
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
         .sides = own->sides,
@@ -362,8 +385,9 @@ static void observe(struct gm_own_room *own, const char *name, const char *what,
         .title = own->observed[i][1],
         .evaluate = evaluate,
         .missing = evaluate == hole_drag || evaluate == hole_lift ? "there is no force before the first step"
-                   : evaluate == wall_heat                        ? "no heat has gone before the first step"
-                                                                  : NULL};
+                   : evaluate == probe_pressure ? "there is no pressure before the first step"
+                   : evaluate == wall_heat      ? "no heat has gone before the first step"
+                                                : NULL};
     own->subjects[i] = subject;
     own->observable_count++;
 }
@@ -420,6 +444,7 @@ static bool make_observables(struct gm_own_room *own, const struct gm_triangulat
             gm_room_point(room, line, scratch, subject.at);
             observe(own, line->name, "scalar", "concentration", probe_scalar, subject);
             observe(own, line->name, "speed", "speed", probe_speed, subject);
+            observe(own, line->name, "pressure", "pressure, over the density", probe_pressure, subject);
             if (heat) {
                 observe(own, line->name, "temperature", "temperature", probe_temperature, subject);
             }

@@ -96,7 +96,11 @@ static void colour_range(struct gm_picture *picture, const struct gm_lane *const
     }
 }
 
-static const char *const bar_labels[] = {"concentration θ", "vorticity ω", "speed |u|", "total pressure"};
+static const char *const bar_labels[GM_SHOW_TEMPERATURE + 1] = {
+    [GM_SHOW_SCALAR] = "concentration θ",  [GM_SHOW_VORTICITY] = "vorticity ω",
+    [GM_SHOW_SPEED] = "speed |u|",         [GM_SHOW_PRESSURE] = "total pressure",
+    [GM_SHOW_TEMPERATURE] = "temperature",
+};
 
 static const char *title_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
@@ -169,9 +173,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                      plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
                      plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
-        panel->colour_bar_label = own->show == GM_SHOW_TEMPERATURE                   ? look->temperature_name
-                                  : own->show == GM_SHOW_SCALAR && look->scalar_name ? look->scalar_name
-                                                                                     : bar_labels[own->show];
+        panel->colour_bar_label = look->names[own->show] ? look->names[own->show] : bar_labels[own->show];
     }
     if (own->grid) {
         gm_flow_draw_grid(picture, panel, complex, over);
@@ -343,20 +345,16 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 {
     enum { POINTS = 65 };
     struct gm_panel *panel = gm_panel_add(picture, place, "");
-    double points[2 * POINTS];
+    double points[2 * POINTS], known[2 * POINTS];
     panel->axes = true;
     panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
     for (int drawn = 0; drawn < 2; drawn++) {
         for (size_t i = 0; exact && i < POINTS; i++) {
             const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
-            points[2 * i] = exact(z);
-            points[2 * i + 1] = z;
-            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
-        }
-        if (drawn && exact) {
-            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, points, POINTS,
-                         false);
+            known[2 * i] = exact(z);
+            known[2 * i + 1] = z;
+            gm_range_add(&panel->x.low, &panel->x.high, known[2 * i]);
         }
         for (size_t k = 0; k < count; k++) {
             size_t made = 0;
@@ -378,7 +376,11 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                 gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
             }
         }
-        if (!drawn && !exact) {
+        if (drawn && exact) {
+            /* above the others: where they agree it is seen on them */
+            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, known, POINTS,
+                         false);
+        } else if (!drawn && !exact) {
             gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
         }
     }

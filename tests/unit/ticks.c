@@ -49,6 +49,19 @@ static void linear_axes_have_round_values(void **state)
     assert_string_equal(labels(GM_LINEAR, -3e-6, 3e-6, 4), "−3×10⁻⁶ 0 3×10⁻⁶");
 }
 
+/* Where an axis says where its ticks stand they do, as long as there are no more than have room. */
+static void ticks_of_ones_own(void **state)
+{
+    (void)state;
+    static const double own[] = {1, 2, 4};
+    const struct gm_axis axis = {
+        .label = "", .scale = GM_LOG, .low = 1, .high = 4, .ticks = own, .tick_count = GM_COUNT(own)};
+    double values[GM_TICK_MAX];
+    assert_int_equal(gm_ticks(&axis, 6, values), 3);
+    assert_memory_equal(values, own, sizeof own);
+    assert_int_not_equal(gm_ticks(&axis, 2, values), 3);
+}
+
 static void pi_axes_have_fractions_and_multiples(void **state)
 {
     (void)state;
@@ -141,6 +154,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(linear_axes_have_round_values),
         cmocka_unit_test(pi_axes_have_fractions_and_multiples),
+        cmocka_unit_test(ticks_of_ones_own),
         cmocka_unit_test(log_axes_have_powers_of_ten),
         cmocka_unit_test(any_range_has_three_to_six_different_ticks),
         cmocka_unit_test(odd_ranges_do_no_harm),
