@@ -622,8 +622,13 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     } else {
         draw_states(picture, lanes, count);
     }
-    if (own->has_section && lane->show == GM_SHOW_ALL) {
+    /* where there is room for one graph it is the section if a drive makes the motion, else what is kept */
+    const bool section = own->has_section && lane->show == GM_SHOW_ALL;
+    if (section && own->stroboscopic) {
         draw_section(picture, lanes, count);
     }
     draw_numbers(picture, lanes, count, MOST_GRAPHS - (own->has_section && !only_section ? 1 : 0));
+    if (section && !own->stroboscopic) {
+        draw_section(picture, lanes, count);
+    }
 }
