@@ -316,7 +316,13 @@ static bool keep_state(struct outcome *outcome, char *message)
     if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
         return gm_refuse(message, "not enough memory");
     }
-    return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
+    const bool written = gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
+    if (outputs->save && written) {
+        gm_save_keep(outputs->save);
+    } else if (outputs->save) {
+        gm_save_stop(outputs->save, errno);
+    }
+    return written;
 }
 
 /* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
@@ -341,41 +347,74 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
     return good;
 }
 
+/* Whether nobody looks at a step but who saves its state: steps and rows are then made many at once. */
+static bool only_saves(const struct outcome *outcome)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_lane *lane = outcome->drive.lane;
+    return outputs->save && !outputs->csv && !outputs->tracks && !outcome->maxima && !lane->scene->stop &&
+           gm_save_takes_many(outputs->save) && gm_rows_all(&outputs->rows, lane->run);
+}
+
+enum { TRACED = 1024 /* steps at once */ };
+
+static size_t row_width(const struct outcome *outcome)
+{
+    return 1 + outcome->drive.lane->problem.n;
+}
+
+/* Makes steps up to `stop`, TRACED at most, with a row each. */
+static bool make_rows(struct outcome *outcome, long stop, double *trace, char *message)
+{
+    struct gm_drive *drive = &outcome->drive;
+    const long most = drive->lane->run->steps + TRACED;
+    drive->trace = trace;
+    const bool good = gm_drive_to(drive, stop < most ? stop : most, false, message);
+    const size_t count = (size_t)(drive->trace - trace) / row_width(outcome);
+    drive->trace = NULL;
+    outcome->paused.last_row = drive->lane->run->steps;
+    return good && gm_save_rows(outcome->outputs->save, drive->lane->run, trace, count, message);
+}
+
+/* Makes steps up to the next that is looked at, `stop` at most, and the row of that. */
+static bool make_steps(struct outcome *outcome, long stop, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_run *run = outcome->drive.lane->run;
+    const bool has_rows = outputs->csv || outputs->save;
+    const long row = has_rows ? gm_rows_next(&outputs->rows, run) : stop;
+    const long next = outcome->maxima ? run->steps + 1 : row;
+    const double before = run->t;
+    const long steps = run->steps;
+    if (!gm_drive_to(&outcome->drive, next < stop ? next : stop, outputs->tracks != NULL, message)) {
+        return false;
+    }
+    if (run->steps == steps) {
+        return true;
+    }
+    take_maxima(outcome);
+    const bool due = has_rows && run->status == GM_OK && gm_rows_due(&outputs->rows, run, before);
+    return !due || write_rows(outcome, message);
+}
+
 /* Drives one lane to its end. Looks at every step only where that is asked for. */
 static bool drive_lane(struct outcome *outcome, long steps, char *message)
 {
-    const struct outputs *outputs = outcome->outputs;
-    struct gm_drive *drive = &outcome->drive;
-    const struct gm_run *run = drive->lane->run;
-    const bool has_rows = outputs->csv || outputs->save;
+    const bool keeps = outcome->outputs->options->checkpoint != NULL;
+    const struct gm_run *run = outcome->drive.lane->run;
     struct pace pace = {.steps = 1, .looked = gm_clock_seconds(), .kept = gm_clock_seconds()};
-    while (gm_drive_goes_on(drive, steps) && !gm_interrupted) {
-        long next = outcome->maxima ? run->steps + 1 : steps;
-        if (has_rows) {
-            const long row = gm_rows_next(&outputs->rows, run);
-            next = row < next ? row : next;
-        }
-        if (outputs->options->checkpoint && pace.steps < next - run->steps) {
-            next = run->steps + pace.steps;
-        }
-        const long before = run->steps;
-        const double t_before = run->t;
-        if (!gm_drive_to(drive, next < steps ? next : steps, outputs->tracks != NULL, message)) {
-            return false;
-        }
-        if (run->steps == before) {
-            break;
-        }
-        take_maxima(outcome);
-        if (has_rows && run->status == GM_OK && gm_rows_due(&outputs->rows, run, t_before) &&
-            !write_rows(outcome, message)) {
-            return false;
-        }
-        if (outputs->options->checkpoint && !keep_pace(outcome, &pace, message)) {
-            return false;
-        }
+    /* without memory for it, step by step */
+    double *trace = only_saves(outcome) ? malloc(TRACED * row_width(outcome) * sizeof *trace) : NULL;
+    bool good = true;
+    for (long before = -1;
+         good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted && run->steps != before;) {
+        before = run->steps;
+        const long stop = keeps && pace.steps < steps - before ? before + pace.steps : steps;
+        good = trace ? make_rows(outcome, stop, trace, message) : make_steps(outcome, stop, message);
+        good = good && (!keeps || keep_pace(outcome, &pace, message));
     }
-    return true;
+    free(trace);
+    return good;
 }
 
 /* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
@@ -446,7 +485,10 @@ static void end_cut(struct outcome *outcome)
 {
     char message[GM_MESSAGE];
     outcome->interrupted = true;
-    char *meta = meta_of(outcome);
+    snprintf(message, sizeof message,
+             "there was no room for more rows: the run came to t = %.6g, those of the file end before",
+             outcome->drive.lane->run->t);
+    char *meta = gm_meta_text(outcome->drive.lane, "interrupted", message);
     if (meta) {
         gm_save_end(outcome->outputs->save, meta, message);
     }

@@ -205,17 +205,34 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     const double *state = gm_run_state(run);
     bool good = (lane->rows < lane->capacity || grow(saving, lane)) &&
                 gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
-    for (size_t i = 0; i < lane->count && good && lane->plain; i++) {
-        good = gm_column_put(&lane->columns[i + 1], state + i, sizeof *state);
-    }
-    for (size_t i = 0; i < lane->count && good && !lane->plain; i++) {
+    for (size_t i = 0; i < lane->count && good; i++) {
         good = lane->quantities[i].fixed || put_quantity(lane, i, run, state);
     }
     return good;
 }
 
-static void cut(struct gm_saved *lane)
+/* The columns take their numbers out of the rows. Where one of them fails the rows are counted (cut). */
+static bool rows(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                 const double *rows, size_t count)
 {
+    const size_t width = 1 + run->problem->n;
+    bool good = true;
+    for (size_t done = 0, part = 0; done < count && good; done += part) {
+        if (lane->rows == lane->capacity && !grow(saving, lane)) {
+            return false;
+        }
+        part = lane->capacity - lane->rows < count - done ? lane->capacity - lane->rows : count - done;
+        for (size_t i = 0; i <= lane->count; i++) {
+            good = gm_column_put_every(&lane->columns[i], rows + done * width + i, width, part) && good;
+        }
+        lane->rows += part;
+    }
+    return good;
+}
+
+static void cut(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    (void)saving;
     for (size_t i = 0; i <= lane->count; i++) {
         const uint64_t there = (lane->columns[i].place - lane->starts[i]) / bytes_of(lane, i);
         lane->rows = !is_fixed(lane, i) && there < lane->rows ? there : lane->rows;
@@ -251,4 +268,4 @@ static bool finish(const struct gm_saving *saving, size_t lanes, int file)
 }
 
 const struct gm_data_format gm_data_format_npz = {
-    .ending = ".npz", .begin = begin, .row = row, .cut = cut, .end = end, .finish = finish};
+    .ending = ".npz", .begin = begin, .row = row, .rows = rows, .cut = cut, .end = end, .finish = finish};

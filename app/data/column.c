@@ -47,6 +47,19 @@ bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size
            (size > GM_COLUMN_BUFFER ? write_out(column, bytes, size) : gm_column_put(column, bytes, size));
 }
 
+bool gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count)
+{
+    if (count * sizeof *numbers > GM_COLUMN_BUFFER - column->used && !gm_column_flush(column)) {
+        return false;
+    }
+    unsigned char *to = column->buffer + column->used;
+    for (size_t i = 0; i < count; i++) {
+        memcpy(to + i * sizeof *numbers, numbers + i * stride, sizeof *numbers);
+    }
+    column->used += count * sizeof *numbers;
+    return true;
+}
+
 bool gm_column_print(struct gm_column *column, const char *format, ...)
 {
     char text[512];

@@ -37,6 +37,8 @@ static inline bool gm_column_put(struct gm_column *column, const void *bytes, si
     column->used += size;
     return true;
 }
+/* Appends `count` numbers, `stride` of them apart, fewer than a buffer holds; false with errno. */
+bool gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count);
 __attribute__((format(printf, 2, 3))) bool gm_column_print(struct gm_column *column, const char *format, ...);
 /* Hands all that was put to the system. False with errno: `place` is behind what was written. */
 bool gm_column_flush(struct gm_column *column);

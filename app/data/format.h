@@ -48,13 +48,18 @@ struct gm_data_format {
     bool (*begin)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected);
     bool (*row)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run);
+    /* Many rows at once, of a lane that is plain, which it counts itself (gm_save_rows). NULL: never. */
+    bool (*rows)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                 const double *rows, size_t count);
     /* After a write that failed, and a flush of all columns: lane->rows is how many there are. */
-    void (*cut)(struct gm_saved *lane);
+    void (*cut)(const struct gm_saving *saving, struct gm_saved *lane);
     /* The lane is over, and has its meta; what was put was flushed. */
     bool (*end)(const struct gm_saving *saving, struct gm_saved *lane);
     /* Makes the file of the lanes, now and then while rows come, too. NULL: it is their files one behind the
        other, and then what `finish`, if there is one, writes behind those of the first `lanes`. */
     bool (*list)(const struct gm_saving *saving, FILE *file);
+    /* ... and gives back the room of the last rows of a lane that has ended; false: of all but the first. */
+    bool (*drop)(const struct gm_saving *saving, struct gm_saved *lane);
     bool (*finish)(const struct gm_saving *saving, size_t lanes, int file);
     /* A sentence why these lanes cannot be in one file of this format; NULL: they can, always. */
     const char *(*refuse)(const struct gm_saving *saving);

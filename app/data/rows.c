@@ -22,6 +22,11 @@ static double step_from(const struct gm_rows *rows, const struct gm_run *run, do
     return round(k * steps);
 }
 
+bool gm_rows_all(const struct gm_rows *rows, const struct gm_run *run)
+{
+    return !is_by_time(rows, run) && rows->every < 2;
+}
+
 long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
 {
     const long next = run->steps + 1, far = 1L << 40;

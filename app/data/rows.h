@@ -13,6 +13,9 @@ struct gm_rows {
                         the first ones that reach them; NAN: every step, unless `every` says otherwise */
 };
 
+/* Whether every step has one. */
+bool gm_rows_all(const struct gm_rows *rows, const struct gm_run *run);
+
 /* The step of the next row, after the present one. */
 long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run);
 

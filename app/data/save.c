@@ -20,8 +20,8 @@ struct gm_save {
     const struct gm_data_format *format;
     struct gm_part *part;
     char *path;
-    double due; /* of a file that grows: when it is made anew */
-    bool resumable;
+    double due;   /* of a file that grows: when it is made anew */
+    bool kept;    /* there is a checkpoint: it can be gone on with */
     int cut;      /* errno of the write for which there was no room; 0: there was none */
     size_t lanes; /* of those that have begun, how many the file has */
 };
@@ -73,7 +73,7 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
     *save = (struct gm_save){.saving = {.path = name, .lanes = saved, .count = lanes},
                              .format = format_of(path),
                              .path = name,
-                             .resumable = resumable};
+                             .kept = go_on};
     save->saving.part = save->part = gm_part_open(path, go_on, message);
     if (!save->part) {
         gm_save_close(save, false, true, message);
@@ -122,7 +122,7 @@ static bool leave_out(struct gm_save *save, char *message)
 {
     struct gm_saved *lane = present(save);
     const int why = errno;
-    if (is_want_of_room(why) && !save->resumable && save->saving.begun > 1) {
+    if (is_want_of_room(why) && !save->kept && save->saving.begun > 1) {
         release(lane);
         gm_npz_close(lane->npz);
         gm_part_drop(save->part, lane->index, false);
@@ -169,18 +169,28 @@ static bool flush(struct gm_saved *lane)
     return good;
 }
 
+void gm_save_stop(struct gm_save *save, int why)
+{
+    struct gm_saved *lane = present(save);
+    if (is_want_of_room(why) && !save->kept && save->cut == 0) {
+        flush(lane);
+        save->format->cut(&save->saving, lane);
+        save->cut = lane->rows > 0 ? why : 0;
+    }
+}
+
 /* A write failed. Where that is for want of room, and the lane has rows, it will end with those that fit. */
 static bool give_up(struct gm_save *save, char *message)
 {
-    struct gm_saved *lane = present(save);
     const int why = errno;
-    if (is_want_of_room(why) && !save->resumable && save->cut == 0) {
-        flush(lane);
-        save->format->cut(lane);
-        save->cut = lane->rows > 0 ? why : 0;
-    }
+    gm_save_stop(save, why);
     errno = why;
     return complain(save, message);
+}
+
+void gm_save_keep(struct gm_save *save)
+{
+    save->kept = true;
 }
 
 bool gm_save_is_cut(const struct gm_save *save)
@@ -205,11 +215,22 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
     return true;
 }
 
+bool gm_save_takes_many(const struct gm_save *save)
+{
+    return save->format->rows && save->saving.lanes[save->saving.begun - 1].plain;
+}
+
+bool gm_save_rows(struct gm_save *save, const struct gm_run *run, const double *rows, size_t count,
+                  char *message)
+{
+    return save->format->rows(&save->saving, present(save), run, rows, count) || give_up(save, message);
+}
+
 bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message)
 {
     struct gm_saved *lane = present(save);
     *rows = lane->rows;
-    return (flush(lane) && fsync(lane->file) == 0) || complain(save, message);
+    return (flush(lane) && fsync(lane->file) == 0) || give_up(save, message);
 }
 
 bool gm_save_end(struct gm_save *save, const char *meta, char *message)
@@ -252,12 +273,12 @@ static bool join(struct gm_save *save, int file, bool there)
         if (!good) {
             break;
         }
-        if (save->lanes > 0 && !save->resumable) {
+        if (save->lanes > 0 && !save->kept) {
             gm_part_drop(save->part, lane->index, false);
         }
         place += lane->size;
     }
-    if (!good && (!is_want_of_room(errno) || save->resumable || save->lanes == 0)) {
+    if (!good && (!is_want_of_room(errno) || save->kept || save->lanes == 0)) {
         return false;
     }
     save->cut = good ? save->cut : errno;
@@ -271,11 +292,25 @@ static bool copy(FILE *file, const void *context)
     return join(*save, fileno(file), false);
 }
 
+/* Where there is no room for the list of all rows, the last of them make it. */
+static bool publish_list(struct gm_save *save)
+{
+    while (!gm_temporary_make(save->path, list, save)) {
+        const int why = errno;
+        if (!is_want_of_room(why) || save->kept || !save->format->drop(&save->saving, present(save))) {
+            errno = why;
+            return false;
+        }
+        save->cut = why;
+    }
+    return true;
+}
+
 /* The file becomes the first lane's, or, where that stays to be gone on with, one of its own. */
 static bool publish(struct gm_save *save, bool keep)
 {
     if (save->format->list) {
-        return gm_temporary_make(save->path, list, save);
+        return publish_list(save);
     }
     if (keep) {
         return gm_temporary_make(save->path, copy, &save);
@@ -308,7 +343,7 @@ static bool tell_cut(const struct gm_save *save, char *message)
 bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message)
 {
     const bool makes = (complete || save->cut != 0) && save->saving.begun > 0;
-    bool good = !makes || publish(save, keep) || complain(save, message);
+    bool good = !makes || publish(save, keep && save->kept) || complain(save, message);
     good = good && (!makes || save->cut == 0 || tell_cut(save, message));
     for (size_t i = 0; i < save->saving.begun; i++) {
         struct gm_saved *lane = &save->saving.lanes[i];
@@ -316,7 +351,7 @@ bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message
         gm_npz_close(lane->npz);
         free(lane->meta);
     }
-    gm_part_close(save->part, !keep);
+    gm_part_close(save->part, !keep || !save->kept);
     free(save->saving.lanes);
     free(save->path);
     free(save);

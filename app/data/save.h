@@ -30,12 +30,21 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
                    uint64_t expected, char *message);
 /* A row: the state now. */
 bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
+/* Whether the present lane takes many rows at once, and these: times and states, as gm_drive_to leaves them.
+   A row by itself costs more than a short step. */
+bool gm_save_takes_many(const struct gm_save *save);
+bool gm_save_rows(struct gm_save *save, const struct gm_run *run, const double *rows, size_t count,
+                  char *message);
 /* The rows of the present lane, safe on the disk: what gm_save_begin goes on from. */
 bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message);
 /* The lane is over; meta: JSON that says what it was. */
 bool gm_save_end(struct gm_save *save, const char *meta, char *message);
 
-/* Whether a write failed for want of room, of a file that is not resumable: it will have the rows that fit, once
+/* There is a checkpoint that counts the rows which were made safe: the file can be gone on with. */
+void gm_save_keep(struct gm_save *save);
+/* There was no room for something beside the file (an errno). */
+void gm_save_stop(struct gm_save *save, int why);
+/* Whether there was no room, for a file that cannot be gone on with: it will have the rows that fit, once
    this lane has ended, and gm_save_close says so. */
 bool gm_save_is_cut(const struct gm_save *save);
 

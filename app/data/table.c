@@ -57,8 +57,9 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good && gm_column_put(column, "\n", 1);
 }
 
-static void cut(struct gm_saved *lane)
+static void cut(const struct gm_saving *saving, struct gm_saved *lane)
 {
+    (void)saving;
     const uint64_t lines = gm_lines_cut(&lane->columns[0]);
     lane->rows = lines > lane->heads ? lines - lane->heads : 0;
 }

@@ -329,42 +329,66 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     return lane->file >= 0 && gm_lines_open(&lane->columns[0], lane->file, lane->rows);
 }
 
-static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+/* The file of a row's points; malloc'ed. */
+static char *path_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t row,
+                     const char *ending)
 {
-    static const struct {
-        enum gm_support support;
-        const char *ending;
-    } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
-    char *folder = folder_of(saving), prefix[40] = "";
-    bool good = folder != NULL;
-    errno = ENOMEM; /* where no call to a file says otherwise */
+    char *folder = folder_of(saving), *path = NULL, prefix[40] = "";
     if (saving->count > 1) {
         snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
     }
-    const char *slash = folder ? strrchr(folder, '/') : NULL;
-    const char *name = slash ? slash + 1 : folder;
+    if (folder && asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, row, ending) < 0) {
+        path = NULL;
+    }
+    free(folder);
+    return path;
+}
+
+/* Which files a row has. */
+static const struct {
+    enum gm_support support;
+    const char *ending;
+} groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
+
+static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+{
+    const char *slash = strrchr(saving->path, '/');
+    /* of the files' paths, which the list leaves out */
+    const size_t front = slash ? (size_t)(slash + 1 - saving->path) : 0;
+    bool good = true;
+    errno = ENOMEM; /* where no call to a file says otherwise */
     int parts = 0;
     for (size_t i = 0; i < GM_COUNT(groups) && good; i++) {
         struct group group;
-        char *path = NULL;
         if (!group_of(lane, run, groups[i].support, &group)) {
             continue;
         }
-        if (asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, lane->rows, groups[i].ending) < 0) {
-            errno = ENOMEM;
-            good = false;
-            break;
-        }
-        good = write_group(&group, path) &&
+        char *path = path_of(saving, lane, lane->rows, groups[i].ending);
+        good = path && write_group(&group, path) &&
                gm_column_print(&lane->columns[0], "%s<DataSet timestep=\"%.17g\" part=\"%zu\" file=\"",
                                parts > 0 ? " " : "", run->t, 2 * lane->index + (size_t)(parts > 0)) &&
-               gm_column_put(&lane->columns[0], path + (name - folder), strlen(path + (name - folder))) &&
+               gm_column_put(&lane->columns[0], path + front, strlen(path + front)) &&
                gm_column_print(&lane->columns[0], "\"/>");
         parts++;
         free(path);
     }
-    free(folder);
-    return good && gm_column_put(&lane->columns[0], "\n", 1); /* one line a row */
+    /* one line a row, which is there with its files */
+    return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
+}
+
+/* Of the rows from `from` on, up to one that may have been begun. */
+static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
+                        uint64_t last)
+{
+    for (uint64_t row = from; row <= last; row++) {
+        for (size_t i = 0; i < GM_COUNT(groups); i++) {
+            char *path = path_of(saving, lane, row, groups[i].ending);
+            if (path) {
+                unlink(path);
+            }
+            free(path);
+        }
+    }
 }
 
 /* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */
@@ -405,9 +429,29 @@ static bool list(const struct gm_saving *saving, FILE *file)
     return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
 }
 
-static void cut(struct gm_saved *lane)
+static void cut(const struct gm_saving *saving, struct gm_saved *lane)
 {
+    const uint64_t begun = lane->rows;
     lane->rows = gm_lines_cut(&lane->columns[0]);
+    remove_rows(saving, lane, lane->rows, begun);
+}
+
+static bool drop(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    /* a line of the list is short beside a row's file */
+    const uint64_t rows = lane->rows, part = (rows + 63) / 64;
+    struct gm_column lines;
+    const int file = rows > part ? gm_part_lane(saving->part, lane->index) : -1;
+    const bool good = file >= 0 && gm_lines_open(&lines, file, rows - part);
+    if (good) {
+        gm_column_close(&lines);
+        remove_rows(saving, lane, rows - part, rows);
+        lane->rows = rows - part;
+    }
+    if (file >= 0) {
+        close(file);
+    }
+    return good;
 }
 
 static bool end(const struct gm_saving *saving, struct gm_saved *lane)
@@ -418,4 +462,4 @@ static bool end(const struct gm_saving *saving, struct gm_saved *lane)
 }
 
 const struct gm_data_format gm_data_format_pvd = {
-    .ending = ".pvd", .begin = begin, .row = row, .cut = cut, .end = end, .list = list};
+    .ending = ".pvd", .begin = begin, .row = row, .cut = cut, .end = end, .list = list, .drop = drop};

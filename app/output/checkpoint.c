@@ -6,6 +6,8 @@
 #include <stdlib.h>
 
 #include "app/output/snapshot.h"
+#include "render/files/temporary.h"
+#include "render/message.h"
 #include "scenes/frame/lane_pack.h"
 
 char *gm_checkpoint_path(const struct gm_frames *frames)
@@ -51,7 +53,7 @@ bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long 
     struct gm_snapshot snapshot = {.identity = frames->identity, .position = frame, .lanes = (uint32_t)count};
     snapshot.body = pack(lanes, count, &snapshot.size);
     if (!snapshot.body) {
-        return gm_refuse(message, "cannot write %.360s: not enough memory", path);
+        return gm_temporary_refuse(message, path, "not enough memory");
     }
     const bool good = gm_snapshot_write(path, &snapshot, message);
     free(snapshot.body);

@@ -3,6 +3,7 @@
 #include "app/output/press.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "render/address_space.h"
+#include "render/drawing/glyphs.h"
 #include "render/files/thread.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
@@ -135,6 +137,10 @@ void gm_press_tell(const struct gm_print *print, const char *table)
 {
     if (strcmp(print->path, "-") != 0) {
         gm_complain("wrote %s%s%s", print->path, table[0] ? " and " : "", table);
+    }
+    if (gm_glyphs_lacking() != 0 && print->format != GM_FORMAT_SVG) {
+        gm_complain("the font has no letter U+%04" PRIX32 ": a box stands for it in the picture",
+                    gm_glyphs_lacking());
     }
     if (print->fields > 0 && !gm_memory_was_short()) {
         gm_complain("%s in it %s of pixels; all else is lines and letters",

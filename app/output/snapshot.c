@@ -11,6 +11,7 @@
 #include "app/request/drive.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
+#include "render/message.h"
 #include "scenes/frame/lane_pack.h"
 
 /* The file: this head, the identity, the body. Its numbers are this machine's, as the lanes' bytes are this
@@ -67,7 +68,7 @@ bool gm_snapshot_write(const char *path, const struct gm_snapshot *snapshot, cha
                                      snapshot->body, snapshot->size);
     const struct writing writing = {&head, snapshot};
     return gm_temporary_make(path, write_body, &writing) ||
-           gm_refuse(message, "cannot write %.360s: %s", path, strerror(errno));
+           gm_temporary_refuse(message, path, strerror(errno));
 }
 
 /* Why the file is not the one that is meant; NULL: it is, and the body is read. */

@@ -85,6 +85,20 @@ static double asking(void)
     return least;
 }
 
+/* In single steps, with a row after each. */
+static void trace_to(struct gm_drive *drive, long stop)
+{
+    struct gm_lane *lane = drive->lane;
+    const struct gm_run *run = lane->run;
+    const size_t count = lane->problem.n * lane->problem.m;
+    const double until = until_of(lane);
+    while (gm_run_goes_on(run, stop, until) && gm_lane_to(lane, run->steps + 1, until) == GM_OK) {
+        drive->trace[0] = run->t;
+        memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
+        drive->trace += 1 + count;
+    }
+}
+
 /* Makes steps up to `stop` in all, which are timed. */
 static void advance(struct gm_drive *drive, long stop, bool record)
 {
@@ -94,6 +108,8 @@ static void advance(struct gm_drive *drive, long stop, bool record)
     const double start = measured ? gm_clock_processor_seconds() : 0;
     if (record) {
         gm_run_to(lane->run, stop, until_of(lane));
+    } else if (drive->trace) {
+        trace_to(drive, stop);
     } else {
         /* what it follows on the way costs less than looking at the clock */
         gm_lane_to(lane, stop, until_of(lane));

@@ -15,6 +15,8 @@ struct gm_drive {
     double each;     /* ... of one, when it was last measured */
     long unmeasured; /* so many more steps are taken for as long */
     double looked;   /* of the seconds, when another engine was last looked for */
+    double
+        *trace; /* where the next steps that are not recorded leave their rows (t and the state); or NULL */
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.

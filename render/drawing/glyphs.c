@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -225,6 +226,13 @@ static bool table_grow(struct gm_glyphs *glyphs)
     return true;
 }
 
+static _Atomic uint32_t lacking;
+
+uint32_t gm_glyphs_lacking(void)
+{
+    return lacking;
+}
+
 /* The entry of a letter; its advance is known, its image perhaps not yet. */
 static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int height, uint32_t code,
                               int shift)
@@ -240,6 +248,7 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
     const FT_Face face = face_of(glyphs, font, height);
     *glyph = (struct glyph){.used = true, .key = key, .index = FT_Get_Char_Index(face, code)};
     glyphs->count++;
+    lacking = glyph->index == 0 ? code : lacking;
     if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0) {
         glyph->advance = (float)face->glyph->linearHoriAdvance / 65536.0f;
     }

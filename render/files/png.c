@@ -32,16 +32,8 @@ enum {
     SIGNATURE = 8, /* bytes */
     CHECKSUM = 4,
     LEVEL = 1,
-    MESSAGE = 512,
-    PATH_SHOWN = 360,        /* of a path in a sentence, which must have room for the reason */
     LONGEST_CHUNK = 1 << 30, /* the format allows 2^31 - 1 */
 };
-
-static bool fail(char *message, const char *path, const char *reason)
-{
-    snprintf(message, MESSAGE, "cannot write %.*s: %s", PATH_SHOWN, path, reason);
-    return false;
-}
 
 static void ignore_warning(png_structp png, png_const_charp text)
 {
@@ -215,7 +207,7 @@ bool gm_png_write(const char *path, int width, int height, double dpi, const uns
                   const struct gm_png_text *texts, size_t count, char *message)
 {
     if (width < 1 || height < 1 || (size_t)height > SIZE_MAX / 4 / (size_t)width) {
-        return fail(message, path, "a picture has at least one pixel, and fits in memory");
+        return gm_temporary_refuse(message, path, "a picture has at least one pixel, and fits in memory");
     }
     struct image image = {.width = width, .height = height, .dpi = dpi, .text_count = (int)count};
     image.texts = calloc(count ? count : 1, sizeof *image.texts);
@@ -223,7 +215,7 @@ bool gm_png_write(const char *path, int width, int height, double dpi, const uns
     if (!image.texts || !packed) {
         free(image.texts);
         free(packed);
-        return fail(message, path, strerror(ENOMEM));
+        return gm_temporary_refuse(message, path, strerror(ENOMEM));
     }
     image.packed = packed;
     for (size_t i = 0; i < count; i++) {
@@ -240,5 +232,6 @@ bool gm_png_write(const char *path, int width, int height, double dpi, const uns
                                            : write_directly(path, &stream, &image);
     free(packed);
     free(image.texts);
-    return written || fail(message, path, stream.error ? strerror(stream.error) : stream.reason);
+    return written ||
+           gm_temporary_refuse(message, path, stream.error ? strerror(stream.error) : stream.reason);
 }

@@ -13,6 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "render/message.h"
+
 bool gm_temporary_fits(const char *path)
 {
     struct stat status;
@@ -34,6 +36,12 @@ char *gm_temporary_name(const char *path, const char *ending)
         return NULL;
     }
     return temporary;
+}
+
+bool gm_temporary_refuse(char *message, const char *path, const char *reason)
+{
+    const bool standard = strcmp(path, "/dev/stdout") == 0;
+    return gm_refuse(message, "cannot write %.360s: %s", standard ? "standard output" : path, reason);
 }
 
 static int write_all(const char *path, int flags, const void *bytes, size_t size)

@@ -13,6 +13,10 @@
    are not: renaming would put a file in their place. */
 bool gm_temporary_fits(const char *path);
 
+/* Writes into a message (GM_MESSAGE) that the path cannot be written, and why; /dev/stdout has the name by
+   which it is asked for. False, as of a refusal. */
+bool gm_temporary_refuse(char *message, const char *path, const char *reason);
+
 /* Writes bytes to path: by way of a temporary name where that fits, else directly. 0, or an errno. */
 int gm_temporary_write(const char *path, const void *bytes, size_t size);
 

@@ -142,12 +142,16 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
 {
     const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
     for (size_t i = 0; i < count; i++) {
-        gm_labels_add(list, (struct gm_label){.text = ticks[i].label,
-                                              .size = GM_TEXT_TICK,
-                                              .role = GM_SECONDARY,
-                                              .x = across ? ticks[i].position : at,
-                                              .y = across ? at : ticks[i].position - half,
-                                              .anchor = anchor});
+        struct gm_label label = {.text = ticks[i].label,
+                                 .size = GM_TEXT_TICK,
+                                 .role = GM_SECONDARY,
+                                 .x = across ? ticks[i].position : at,
+                                 .y = across ? at : ticks[i].position - half,
+                                 .anchor = anchor};
+        if (!gm_labels_add(list, label) && across && i == 0) { /* the other axis has one in the corner */
+            label.anchor = GM_ANCHOR_LEFT;
+            gm_labels_add(list, label);
+        }
     }
 }
 

@@ -14,7 +14,8 @@
     F(clip)                                                                                                  \
     F(close_path)                                                                                            \
     F(create)                                                                                                \
-    F(destroy) F(fill) F(font_face_destroy) F(font_options_create) F(font_options_destroy)                   \
+    F(destroy)                                                                                               \
+    F(fill) F(font_face_destroy) F(font_options_create) F(font_options_destroy)                              \
         F(font_options_set_hint_metrics) F(font_options_set_hint_style) F(ft_font_face_create_for_pattern)   \
             F(get_scaled_font) F(glyph_free) F(image_surface_create) F(image_surface_get_data)               \
                 F(image_surface_get_stride) F(line_to) F(move_to) F(new_path) F(paint) F(paint_with_alpha)   \

@@ -457,7 +457,7 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
     free(bytes);
     *fields = svg.fields;
     if (error != 0 && opened) {
-        snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(error));
+        gm_temporary_refuse(message, path, strerror(error));
     }
     errno = error;
     return error == 0;

@@ -345,17 +345,11 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 {
     enum { POINTS = 65 };
     struct gm_panel *panel = gm_panel_add(picture, place, "");
-    double points[2 * POINTS], known[2 * POINTS];
+    double points[2 * POINTS];
     panel->axes = true;
     panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
     for (int drawn = 0; drawn < 2; drawn++) {
-        for (size_t i = 0; exact && i < POINTS; i++) {
-            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
-            known[2 * i] = exact(z);
-            known[2 * i + 1] = z;
-            gm_range_add(&panel->x.low, &panel->x.high, known[2 * i]);
-        }
         for (size_t k = 0; k < count; k++) {
             size_t made = 0;
             for (size_t i = 0; i < POINTS; i++) {
@@ -376,11 +370,17 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                 gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
             }
         }
-        if (drawn && exact) {
-            /* above the others: where they agree it is seen on them */
-            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, known, POINTS,
+        for (size_t i = 0; exact && i < POINTS; i++) {
+            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
+            points[2 * i] = exact(z);
+            points[2 * i + 1] = z;
+            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
+        }
+        if (drawn && exact) { /* over the lanes, which hide what they agree with */
+            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, points, POINTS,
                          false);
-        } else if (!drawn && !exact) {
+        }
+        if (!drawn && !exact) {
             gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
         }
     }

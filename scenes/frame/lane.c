@@ -220,8 +220,10 @@ static bool follow(struct gm_lane *lane)
 static bool follows_together(const struct gm_lane *lane)
 {
     const struct gm_family *family = lane->scheme->family;
-    bool alone = lane->scene->stops && lane->side != 0 && !family->own_time && !family->memory &&
-                 !family->workspace_reset;
+    if (!lane->scene->stops) { /* asked at every step that is looked at */
+        return false;
+    }
+    bool alone = lane->side != 0 && !family->own_time && !family->memory && !family->workspace_reset;
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         alone = alone && !(lane->scene->observables[i].period > 0);
     }

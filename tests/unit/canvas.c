@@ -26,8 +26,8 @@ static struct gm_picture *plain_picture(struct gm_panel **panel)
     struct gm_picture *picture = gm_picture_open();
     assert_non_null(picture);
     *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
-    (*panel)->x = (struct gm_axis){"", GM_LINEAR, -1, 1};
-    (*panel)->y = (struct gm_axis){"", GM_LINEAR, -1, 1};
+    (*panel)->x = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -1, .high = 1};
+    (*panel)->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -1, .high = 1};
     return picture;
 }
 
@@ -362,8 +362,8 @@ static struct gm_picture *full_picture(void)
         gm_mark_text(picture, panel, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, 0, 0, GM_ANCHOR_CENTRE, "θ");
     }
     struct gm_panel *graph = gm_panel_add(picture, GM_PLACE_GRAPH, "energy error");
-    graph->x = (struct gm_axis){"t", GM_PI, 0, 4.8};
-    graph->y = (struct gm_axis){"", GM_LOG, 1e-16, 1};
+    graph->x = (struct gm_axis){.label = "t", .scale = GM_PI, .low = 0, .high = 4.8};
+    graph->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1e-16, .high = 1};
     gm_mark_line(picture, graph, (struct gm_style){GM_LANE, 1, 2.4, GM_SOLID},
                  (const double[]){0, 1e-16, 4.8, 1}, 2, false);
     return picture;

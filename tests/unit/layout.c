@@ -28,8 +28,8 @@ static struct gm_picture *picture_of(size_t states, size_t graphs, bool axes, bo
         panel->note = "area × 1.000";
         panel->equal = true;
         panel->axes = axes;
-        panel->x = (struct gm_axis){"q", GM_LINEAR, -2, 2};
-        panel->y = (struct gm_axis){"p", GM_LINEAR, -1.5, 1.5};
+        panel->x = (struct gm_axis){.label = "q", .scale = GM_LINEAR, .low = -2, .high = 2};
+        panel->y = (struct gm_axis){.label = "p", .scale = GM_LINEAR, .low = -1.5, .high = 1.5};
         if (bar) {
             panel->colour_bar = true;
             panel->colour_bar_label = "pollutant";
@@ -39,8 +39,9 @@ static struct gm_picture *picture_of(size_t states, size_t graphs, bool axes, bo
     }
     for (size_t i = 0; i < graphs; i++) {
         struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "energy error  |H − H₀| / |H₀|");
-        panel->x = (struct gm_axis){"t", GM_PI, 0, 1.5 * 3.14159265358979};
-        panel->y = (struct gm_axis){"", i % 2 == 0 ? GM_LOG : GM_LINEAR, 1e-16, 10};
+        panel->x = (struct gm_axis){.label = "t", .scale = GM_PI, .low = 0, .high = 1.5 * 3.14159265358979};
+        panel->y =
+            (struct gm_axis){.label = "", .scale = i % 2 == 0 ? GM_LOG : GM_LINEAR, .low = 1e-16, .high = 10};
     }
     return picture;
 }

@@ -112,7 +112,7 @@ static void pictures_are_written_as_text(void **state)
         struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "midpoint");
         panel->title_role = gm_lane_role(8);
         panel->equal = true;
-        panel->x = (struct gm_axis){"q", GM_PI, -2, 2};
+        panel->x = (struct gm_axis){.label = "q", .scale = GM_PI, .low = -2, .high = 2};
         gm_mark_line(picture, panel, line_style, (const double[]){-0.0, 1.0 / 3.0, 1e-20, 2}, 2, false);
         gm_mark_polygon(picture, panel, (struct gm_style){GM_INITIAL, 1, 0, GM_SOLID},
                         (const double[]){0, 0, 1, 0, 0, 1}, 3);

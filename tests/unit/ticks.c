@@ -134,7 +134,10 @@ static void odd_ranges_do_no_harm(void **state)
                                     -1e308, INFINITY, -INFINITY, NAN, 1 + 1e-15};
     const size_t n = GM_COUNT(bounds);
     for (size_t i = 0; i < n * n * 3; i++) {
-        const struct gm_axis axis = {"", (enum gm_scale)(i % 3), bounds[i / 3 % n], bounds[i / 3 / n]};
+        const struct gm_axis axis = {.label = "",
+                                     .scale = (enum gm_scale)(i % 3),
+                                     .low = bounds[i / 3 % n],
+                                     .high = bounds[i / 3 / n]};
         for (size_t max = 0; max <= 100; max += 5) {
             double values[GM_TICK_MAX];
             const size_t count = gm_ticks(&axis, max, values);

@@ -540,13 +540,11 @@ static void draw_sections(struct gm_picture *picture, const struct gm_lane *cons
     }
 }
 
-/* What is kept, the section behind the first of it, and what is observed: where there is room for one graph alone,
-   it is the first. */
-static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+/* What is kept first, then what is observed. */
+static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                         size_t most)
 {
     const struct gm_scene *scene = lanes[0]->scene;
-    bool section = own_of(lanes[0])->own->has_section && own_of(lanes[0])->show == GM_SHOW_ALL;
-    size_t most = MOST_GRAPHS - section;
     const bool disc = lanes[0]->problem.m > 3 && own_of(lanes[0])->shape == GM_SHAPE_DISC;
     for (int kept = 1; kept >= 0; kept--) {
         for (size_t i = 0; i < scene->observable_count && most > 0; i++) {
@@ -564,14 +562,6 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
             graph.calm_high = log ? 1e-4 : 0;
             gm_draw_graphs(picture, lanes, count, &graph, 1);
             most--;
-            if (section) {
-                draw_section(picture, lanes, count);
-                section = false;
-            }
-        }
-        if (section) {
-            draw_section(picture, lanes, count);
-            section = false;
         }
     }
 }
@@ -632,5 +622,13 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     } else {
         draw_states(picture, lanes, count);
     }
-    draw_graphs(picture, lanes, count);
+    /* where there is room for one graph it is the section if a drive makes the motion, else what is kept */
+    const bool section = own->has_section && lane->show == GM_SHOW_ALL;
+    if (section && own->stroboscopic) {
+        draw_section(picture, lanes, count);
+    }
+    draw_numbers(picture, lanes, count, MOST_GRAPHS - (own->has_section && !only_section ? 1 : 0));
+    if (section && !own->stroboscopic) {
+        draw_section(picture, lanes, count);
+    }
 }
