@@ -885,10 +885,8 @@ bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct g
 
 /* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
    number. Not inlined: there compilers forget that rows do not overlap. */
-GM_CLONES __attribute__((noinline)) static void compute_row(uint32_t operation, double *restrict to,
-                                                            const double *restrict x, bool one_x,
-                                                            const double *restrict y, bool one_y,
-                                                            size_t count)
+GM_CLONES static void compute_row(uint32_t operation, double *restrict to, const double *restrict x,
+                                  bool one_x, const double *restrict y, bool one_y, size_t count)
 {
     switch ((enum gm_operation)operation) {
 #define GM_ROW(value_, x_, y_)                                                                               \
@@ -1011,8 +1009,8 @@ static void compute(const struct gm_tape *tape, double *r)
 }
 
 /* A term for a row of sums. */
-GM_CLONES __attribute__((noinline)) static void add_row(double *restrict to, const double *restrict term,
-                                                        bool one, bool subtracted, size_t count)
+GM_CLONES static void add_row(double *restrict to, const double *restrict term, bool one, bool subtracted,
+                              size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         to[i] += subtracted ? -term[one ? 0 : i] : term[one ? 0 : i];

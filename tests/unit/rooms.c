@@ -988,7 +988,7 @@ static void layers_rest(void **unused)
         const double exact = 0.71e6 * (pow(centre[1] - 0.5, 2) - pow(corner[1] - 0.5, 2)) / 2;
         assert_true(fabs(pressure[t] - pressure[0] - exact) < 1e-9 * 0.71e6);
     }
-    double above, below;
+    double above = NAN, below = NAN;
     assert_true(gm_flow_pressure_at(flow, gm_run_state(run), 0.3, 0.8, &above) &&
                 gm_flow_pressure_at(flow, gm_run_state(run), 0.6, 0.1, &below));
     assert_true(fabs(above - below - 0.71e6 * (0.3 * 0.3 - 0.4 * 0.4) / 2) < 1e-9 * 0.71e6);
