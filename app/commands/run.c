@@ -25,6 +25,7 @@
 #include "core/count.h"
 #include "core/memory.h"
 #include "render/clock.h"
+#include "render/files/temporary.h"
 
 /* What the command writes beside its numbers. */
 struct outputs {
@@ -680,6 +681,12 @@ static bool has_profile(const struct gm_request *request)
     return has; /* a lane that cannot be opened says why later */
 }
 
+/* A checkpoint takes the place of what is there: of a file, but not of a device, a pipe, a link or a folder. */
+static bool is_replaceable(const char *path, char *message)
+{
+    return gm_temporary_fits(path) || gm_refuse(message, "%.360s is no file that can be replaced", path);
+}
+
 /* Opens what is to be written; the status to exit with, and a sentence unless that is 0. */
 static int open_outputs(struct outputs *outputs, const struct gm_request *request, char *message)
 {
@@ -716,7 +723,8 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         }
     }
     const bool good =
-        (!options->checkpoint || gm_folder_make_for(options->checkpoint, message)) &&
+        (!options->checkpoint || (gm_folder_make_for(options->checkpoint, message) &&
+                                  is_replaceable(options->checkpoint, message))) &&
         (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
         (!options->tracks || (outputs->tracks = gm_tracks_open(options->tracks, request->count, message))) &&
         (!options->save ||
