@@ -15,8 +15,7 @@ struct gm_drive {
     double each;     /* ... of one, when it was last measured */
     long unmeasured; /* so many more steps are taken for as long */
     double looked;   /* of the seconds, when another engine was last looked for */
-    double
-        *trace; /* where the next steps that are not recorded leave their rows (t and the state); or NULL */
+    double *trace;   /* rows, t and the state, of the next steps that are not recorded; or NULL */
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.

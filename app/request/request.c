@@ -474,14 +474,14 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     } else if (!scene) {
         char found[GM_NEAR], folder[4096];
         const char *near = gm_system_near(words[0], found);
-        const bool whole = near || gm_system_folder(folder, sizeof folder);
-        gm_refuse(message, "there is no scene \"%.40s\"%s%.200s", words[0],
-                  near    ? "; did you mean "
-                  : whole ? "; see geomint list"
-                          : ", and no folder of systems ",
-                  near    ? near
-                  : whole ? ""
-                          : folder);
+        if (near) {
+            gm_refuse(message, "there is no scene \"%.40s\"; did you mean %.200s", words[0], near);
+        } else if (gm_system_folder(folder, sizeof folder)) {
+            gm_refuse(message, "there is no scene \"%.40s\"; see geomint list", words[0]);
+        } else {
+            gm_refuse(message, "there is no scene \"%.40s\", and no folder of systems %.200s", words[0],
+                      folder);
+        }
     }
     return scene;
 }

@@ -29,9 +29,7 @@ struct gm_cholesky {
     F(cholmod_analyze) F(cholmod_factorize) F(cholmod_finish) F(cholmod_free_factor) F(cholmod_start) \
     F(umfpack_di_defaults) F(umfpack_di_free_numeric) F(umfpack_di_free_symbolic) F(umfpack_di_numeric) \
     F(umfpack_di_solve) F(umfpack_di_symbolic)
-/* clang-format on */
 
-/* clang-format off */
 static struct {
 #define POINTER(name) __typeof__(name) *name;
     FUNCTIONS(POINTER)

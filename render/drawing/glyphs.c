@@ -149,6 +149,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
     if (!glyphs || !start_library(glyphs)) {
         snprintf(message, size, "There is not enough memory for text.");
         free(glyphs);
+        errno = ENOMEM;
         return NULL;
     }
     find_fonts(wanted, glyphs->files);
@@ -168,7 +169,9 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
                      wanted[i].family, error);
         }
         if (error != 0) {
+            const bool refused = error == FT_Err_Out_Of_Memory || glyphs->refused;
             gm_glyphs_close(glyphs);
+            errno = missing ? ENOENT : refused ? ENOMEM : EIO;
             return NULL;
         }
     }

@@ -12,7 +12,7 @@ enum gm_font { GM_FONT_SANS, GM_FONT_BOLD, GM_FONT_MONO, GM_FONT_COUNT };
 
 struct gm_glyphs;
 
-/* NULL on failure, with one sentence in message. */
+/* NULL on failure, with one sentence in message and errno: ENOMEM, ENOENT where there is no font, EIO. */
 struct gm_glyphs *gm_glyphs_open(char *message, size_t size);
 void gm_glyphs_close(struct gm_glyphs *glyphs);
 

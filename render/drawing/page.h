@@ -7,7 +7,8 @@
 
 /* A page that is drawn with one pen in one look, as often as its picture changes. */
 
-/* False on failure, with one sentence in message (GM_MESSAGE bytes). To be closed in both cases. */
+/* False on failure, with one sentence in message (GM_MESSAGE bytes) and errno (gm_glyphs_open). To be closed in both
+   cases. */
 bool gm_page_open(struct gm_painter *painter, const struct gm_pen *pen, void *self,
                   const struct gm_appearance *look, char *message);
 void gm_page_close(struct gm_painter *painter);

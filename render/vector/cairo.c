@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/vector/cairo.h"
 
+#include <errno.h>
 #include <pthread.h>
 
 #include "render/address_space.h"
@@ -31,8 +32,8 @@ bool gm_cairo_open(char *message)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, open_once);
     if (!opened) {
-        gm_address_space_has(TAKEN); /* notes a refusal that was the loader's */
         gm_refuse(message, "a PDF needs Cairo, but %s", reason);
+        errno = gm_address_space_has(TAKEN) ? ENOENT : ENOMEM; /* the loader tells it in words alone */
     }
     return opened;
 }

@@ -32,7 +32,7 @@ struct gm_cairo {
 
 extern struct gm_cairo gm_cairo;
 
-/* False, and a sentence why, if there is none. */
+/* False if there is none, with one sentence in message and errno: ENOENT or ENOMEM. */
 bool gm_cairo_open(char *message);
 
 #endif

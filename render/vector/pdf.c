@@ -321,15 +321,15 @@ bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_
     struct gm_pdf pdf = {.clip = {0, 0, look->width, look->height}};
     char *bytes = NULL;
     size_t size = 0;
-    const bool found = gm_cairo_open(message);
-    const bool opened = found && gm_page_open(&pdf.painter, &pen, &pdf, look, message);
+    const bool opened = gm_cairo_open(message) && gm_page_open(&pdf.painter, &pen, &pdf, look, message);
+    int error = opened ? ENOMEM : errno;
     if (opened) {
         bytes = make_file(&pdf, look, picture, texts, count, &size);
     }
     gm_page_close(&pdf.painter);
-    const int error = bytes                                ? gm_temporary_write(path, bytes, size)
-                      : found || strstr(message, "memory") ? ENOMEM
-                                                           : ENOENT;
+    if (bytes) {
+        error = gm_temporary_write(path, bytes, size);
+    }
     free(bytes);
     *fields = pdf.fields;
     if (error != 0 && opened) {

@@ -441,6 +441,7 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
     size_t size = 0;
     struct gm_svg svg = {.out = open_memstream(&bytes, &size), .clip = {0, 0, look->width, look->height}};
     const bool opened = gm_page_open(&svg.painter, &pen, &svg, look, message);
+    int error = opened ? ENOMEM : errno;
     bool drawn = false;
     if (svg.out && opened) {
         put_head(&svg, picture, texts, count);
@@ -453,7 +454,9 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
         drawn = false;
     }
     gm_page_close(&svg.painter);
-    const int error = drawn && bytes ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    if (drawn && bytes) {
+        error = gm_temporary_write(path, bytes, size);
+    }
     free(bytes);
     *fields = svg.fields;
     if (error != 0 && opened) {

@@ -277,6 +277,11 @@ def test_refusals():
         said = geomint(words, status).stderr.decode().rstrip("\n")
         check(said.count("\n") == 0 and said.startswith("geomint: "), f"{words}: not one sentence: {said}")
         check(sentence is None or said == "geomint: " + sentence, f"{words}: {said}")
+    with open("fonts.conf", "w", encoding="ascii") as file:
+        file.write("<fontconfig></fontconfig>")
+    for ending in ("png", "svg", "pdf"):
+        said = geomint(f"render disc until=1 -o a.{ending}", 3, env=dict(os.environ, FONTCONFIG_FILE=os.path.abspath("fonts.conf")))
+        check(said.stderr.decode().startswith("geomint: No font was found"), f"{ending} without a font: {said.stderr}")
     check(not any(name.startswith(".") for name in os.listdir(".")), f"temporary files are left: {os.listdir('.')}")
 
 

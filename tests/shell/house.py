@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The house, by what files include and what their objects call: no circle of files or of folders, no folder of more rooms
-than one looks through, the hall of core without a wing, wings without each other, every exported name with the project's prefix, every name of a header unique.
+"""The house, by what files include and what their objects call: no circle of files or of folders, no folder of more
+rooms than one looks through, the hall of core without a wing, wings without each other, every exported name with the
+project's prefix, every name of a header unique.
 Usage: house.py SOURCE BUILD [--long]   --long: what each circle is made of"""
 import collections
 import json
