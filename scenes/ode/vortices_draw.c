@@ -6,9 +6,10 @@
 #include "scenes/frame/graph.h"
 #include "scenes/ode/vortices_draw.h"
 
-/* The greatest distance from the middle that is drawn; and so many tracers become a field. */
+/* The greatest distance from the middle that is drawn; so many vortices are shown by a dye; and so many places that
+   are dyed become a field. */
 static const double farthest = 4;
-enum { CELLS = 128, FIELD = 4000 };
+enum { CROWD = 1000, FIELD = 4000 };
 
 static double reach_of(const struct gm_lane *const *lanes, size_t count)
 {
@@ -20,25 +21,23 @@ static double reach_of(const struct gm_lane *const *lanes, size_t count)
             const double away = fabs(past->values[k]);
             reach = away < farthest ? fmax(reach, 1.08 * away) : reach;
         }
-        reach = own->tracers > 0 ? fmax(reach, 1.75) : reach;
+        reach = own->tracers > 0 || own->configuration == GM_PATCHES ? fmax(reach, 1.75) : reach;
     }
     /* in rare steps, so that a movie is calm */
     return 0.25 * ceil(reach / 0.25 - 1e-9);
 }
 
-/* Half of the tracers, those that started above the axis, are dyed: where is the dye now? */
-static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                         double reach)
+/* Of `many` places, whose x and then y begin at `first` in the state, those that started above the axis are dyed:
+   where is the dye now? */
+static void draw_dye(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                     size_t first, size_t many, double reach)
 {
-    const struct gm_problem *problem = &lane->problem;
-    const size_t tracers = problem->passive, active = problem->n - 2 * tracers;
-    const double *x = gm_run_state(lane->run) + active, *y = x + tracers,
-                 *dye = lane->start + active + tracers;
-    if (tracers < FIELD) {
-        double *points = gm_picture_memory(picture, 2 * tracers * sizeof *points);
+    const double *x = gm_run_state(lane->run) + first, *y = x + many, *dye = lane->start + first + many;
+    if (many < FIELD) {
+        double *points = gm_picture_memory(picture, 2 * many * sizeof *points);
         for (int dyed = 0; points && dyed < 2; dyed++) {
             size_t count = 0;
-            for (size_t k = 0; k < tracers; k++) {
+            for (size_t k = 0; k < many; k++) {
                 if ((dye[k] > 0) == (dyed == 1)) {
                     points[2 * count] = x[k];
                     points[2 * count + 1] = y[k];
@@ -51,27 +50,28 @@ static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, con
         }
         return;
     }
-    double *values = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *values);
-    double *there = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *there);
+    const size_t side = many < 50000 ? 128 : 256, cells = side * side;
+    double *values = gm_picture_memory(picture, cells * sizeof *values);
+    double *there = gm_picture_memory(picture, cells * sizeof *there);
     if (!values || !there) {
         return;
     }
-    memset(values, 0, (size_t)CELLS * CELLS * sizeof *values);
-    memset(there, 0, (size_t)CELLS * CELLS * sizeof *there);
-    for (size_t k = 0; k < tracers; k++) {
-        const double column = (x[k] + reach) / (2 * reach) * CELLS,
-                     row = (y[k] + reach) / (2 * reach) * CELLS;
-        if (column >= 0 && column < CELLS && row >= 0 && row < CELLS) {
-            const size_t cell = (size_t)row * CELLS + (size_t)column;
+    memset(values, 0, cells * sizeof *values);
+    memset(there, 0, cells * sizeof *there);
+    for (size_t k = 0; k < many; k++) {
+        const double column = (x[k] + reach) / (2 * reach) * (double)side,
+                     row = (y[k] + reach) / (2 * reach) * (double)side;
+        if (column >= 0 && column < (double)side && row >= 0 && row < (double)side) {
+            const size_t cell = (size_t)row * side + (size_t)column;
             values[cell] += dye[k] > 0 ? 1 : -1;
             there[cell] += 1;
         }
     }
-    for (size_t cell = 0; cell < (size_t)CELLS * CELLS; cell++) {
+    for (size_t cell = 0; cell < cells; cell++) {
         values[cell] = there[cell] > 0 ? values[cell] / there[cell] : 0;
     }
     const double corners[] = {-reach, -reach, reach, reach};
-    gm_mark_image(picture, panel, GM_MAP_DIVERGING, -1, 1, corners, values, CELLS, CELLS);
+    gm_mark_image(picture, panel, GM_MAP_DIVERGING, -1, 1, corners, values, side, side);
 }
 
 static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
@@ -142,10 +142,15 @@ static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *
             panel->x = panel->y = (struct gm_axis){.label = "", .low = -reach, .high = reach};
             panel->equal = true;
         }
-        if (walk.lane->problem.passive > 0) {
-            draw_tracers(picture, panel, walk.lane, reach);
+        const size_t tracers = walk.lane->problem.passive, active = walk.lane->problem.n - 2 * tracers;
+        if (tracers > 0) {
+            draw_dye(picture, panel, walk.lane, active, tracers, reach);
         }
-        draw_positions(picture, panel, walk.lane);
+        if (active / 2 < CROWD) {
+            draw_positions(picture, panel, walk.lane);
+        } else if (tracers == 0) {
+            draw_dye(picture, panel, walk.lane, 0, active / 2, reach);
+        }
     }
 }
 
@@ -208,6 +213,9 @@ static const char *caption_of(const struct gm_vortices *own)
                    : "The symmetric motion is stable at this angle; what sets schemes apart is the angular impulse.";
     case GM_ONE_TURNED:
         return "This motion is chaotic itself: only its invariants tell schemes apart.";
+    case GM_PATCHES:
+        return "Two patches of like vorticity this near become one: they turn about each other, and what each gives up "
+               "is wound into arms.";
     case GM_VORTEX_COLLISION:
         return "A pair this close turns faster than the rest: a step that is too long for it goes wrong without a sound.";
     default:
@@ -217,9 +225,13 @@ static const char *caption_of(const struct gm_vortices *own)
 
 void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    static const char *const starts[] = {
-        "two turned, symmetry built in", "a regular polygon", "two of a square turned",
-        "one of a square turned",        "a random disc",     "a close pair and two more"};
+    static const char *const starts[] = {"two turned, symmetry built in",
+                                         "a regular polygon",
+                                         "two of a square turned",
+                                         "one of a square turned",
+                                         "a random disc",
+                                         "a close pair and two more",
+                                         "two round patches"};
     const struct gm_vortices *own = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     const bool one_step = gm_one_step(lanes, count);
@@ -257,7 +269,8 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     if (own->configuration == GM_SQUARE && own->tracers == 0) {
         draw_log(picture, lanes, count, "position_error");
     }
-    if (own->configuration == GM_RANDOM || own->configuration == GM_ONE_TURNED) {
+    if (own->configuration == GM_RANDOM || own->configuration == GM_PATCHES ||
+        own->configuration == GM_ONE_TURNED) {
         draw_log(picture, lanes, count, "energy_error");
     }
     draw_log(picture, lanes, count, "angular_impulse_error");

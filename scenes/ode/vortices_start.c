@@ -18,6 +18,7 @@ static double next_random(uint64_t *state)
 static void place(const struct gm_vortices *own, size_t count, double *x, double *y)
 {
     uint64_t random = (uint64_t)own->seed;
+    const double patch = 0.4; /* radius; the pair within 1, 3 radii apart, where two become one below 3.2 */
     static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
     for (size_t i = 0; i < count; i++) {
         double turn = 2 * M_PI * (double)i / (double)count, radius = 1;
@@ -32,6 +33,7 @@ static void place(const struct gm_vortices *own, size_t count, double *x, double
             turn += i == 1 ? own->angle : 0;
             break;
         case GM_RANDOM:
+        case GM_PATCHES:
             radius = sqrt(next_random(&random));
             turn = 2 * M_PI * next_random(&random);
             break;
@@ -40,6 +42,10 @@ static void place(const struct gm_vortices *own, size_t count, double *x, double
         }
         x[i] = radius * cos(turn);
         y[i] = radius * sin(turn);
+        if (own->configuration == GM_PATCHES) {
+            x[i] *= patch;
+            y[i] = patch * y[i] + (i % 2 == 0 ? 1 - patch : patch - 1);
+        }
         if (own->configuration == GM_VORTEX_COLLISION) {
             x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
             y[i] = pair_y[i];
@@ -56,7 +62,8 @@ size_t gm_vortices_carried(const struct gm_vortices *own)
 bool gm_vortices_coincide(const struct gm_vortices *own)
 {
     double x[4], y[4];
-    if (own->configuration == GM_RANDOM || own->configuration == GM_SQUARE) {
+    if (own->configuration == GM_RANDOM || own->configuration == GM_PATCHES ||
+        own->configuration == GM_SQUARE) {
         return false;
     }
     const size_t carried = gm_vortices_carried(own);

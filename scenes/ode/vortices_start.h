@@ -6,12 +6,12 @@
 
 /* Point vortices as the parameters of scenes/ode/vortices.c arrange them. */
 
-enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_VORTEX_COLLISION };
+enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_VORTEX_COLLISION, GM_PATCHES };
 
 struct gm_vortices {
     struct gm_timing timing;
     int configuration;
-    double angle, strength, distance;
+    double angle, strength, multipole, distance; /* strength and multipole are a problem's parameters */
     long count, tracers, seed;
     int show;
 };

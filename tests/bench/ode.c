@@ -215,6 +215,46 @@ static void pair_sum(void)
            "pairs of 1000 vortices", ours, theirs, ours / theirs, apart);
 }
 
+/* All velocities of a disc of vortices by moments of cells, against pair by pair. */
+static void by_moments(double tolerance)
+{
+    static const size_t counts[] = {1000, 2000, 4000, 10000, 100000};
+    const double parameters[] = {2 * M_PI, tolerance};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        const size_t count = counts[c];
+        const bool pairs = count <= 10000;
+        double *state = malloc(4 * count * sizeof *state), *f = state + 2 * count;
+        if (!state) {
+            return;
+        }
+        for (size_t i = 0; i < count; i++) {
+            const double radius = sqrt(((double)i + 0.5) / (double)count),
+                         turn = 2.3999632297286533 * (double)i;
+            state[i] = radius * cos(turn);
+            state[count + i] = radius * sin(turn);
+        }
+        struct gm_problem problems[] = {gm_problem_vortices_multipole, gm_problem_vortices};
+        double taken[2][ROUNDS] = {{0}};
+        for (int round = 0; round < ROUNDS; round++) {
+            for (int k = 0; k < (pairs ? 2 : 1); k++) {
+                problems[k].n = 2 * count;
+                problems[k].parameters = parameters;
+                const double start = seconds();
+                gm_field(&problems[k], state, f, 1);
+                taken[k][round] = seconds() - start;
+            }
+        }
+        const double ours = median(taken[0], ROUNDS), theirs = median(taken[1], ROUNDS);
+        printf("%zu vortices within %g: %.3g ms", count, tolerance, 1e3 * ours);
+        if (pairs) {
+            printf(", pair by pair %.3g: %.2f\n", 1e3 * theirs, theirs / ours);
+        } else {
+            printf(", %.1f steps of rk4 a second (at least 5)\n", 1 / (4 * ours));
+        }
+        free(state);
+    }
+}
+
 /* Kepler's orbit from its nearest point. */
 static void nearest_point(double eccentricity, double y[4])
 {
@@ -376,6 +416,9 @@ int main(int argc, char *argv[])
     }
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
     pair_sum();
+    by_moments(1e-3);
+    by_moments(1e-6);
+    by_moments(1e-9);
     kepler_to_eight_digits(0.5);
     kepler_to_eight_digits(0.9);
     return 0;

@@ -35,6 +35,7 @@ COMMANDS = [
     ("run kepler steps=3 scheme=gsl-msadams --json", {}),
     ("run kepler steps=3 scheme=gsl-msbdf --json", {}),
     ("run vortices steps=5 --json", {}),
+    ("run vortices configuration=random count=300 multipole=1e-3 steps=2 --json", {}),
     ("run stiff steps=5 --json", {}),
     ("run henon-heiles steps=5 --json", {}),
     ("run henon-heiles steps=5 scheme=verlet,gauss4 --measure lyapunov,return_time --json", {}),

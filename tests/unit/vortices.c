@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runge-Kutta methods on problems whose n is chosen at run time, and the passive particles they carry. */
+/* Runge-Kutta methods on problems whose n is chosen at run time, the passive particles they carry, and sums by moments. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
+#include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -163,6 +164,137 @@ static void tracers_keep_area(void **unused)
     assert_true(fabs(areas[1] - 1) > 1e-2);
 }
 
+/* Places of many kinds: a disc, a circle, a line, two clusters far apart, one whose density has no bound, and many in
+   one row of places that lie a rounding apart. */
+enum { DISC, CIRCLE, LINE, CLUSTERS, POINTED, ROUNDED, PLACES, MANY = 3000 };
+
+static void scatter(int kind, double *y)
+{
+    for (size_t i = 0; i < MANY; i++) {
+        const double part = ((double)i + 0.5) / MANY, turn = 2.3999632297286533 * (double)i;
+        double radius = sqrt(part);
+        if (kind == CIRCLE) {
+            radius = 1;
+        } else if (kind == CLUSTERS) {
+            radius *= i % 2 == 0 ? 1e-9 : 1;
+        } else if (kind == POINTED) {
+            radius = pow(10, -12 * part);
+        }
+        y[i] = radius * cos(turn) + (kind == CLUSTERS && i % 2 == 0 ? 40 : 0);
+        y[MANY + i] = kind == LINE ? 0.5 : radius * sin(turn);
+        if (kind == ROUNDED) {
+            y[i] = 1 + (double)i * 0x1p-52;
+            y[MANY + i] = 1;
+        }
+    }
+}
+
+/* Velocities by moments keep to the tolerance, on every instruction set with the same bits, and so does the energy. */
+static void moments_keep_to_the_tolerance(void **unused)
+{
+    (void)unused;
+    static double y[2 * MANY], f[2 * MANY], again[2 * MANY], exact[2 * MANY], single[MANY];
+    static const double tolerances[] = {1e-2, 1e-3, 1e-6, 1e-9, 1e-12};
+    for (int kind = 0; kind < PLACES; kind++) {
+        scatter(kind, y);
+        long double logarithms = 0;
+        for (size_t i = 0; i < MANY; i++) {
+            long double u = 0, v = 0, sum = 0;
+            for (size_t j = 0; j < MANY; j++) {
+                const long double dx = (long double)y[i] - y[j], dy = (long double)y[MANY + i] - y[MANY + j];
+                const long double square = dx * dx + dy * dy;
+                if (j != i) {
+                    u -= dy / square;
+                    v += dx / square;
+                    sum += 1 / sqrtl(square);
+                    logarithms += j < i ? logl(square) : 0;
+                }
+            }
+            exact[i] = (double)u * strength / (2 * M_PI);
+            exact[MANY + i] = (double)v * strength / (2 * M_PI);
+            single[i] = (double)sum * strength / (2 * M_PI);
+        }
+        for (size_t k = 0; k < GM_COUNT(tolerances); k++) {
+            const double parameters[] = {strength, tolerances[k]};
+            struct gm_problem problem = gm_problem_vortices_multipole;
+            problem.n = 2 * (size_t)MANY;
+            problem.parameters = parameters;
+            gm_field(&problem, y, f, 1);
+            double worst = 0;
+            for (size_t i = 0; i < MANY; i++) {
+                const double error = hypot(f[i] - exact[i], f[MANY + i] - exact[MANY + i]) / single[i];
+                worst = fmax(worst, isnan(error) ? INFINITY : error);
+            }
+            if (!(worst <= tolerances[k])) {
+                fail_msg("places %d err by %g of %g", kind, worst, tolerances[k]);
+            }
+            if (tolerances[k] == 1e-2) {
+                assert_true(worst > 1e-13); /* moments are taken */
+            }
+            for (int isa = 0; isa <= (int)gm_isa_best(); isa++) {
+                gm_ode_of(&problem)->loops[isa]->field(&problem, y, again, 1);
+                assert_memory_equal(again, f, sizeof f);
+            }
+            double energy;
+            gm_ode_of(&problem)->hamiltonian->energy(&problem, y, &energy, 1);
+            const double wanted = -strength * strength / (4 * M_PI) * (double)logarithms;
+            const double pairs = strength * strength / (4 * M_PI) * MANY * (MANY - 1) / 2;
+            if (!(fabs(energy - wanted) <= tolerances[k] * pairs + 1e-12 * fabs(wanted))) {
+                fail_msg("places %d: energy %.17g and not %.17g with %g", kind, energy, wanted, tolerances[k]);
+            }
+        }
+    }
+}
+
+/* Moments of pairs of cells are those of equal and opposite actions: the centre stays, and a step too many terms of
+   which are left out is seen in the energy. */
+static void moments_keep_the_centre(void **unused)
+{
+    (void)unused;
+    static double y[2 * MANY];
+    double moved[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        const double parameters[] = {1e-3, k == 0 ? 1e-2 : 1e-12};
+        struct gm_problem problem = gm_problem_vortices_multipole;
+        problem.n = 2 * (size_t)MANY;
+        problem.parameters = parameters;
+        scatter(DISC, y);
+        struct gm_run *run = open_run(&problem, "rk4", 0, 0.01, y);
+        assert_int_equal(gm_run_advance(run, 10), GM_OK);
+        double start, end, x = 0;
+        gm_ode_of(&problem)->hamiltonian->energy(&problem, y, &start, 1);
+        gm_ode_of(&problem)->hamiltonian->energy(&problem, gm_run_state(run), &end, 1);
+        for (size_t i = 0; i < MANY; i++) {
+            x += gm_run_state(run)[i] - y[i];
+            moved[k] = fmax(moved[k], fabs(gm_run_state(run)[i] - y[i]));
+        }
+        assert_true(fabs(x) < 1e-13 * MANY);
+        assert_true(fabs(end / start - 1) < (k == 0 ? 1e-2 : 1e-11));
+        gm_run_close(run);
+    }
+    assert_true(moved[1] > 1e-4 && fabs(moved[0] - moved[1]) < 1e-2 * moved[1]);
+}
+
+/* A place that is no number leaves no velocity that looks like one. */
+static void moments_of_what_is_no_place(void **unused)
+{
+    (void)unused;
+    static double y[2 * MANY], f[2 * MANY];
+    const double parameters[] = {strength, 1e-6};
+    struct gm_problem problem = gm_problem_vortices_multipole;
+    problem.n = 2 * (size_t)MANY;
+    problem.parameters = parameters;
+    static const double wrong[] = {NAN, INFINITY, -INFINITY, 1e300};
+    for (size_t k = 0; k < GM_COUNT(wrong); k++) {
+        scatter(DISC, y);
+        y[MANY + 7] = wrong[k];
+        gm_field(&problem, y, f, 1);
+        for (size_t i = 0; i < 2 * (size_t)MANY; i++) {
+            assert_true(isnan(f[i]));
+        }
+    }
+}
+
 /* What has no split and no kernels is refused by the families that need them. */
 static void what_does_not_fit(void **unused)
 {
@@ -184,6 +316,9 @@ int main(void)
         cmocka_unit_test(tracers_are_passive),
         cmocka_unit_test(a_tracer_is_a_vortex_without_strength),
         cmocka_unit_test(tracers_keep_area),
+        cmocka_unit_test(moments_keep_to_the_tolerance),
+        cmocka_unit_test(moments_keep_the_centre),
+        cmocka_unit_test(moments_of_what_is_no_place),
         cmocka_unit_test(what_does_not_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,9 +8,11 @@
 
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/problems/fluids/logarithms.h"
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(vortices)
+GM_LOOPS_DECLARE(vortices_multipole)
 GM_LOOPS_DECLARE(vortices_four)
 GM_LOOPS_DECLARE(vortices_reduced)
 GM_LOOPS_DECLARE(vortices_reduced_carrying)
@@ -37,24 +39,22 @@ static void energy(const struct gm_problem *problem, const double *state, double
     const double factor = strength(problem) * strength(problem) / (4 * M_PI);
     for (size_t k = 0; k < m; k++) {
         const double *x = state + k, *y = state + count * m + k;
-        /* one logarithm for many pairs: the product of their squared distances, while it is a number of
-           note */
-        double sum = 0, product = 1;
+        struct gm_logarithms squares = {.product = 1};
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i + 1; j < count; j++) {
                 const double dx = x[i * m] - x[j * m], dy = y[i * m] - y[j * m];
-                const double longer = product * (dx * dx + dy * dy);
-                if (longer > 1e-150 && longer < 1e150) {
-                    product = longer;
-                } else {
-                    sum += log(product) + log(dx * dx + dy * dy);
-                    product = 1;
-                }
+                gm_logarithms_add(&squares, dx * dx + dy * dy);
             }
         }
-        sum += log(product);
-        value[k] = -factor * sum;
+        value[k] = -factor * gm_logarithms_sum(&squares);
     }
+}
+
+/* Of one member. */
+static void energy_of_many(const struct gm_problem *problem, const double *state, double *value, size_t m)
+{
+    (void)m;
+    *value = gm_ode_of(problem)->loops[gm_isa_best()]->energy(problem, state);
 }
 
 static void reduced_energy(const struct gm_problem *problem, const double *state, double *value, size_t m)
@@ -89,6 +89,8 @@ static bool reduced_formula(const struct gm_problem *problem, struct gm_formula 
 }
 
 static const struct gm_hamiltonian full = {.energy = energy, .weight = inverse_strength, .formula = formula};
+static const struct gm_hamiltonian within_a_tolerance = {.energy = energy_of_many,
+                                                         .weight = inverse_strength};
 static const struct gm_hamiltonian halved = {
     .energy = reduced_energy, .weight = inverse_of_two, .formula = reduced_formula};
 
@@ -101,6 +103,7 @@ static const struct gm_hamiltonian halved = {
     }
 
 const struct gm_problem gm_problem_vortices = VORTICES(8, full, vortices);
+const struct gm_problem gm_problem_vortices_multipole = VORTICES(8, within_a_tolerance, vortices_multipole);
 const struct gm_problem gm_problem_vortices_four = VORTICES(8, full, vortices_four);
 const struct gm_problem gm_problem_vortices_reduced = VORTICES(4, halved, vortices_reduced);
 const struct gm_problem gm_problem_vortices_reduced_carrying = VORTICES(4, halved, vortices_reduced_carrying);

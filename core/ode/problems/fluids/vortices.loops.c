@@ -72,6 +72,8 @@ static void pair_sum(const struct gm_problem *problem, const double *state, doub
     }
 }
 
+#include "core/ode/problems/fluids/multipole.loop.h"
+
 /* Two vortices and their images under z -> -z. */
 static void reduced(const struct gm_problem *problem, const double *state, double *f, size_t m)
 {
@@ -149,5 +151,7 @@ static void carried_by_four(const struct gm_problem *problem, const double *acti
 }
 
 const struct gm_loops GM_LOOPS_NAME(vortices, GM_ISA) = {.field = pair_sum, .passive = carried};
+const struct gm_loops GM_LOOPS_NAME(vortices_multipole, GM_ISA) = {
+    .field = multipole_field, .energy = multipole_energy, .passive = carried};
 const struct gm_loops GM_LOOPS_NAME(vortices_reduced_carrying, GM_ISA) = {.field = reduced,
                                                                           .passive = carried_by_four};

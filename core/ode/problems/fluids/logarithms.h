@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_PROBLEMS_FLUIDS_LOGARITHMS_H
+#define GM_CORE_ODE_PROBLEMS_FLUIDS_LOGARITHMS_H
+
+#include <math.h>
+
+/* A sum of logarithms, one for many numbers: that of their product, while it is a number of note. */
+struct gm_logarithms {
+    double sum, product; /* 0, 1 */
+};
+
+static inline void gm_logarithms_add(struct gm_logarithms *logarithms, double number)
+{
+    const double longer = logarithms->product * number;
+    if (longer > 1e-150 && longer < 1e150) {
+        logarithms->product = longer;
+    } else {
+        logarithms->sum += log(logarithms->product) + log(number);
+        logarithms->product = 1;
+    }
+}
+
+static inline double gm_logarithms_sum(const struct gm_logarithms *logarithms)
+{
+    return logarithms->sum + log(logarithms->product);
+}
+
+#endif
