@@ -13,7 +13,7 @@
 #include "library/handle.h"
 #include "library/host.h"
 #include "render/cells/text.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 
 struct drawing {
     geomint *handle;

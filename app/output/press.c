@@ -15,7 +15,7 @@
 #include "render/address_space.h"
 #include "render/drawing/glyphs.h"
 #include "render/files/thread.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 #include "render/message.h"
 #include "render/vector/pdf.h"
 #include "render/vector/svg.h"

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 #include "render/layout/layout.h"
 
 enum { WIDTH = 640, HEIGHT = 600 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_GL_CANVAS_H
-#define GM_RENDER_GL_CANVAS_H
+#ifndef GM_RENDER_PIXELS_CANVAS_H
+#define GM_RENDER_PIXELS_CANVAS_H
 
 #include "render/layout/appearance.h"
 #include "render/message.h"
