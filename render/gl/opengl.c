@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "render/address_space.h"
 #include "render/gl/stream.h"
@@ -194,14 +195,18 @@ static void end_turn(void)
     pthread_mutex_unlock(&turn);
 }
 
-void gm_opengl_load(void)
-{
-    take_turn();
-    gm_context_load();
-    end_turn();
-}
-
 enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
+
+/* Whether OpenGL is where it was loaded: its threads are not in a process that was forked off afterwards, which would
+   wait for them for ever. False with a sentence. */
+static bool is_here(char *message)
+{
+    static pid_t loaded_in;
+    loaded_in = loaded_in ? loaded_in : getpid();
+    return loaded_in == getpid() ||
+           gm_refuse(message,
+                     "A process that was forked from one that had painted by OpenGL cannot paint by it.");
+}
 
 struct gm_opengl *gm_opengl_open(int width, int height, enum gm_theme theme, char *message)
 {
@@ -212,10 +217,10 @@ struct gm_opengl *gm_opengl_open(int width, int height, enum gm_theme theme, cha
     }
     *opengl = (struct gm_opengl){.width = width, .height = height, .theme = theme};
     take_turn();
-    const bool good = open_alone(opengl, message);
+    const bool here = is_here(message), good = here && open_alone(opengl, message);
     if (!good) {
         close_alone(opengl);
-        if (!gm_address_space_has(TAKEN)) {
+        if (here && !gm_address_space_has(TAKEN)) {
             gm_refuse(message, "There is not enough memory to paint pictures.");
         }
     }

@@ -11,9 +11,6 @@
 
 struct gm_opengl;
 
-/* Loads the libraries that the first one needs: beside other work, in a thread of its own, that one opens in
-   half the time. */
-void gm_opengl_load(void);
 /* For pictures of width x height pixels. NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
 struct gm_opengl *gm_opengl_open(int width, int height, enum gm_theme theme, char *message);
 void gm_opengl_close(struct gm_opengl *opengl);

@@ -30,14 +30,7 @@ static bool wants_opengl(void)
     return wanted && wanted[0] != '\0';
 }
 
-void gm_canvas_load(void)
-{
-    if (wants_opengl()) {
-        gm_opengl_load();
-    }
-}
-
-static bool raster_open(struct gm_rasteriser *rasteriser, const struct gm_appearance *look, char *message)
+static bool rasteriser_open(struct gm_rasteriser *rasteriser, const struct gm_appearance *look, char *message)
 {
     *rasteriser = (struct gm_rasteriser){.width = look->width, .height = look->height, .theme = look->theme};
     return (look->width >= 1 && look->height >= 1 && look->width <= GM_RASTERISER_MOST &&
@@ -55,7 +48,7 @@ static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look,
     if (wants_opengl()) {
         canvas->opengl = gm_opengl_open(look->width, look->height, look->theme, message);
     }
-    if (wants_opengl() ? !canvas->opengl : !raster_open(&canvas->rasteriser, look, message)) {
+    if (wants_opengl() ? !canvas->opengl : !rasteriser_open(&canvas->rasteriser, look, message)) {
         return false;
     }
     canvas->rgba = malloc((size_t)look->width * (size_t)look->height * 4);
