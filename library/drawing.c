@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of a handle's lanes. Mesa's software contexts of one process are not safe from each other, and a
-   context is current in a thread: so one picture is drawn at a time, in a thread that knows nothing of the
-   host. */
+/* Pictures of a handle's lanes. A context of OpenGL, where one is asked for, is current in a thread: so pictures are
+   drawn in a thread that knows nothing of the host, one at a time. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/output/still.h"
 #include "core/memory.h"
 #include "library/handle.h"
 #include "library/host.h"
 #include "render/cells/text.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 
 struct drawing {
     geomint *handle;
@@ -94,18 +92,6 @@ static bool check(geomint *handle, const struct gm_appearance *look)
     return true;
 }
 
-/* Whether OpenGL is where it was loaded: its threads are not in a process that was forked off afterwards,
-   which would wait for them for ever. False with a sentence. One thread at a time asks. */
-static bool has_painter(geomint *handle)
-{
-    static pid_t painter;
-    painter = painter ? painter : getpid();
-    return painter == getpid() ||
-           gm_handle_refuse(handle, GEOMINT_FILE,
-                            "a process that was forked from one that had painted paints no pixels; it writes "
-                            ".svg and .pdf");
-}
-
 static int draw_alone(struct drawing *drawing)
 {
     static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
@@ -116,8 +102,7 @@ static int draw_alone(struct drawing *drawing)
         drawing->lanes = calloc(count, sizeof *drawing->lanes);
         pthread_mutex_lock(&turn);
         gm_memory_forget(); /* a shortage that is over spoils no picture */
-        const bool pixels = !drawing->path || drawing->format == GM_FORMAT_PNG;
-        if ((!pixels || has_painter(handle)) && !(drawing->lanes && gm_host_spare(draw, drawing))) {
+        if (!(drawing->lanes && gm_host_spare(draw, drawing))) {
             gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
         }
         pthread_mutex_unlock(&turn);

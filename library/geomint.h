@@ -23,8 +23,8 @@
    mistake; that an array is too short nobody can see.
 
    A process that is forked off goes on with the handles that it has got, if no other thread was in the
-   library at that moment; it paints no pixels where its parent has (GEOMINT_FILE), as OpenGL's threads are
-   not there. */
+   library at that moment; where GEOMINT_GL asks for OpenGL it paints no pixels if its parent has (GEOMINT_FILE), as
+   OpenGL's threads are not there. */
 #ifndef GEOMINT_H
 #define GEOMINT_H
 
@@ -145,7 +145,8 @@ int geomint_rows(geomint *handle, size_t lane, long every, size_t rows, double *
 /* Draws all lanes as they are now into rgba: height rows of width * 4 bytes, the top row first; red, green,
    blue, and 255. Width and height are from 64 to 16384 pixels. A scene may show its past, so the steps made
    so far are made once more beside the lanes, looked at one by one, when it is first drawn. `scale` is that
-   of letters and lines, from 1/4 to 4; 0: 1. GEOMINT_FILE: there is no OpenGL. */
+   of letters and lines, from 1/4 to 4; 0: 1. GEOMINT_FILE: there is no font, or not the OpenGL that
+   GEOMINT_GL asks for. */
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);
 /* Writes the picture to a file whose name ends with .png, .svg or .pdf, and which tells how it was made;
    folders that are missing are made. Width, height and scale as above; of .svg and .pdf pixels are 1/96 inch.

@@ -177,7 +177,6 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         gm_complain("%s cannot be made again: %s", path, message);
     } else {
         gm_catch_interrupts();
-        gm_press_expect(print.format);
         lanes = calloc(request.count, sizeof *lanes);
         if (!lanes || !drive(&request, lanes, texts[STEPS], message)) {
             gm_complain("%s cannot be made again: %s", path, message);

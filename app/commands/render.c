@@ -16,7 +16,7 @@
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/sink.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 
 /* A render of many frames leaves them as pictures from the first one on, a movie's beside the movie until
    that is complete, and a checkpoint of its lanes now and then. So a killed one goes on by the same command:
@@ -413,7 +413,6 @@ static int paint_still(struct work *work, const char *name)
     }
     struct gm_print print = {.path = path, .format = options->format, .look = options->look};
     int status = GM_EXIT_FILE;
-    gm_press_expect(print.format);
     const bool driven = path && drive_to(work, 0, message);
     if (gm_interrupted) {
         status = GM_EXIT_INTERRUPTED;

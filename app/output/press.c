@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures to files: pixels by OpenGL to PNG, drawings to SVG and PDF. */
+/* Pictures to files: pixels to PNG, drawings to SVG and PDF. */
 #include "app/output/press.h"
 
 #include <errno.h>
 #include <inttypes.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,11 +11,9 @@
 
 #include "app/output/say.h"
 #include "core/memory.h"
-#include "render/address_space.h"
 #include "render/drawing/glyphs.h"
-#include "render/files/thread.h"
-#include "render/gl/canvas.h"
 #include "render/message.h"
+#include "render/pixels/canvas.h"
 #include "render/vector/pdf.h"
 #include "render/vector/svg.h"
 
@@ -53,23 +50,6 @@ bool gm_format_of(const char *path, enum gm_format *format)
 static bool no_memory(const struct gm_appearance *look, char *message)
 {
     return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
-}
-
-static void *load(void *nothing)
-{
-    gm_canvas_load();
-    return nothing;
-}
-
-void gm_press_expect(enum gm_format format)
-{
-    pthread_t loader;
-    /* a thread's stack and its share of the heap would be taken from Mesa, which waits for ever for a thread
-       of its own that it is refused */
-    if (format == GM_FORMAT_PNG && !gm_address_space_is_limited() &&
-        gm_thread_start(&loader, load, NULL) == 0) {
-        pthread_detach(loader);
-    }
 }
 
 struct gm_press *gm_press_open(const struct gm_print *print, char *message)

@@ -16,7 +16,7 @@
 #include "core/memory.h"
 #include "render/files/png.h"
 #include "render/files/sink.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 
 enum { PARAGRAPHS = 4 };
 

@@ -61,16 +61,6 @@ static bool is_wanted(const struct gm_backend *backend)
     return !wanted || wanted[0] == '\0' || strcmp(wanted, backend->key) == 0;
 }
 
-void gm_context_load(void)
-{
-    for (size_t i = 0; backends[i]; i++) {
-        char reason[192];
-        if (is_wanted(backends[i]) && gm_library_open(backends[i]->libraries, reason, sizeof reason)) {
-            return;
-        }
-    }
-}
-
 struct gm_context *gm_context_open(char *message, size_t size)
 {
     const char *wanted = getenv("GEOMINT_GL");

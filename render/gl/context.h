@@ -15,9 +15,6 @@ struct gm_context;
 struct gm_context *gm_context_open(char *message, size_t size);
 void gm_context_close(struct gm_context *context);
 
-/* Loads what the first context will need, which takes most of the time of opening it. */
-void gm_context_load(void);
-
 /* Makes the context current in the calling thread. */
 bool gm_context_use(const struct gm_context *context);
 

@@ -3,17 +3,9 @@
 #define GM_RENDER_GL_SHADERS_H
 
 #include "render/gl/gl.h"
+#include "render/triangles/batch.h"
 
-/* The programs (struct gm_vertex in render/gl/batch.h says what their vertices mean). */
-
-enum gm_program {
-    GM_PROGRAM_INK,
-    GM_PROGRAM_CORE, /* ink where it covers pixels wholly */
-    GM_PROGRAM_TEXT,
-    GM_PROGRAM_FIELD,
-    GM_PROGRAM_IMAGE,
-    GM_PROGRAM_COUNT,
-};
+/* The programs of a batch (struct gm_vertex says what its vertices mean). */
 
 /* Uses the program, made when it is first wanted (most pictures need few of the five), for pictures of so many
    pixels, which stay the same. False if this OpenGL cannot compile it. */

@@ -37,6 +37,25 @@ double gm_frame_y(const struct gm_frame *frame, double value)
     return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
 }
 
+/* Towards zero, and within the bounds; NaN is the lower one. */
+static int clamp(double value, int low, int high)
+{
+    return value > low ? (value < high ? (int)value : high) : low;
+}
+
+double gm_image_value(const struct gm_mark *mark, double u, double v)
+{
+    const double across = u * (double)mark->columns - 0.5, up = v * (double)mark->rows - 0.5;
+    const int last_column = (int)mark->columns - 1, last_row = (int)mark->rows - 1;
+    const int left = clamp(across, 0, last_column), below = clamp(up, 0, last_row);
+    const int right = left < last_column ? left + 1 : left, above = below < last_row ? below + 1 : below;
+    const double s = fmin(fmax(across - left, 0.0), 1.0), t = fmin(fmax(up - below, 0.0), 1.0);
+    const double *low = mark->values + (size_t)below * mark->columns;
+    const double *high = mark->values + (size_t)above * mark->columns;
+    return (1.0 - t) * ((1.0 - s) * low[left] + s * low[right]) +
+           t * ((1.0 - s) * high[left] + s * high[right]);
+}
+
 bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air)
 {
     const double touch = 1e-6;

@@ -63,6 +63,10 @@ const struct gm_mark *gm_panel_field(const struct gm_panel *panel);
 double gm_frame_x(const struct gm_frame *frame, double value);
 double gm_frame_y(const struct gm_frame *frame, double value);
 
+/* The value of an image at a place from 0 to 1 in both directions, from its left and its bottom: linear in both
+   between the middles of its cells. */
+double gm_image_value(const struct gm_mark *image, double across, double up);
+
 /* Neighbours in a line need air between them; lines may touch. Empty boxes overlap nothing. */
 bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air);
 

@@ -79,20 +79,6 @@ static void paint_mesh(struct gm_field_image *field, const struct gm_frame *fram
     }
 }
 
-/* The value at a place of the image, from 0 to 1 in both directions. */
-static double value_at(const struct gm_mark *mark, double u, double v)
-{
-    const double across = u * (double)mark->columns - 0.5, up = v * (double)mark->rows - 0.5;
-    const int last_column = (int)mark->columns - 1, last_row = (int)mark->rows - 1;
-    const int left = clamp(across, 0, last_column), below = clamp(up, 0, last_row);
-    const int right = left < last_column ? left + 1 : left, above = below < last_row ? below + 1 : below;
-    const double s = fmin(fmax(across - left, 0.0), 1.0), t = fmin(fmax(up - below, 0.0), 1.0);
-    const double *low = mark->values + (size_t)below * mark->columns;
-    const double *high = mark->values + (size_t)above * mark->columns;
-    return (1.0 - t) * ((1.0 - s) * low[left] + s * low[right]) +
-           t * ((1.0 - s) * high[left] + s * high[right]);
-}
-
 static void paint_image(struct gm_field_image *field, const struct gm_frame *frame,
                         const struct gm_mark *mark, int fine)
 {
@@ -103,7 +89,7 @@ static void paint_image(struct gm_field_image *field, const struct gm_frame *fra
         for (int x = 0; x < field->columns; x++) {
             const double u = (field->left + (x + 0.5) / fine - left) / (right - left);
             const double value =
-                u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 ? value_at(mark, u, v) : (double)NAN;
+                u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 ? gm_image_value(mark, u, v) : (double)NAN;
             if (isfinite(value)) {
                 put(field, x, y, mark, value);
             }

@@ -16,6 +16,9 @@ extern "C" {
 void gm_hand_kepler_verlet(double *y, double h, long steps);
 void gm_hand_kepler_rk4(double *y, double h, long steps);
 void gm_hand_vortices_rk4(double *y, double h, long steps);
+/* in registers of four */
+void gm_hand_vortices_rk4_simd(double *y, double h, long steps);
+void gm_hand_vortices_midpoint_simd(double *y, double h, long steps);
 void gm_hand_ensemble_kepler_verlet(double *y, size_t m, double h, long steps);
 void gm_hand_ensemble_oscillator_verlet(double *y, size_t m, double h, long steps);
 void gm_hand_ensemble_oscillator_rk4(double *y, size_t m, double h, long steps);

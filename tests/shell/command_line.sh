@@ -421,7 +421,9 @@ refused 3 'a PDF needs Cairo, but .*libcairo.so.2: file too short$' render disc 
 status 0 run disc steps=1
 unset LD_LIBRARY_PATH
 status 0 terminal
-grep -q 'painter .*\(OSMesa\|EGL\), OpenGL [0-9]' out || fail 'terminal does not say what paints'
+grep -q "painter .*geomint's own rasteriser" out || fail 'terminal does not say what paints'
+GEOMINT_GL=osmesa status 0 terminal
+grep -q 'painter .*OSMesa, OpenGL [0-9]' out || fail 'terminal does not say which OpenGL paints'
 
 # the same input gives the same output, bit for bit, but for the seconds
 "$geomint" run disc scheme=gauss4 system=pendulum --json --state | sed 's/"seconds":[^,]*//' >one

@@ -21,7 +21,7 @@ forbid core '(curses|ncurses|png|GL|EGL)'
 forbid render '(core|scenes|app|library|tests)/'
 forbid render '(curses|ncurses)'
 forbid scenes '(app|library|tests)/'
-forbid scenes 'render/(gl|drawing|vector|cells|layout|clock|files/[^r])'
+forbid scenes 'render/(gl|pixels|triangles|drawing|vector|cells|layout|clock|files/[^r])'
 forbid app '(library|tests)/'
 forbid library '(app/(commands|explorer)|tests)/'
 

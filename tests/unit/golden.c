@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Golden pictures: pictures as text, compared word by word and number by number (to 1e-6 of a range of about
-   one; pixels change with the version of Mesa, this does not).
+   one; pixels change with the fonts, this does not).
        golden FILE SCENE [key=value ...]            compares with FILE
        golden --write FILE SCENE [key=value ...]    writes FILE */
 #include <math.h>

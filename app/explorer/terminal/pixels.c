@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/explorer/background/job.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 #include "render/message.h"
 
 struct gm_pixels {

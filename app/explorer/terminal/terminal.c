@@ -16,7 +16,7 @@
 #include "app/output/say.h"
 #include "core/count.h"
 #include "core/memory.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 #include "render/message.h"
 
 #undef columns /* term.h defines these short names as macros */

@@ -10,7 +10,7 @@
 #include "app/explorer/background/job.h"
 #include "app/request/interrupt.h"
 #include "render/files/sink.h"
-#include "render/gl/canvas.h"
+#include "render/pixels/canvas.h"
 #include "render/message.h"
 
 enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };

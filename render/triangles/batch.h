@@ -1,15 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_GL_BATCH_H
-#define GM_RENDER_GL_BATCH_H
+#ifndef GM_RENDER_TRIANGLES_BATCH_H
+#define GM_RENDER_TRIANGLES_BATCH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "render/gl/shaders.h"
-#include "render/layout/theme.h"
+#include "render/picture/picture.h"
 
-/* A frame as one stream of vertices and a short list of draw calls: marks are appended in painting order,
-   neighbours of equal state share a call, and everything is sent to GL at the end. Buffers grow and stay. */
+/* A frame as one stream of vertices and a short list of calls: marks are appended in painting order,
+   neighbours of equal state share a call, and what draws triangles takes everything at the end. Buffers grow and
+   stay. */
+
+/* How a triangle's pixels get their colour from what is interpolated between its vertices. */
+enum gm_program {
+    GM_PROGRAM_INK,
+    GM_PROGRAM_CORE, /* ink where it covers pixels wholly */
+    GM_PROGRAM_TEXT,
+    GM_PROGRAM_FIELD,
+    GM_PROGRAM_IMAGE,
+    GM_PROGRAM_COUNT,
+};
 
 /* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), the distances in pixels: a stroke's body has
    along = 0, its round cap counts along from its end, a disc has both from its centre. Text: (across,
@@ -18,7 +29,8 @@
 struct gm_vertex {
     float x, y; /* in pixels, downwards */
     float across, along, half;
-    uint8_t colour[4]; /* of fields and images: the row of the colour map, 0 or 255, and three of 255 */
+    uint8_t colour[4]; /* of a whole strip; of fields and images: the row of the colour map, 0 or 255, and
+                          three of 255 */
 };
 
 enum gm_stencil {
@@ -29,10 +41,18 @@ enum gm_stencil {
     GM_STENCIL_INSIDE,  /* paints the inside and forgets it */
 };
 
-struct gm_draw_call;
+/* Triangles of one state: a strip of vertices, or three indices each. */
+struct gm_draw_call {
+    enum gm_program program;
+    enum gm_stencil stencil;
+    bool indexed;
+    int once;                    /* number of the group of GM_STENCIL_ONCE, from 1 */
+    int scissor[4];              /* left, top, width, height */
+    const struct gm_mark *image; /* of GM_PROGRAM_IMAGE */
+    size_t first, count;         /* vertices, or indices */
+};
 
 struct gm_batch {
-    const struct gm_gl *gl;
     struct gm_vertex *vertices;
     size_t vertex_count, vertex_capacity;
     uint32_t *indices;
@@ -44,21 +64,18 @@ struct gm_batch {
     int once; /* number of the present group of GM_STENCIL_ONCE */
     enum gm_program program;
     enum gm_stencil stencil;
-    GLuint texture; /* of images */
+    const struct gm_mark *image;
     bool short_of_memory;
-    GLuint programs[GM_PROGRAM_COUNT], array, buffer, index_buffer;
 };
 
-/* For pictures of width x height pixels; needs a current context. False, with a sentence in message, when
-   shaders do not compile. */
-bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, int width, int height, char *message);
-void gm_batch_close(struct gm_batch *batch);
+/* A batch begins zeroed. */
+void gm_batch_free(struct gm_batch *batch);
 
 void gm_batch_clear(struct gm_batch *batch);
-/* The state of what follows. */
+/* The state of what follows. An image lives until the batch is drawn. */
 void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height);
 void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil);
-void gm_batch_texture(struct gm_batch *batch, GLuint texture);
+void gm_batch_image(struct gm_batch *batch, const struct gm_mark *image);
 void gm_batch_once(struct gm_batch *batch);
 
 /* Room for a strip of at most count vertices, not connected to the strip before; NULL when memory is short.
@@ -68,9 +85,5 @@ void gm_batch_end(struct gm_batch *batch, size_t unused);
 
 /* Room for vertices and the triangles among them (numbers count from the first of these vertices). */
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
-
-/* Draws everything into the bound framebuffer of width x height pixels. The glyph atlas is bound to texture
-   unit 0, the colour maps to unit 1. */
-bool gm_batch_draw(struct gm_batch *batch, int width, int height);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_GL_STROKES_H
-#define GM_RENDER_GL_STROKES_H
+#ifndef GM_RENDER_TRIANGLES_STROKES_H
+#define GM_RENDER_TRIANGLES_STROKES_H
 
 #include "render/drawing/pen.h"
-#include "render/gl/batch.h"
+#include "render/triangles/batch.h"
 
 /* Polylines and discs as triangles whose edges fade over a pixel. */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strokes and discs as triangles whose edges fade. */
-#include "render/gl/strokes.h"
+#include "render/triangles/strokes.h"
 
 #include <math.h>
 #include <string.h>

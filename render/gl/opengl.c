@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Triangles by OpenGL, and the pixels read back. */
+#include "render/gl/opengl.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "render/address_space.h"
+#include "render/gl/stream.h"
+#include "render/message.h"
+
+enum { MAP_STEPS = 256, MAP_ROWS = 2 };
+
+struct gm_opengl {
+    struct gm_context *context;
+    struct gm_gl gl;
+    struct gm_stream stream;
+    int width, height;
+    enum gm_theme theme;
+    GLuint framebuffer, colour_buffer, stencil_buffer;
+    GLuint atlas, maps;
+    int atlas_height; /* of the texture */
+    char name[GM_MESSAGE];
+};
+
+static bool framebuffer_open(struct gm_opengl *opengl, char *message)
+{
+    const struct gm_gl *gl = &opengl->gl;
+    GLint most = 0, viewport[2] = {0, 0};
+    gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    most = most < viewport[0] ? most : viewport[0];
+    if (opengl->width < 1 || opengl->height < 1 || opengl->width > most || opengl->height > most) {
+        snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                 opengl->width, opengl->height, most);
+        return false;
+    }
+    gl->GenFramebuffers(1, &opengl->framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, opengl->framebuffer);
+    gl->GenRenderbuffers(1, &opengl->colour_buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, opengl->colour_buffer);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, opengl->width, opengl->height);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, opengl->colour_buffer);
+    gl->GenRenderbuffers(1, &opengl->stencil_buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, opengl->stencil_buffer);
+    static const struct {
+        GLenum format, attachment;
+    } stencils[] = {{GL_STENCIL_INDEX8, GL_STENCIL_ATTACHMENT},
+                    {GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT}};
+    for (int i = 0; i < 2; i++) {
+        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, opengl->width, opengl->height);
+        gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
+                                    opengl->stencil_buffer);
+        if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
+            gl->GetError() == GL_NO_ERROR) {
+            return true;
+        }
+    }
+    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.", opengl->width,
+             opengl->height);
+    return false;
+}
+
+static void texture_parameters(const struct gm_gl *gl, GLint filter)
+{
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+static void textures_open(struct gm_opengl *opengl)
+{
+    const struct gm_gl *gl = &opengl->gl;
+    unsigned char texels[MAP_ROWS][MAP_STEPS][4];
+    for (int map = 0; map < MAP_ROWS; map++) {
+        for (int i = 0; i < MAP_STEPS; i++) {
+            const struct gm_rgb rgb =
+                gm_colour_map_at((enum gm_colour_map)map, opengl->theme, (double)i / (MAP_STEPS - 1));
+            memcpy(texels[map][i], (const unsigned char[]){rgb.r, rgb.g, rgb.b, 255}, 4);
+        }
+    }
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl->GenTextures(1, &opengl->atlas);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, opengl->atlas);
+    texture_parameters(gl, GL_NEAREST);
+    gl->GenTextures(1, &opengl->maps);
+    gl->ActiveTexture(GL_TEXTURE1);
+    gl->BindTexture(GL_TEXTURE_2D, opengl->maps);
+    texture_parameters(gl, GL_LINEAR);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+}
+
+static bool open_alone(struct gm_opengl *opengl, char *message)
+{
+    opengl->context = gm_context_open(message, GM_MESSAGE);
+    if (!opengl->context) {
+        return false;
+    }
+    const char *missing = gm_gl_load(&opengl->gl, opengl->context);
+    if (missing) {
+        return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
+    }
+    const char *version = (const char *)opengl->gl.GetString(GL_VERSION);
+    const char *renderer = (const char *)opengl->gl.GetString(GL_RENDERER);
+    const char *mesa = strstr(version, "Mesa");
+    snprintf(opengl->name, sizeof opengl->name, "%s, OpenGL %.3s, %s%s%s", gm_context_name(opengl->context),
+             version, renderer, mesa ? ", " : "", mesa ? mesa : "");
+    if (!framebuffer_open(opengl, message) ||
+        !gm_stream_open(&opengl->stream, &opengl->gl, opengl->width, opengl->height, message)) {
+        return false;
+    }
+    textures_open(opengl);
+    return true;
+}
+
+static void close_alone(struct gm_opengl *opengl)
+{
+    if (opengl->context && opengl->gl.Viewport && gm_context_use(opengl->context)) {
+        const struct gm_gl *gl = &opengl->gl;
+        gm_stream_close(&opengl->stream);
+        gl->DeleteTextures(1, &opengl->atlas);
+        gl->DeleteTextures(1, &opengl->maps);
+        gl->DeleteFramebuffers(1, &opengl->framebuffer);
+        gl->DeleteRenderbuffers(1, &opengl->colour_buffer);
+        gl->DeleteRenderbuffers(1, &opengl->stencil_buffer);
+    }
+    gm_context_close(opengl->context);
+    free(opengl);
+}
+
+const char *gm_opengl_name(const struct gm_opengl *opengl)
+{
+    return opengl->name;
+}
+
+static void update_atlas(struct gm_opengl *opengl, const struct gm_atlas *atlas)
+{
+    const struct gm_gl *gl = &opengl->gl;
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, opengl->atlas);
+    if (atlas->height != opengl->atlas_height) {
+        gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas->width, atlas->height, 0, GL_RED, GL_UNSIGNED_BYTE,
+                       atlas->pixels);
+    } else if (atlas->changed < atlas->used) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, atlas->changed, atlas->width, atlas->used - atlas->changed,
+                          GL_RED, GL_UNSIGNED_BYTE,
+                          atlas->pixels + (size_t)atlas->changed * (size_t)atlas->width);
+    }
+    opengl->atlas_height = atlas->height;
+}
+
+static void clear(const struct gm_opengl *opengl)
+{
+    const struct gm_gl *gl = &opengl->gl;
+    const struct gm_rgb paper = gm_theme_colour(opengl->theme, GM_PAPER);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, opengl->framebuffer);
+    gl->Viewport(0, 0, opengl->width, opengl->height);
+    gl->ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1.0f);
+    gl->ClearStencil(0);
+    gl->Clear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+static bool draw_alone(struct gm_opengl *opengl, const struct gm_batch *batch, const struct gm_atlas *atlas,
+                       unsigned char *rgba)
+{
+    if (!gm_context_use(opengl->context)) {
+        return false;
+    }
+    update_atlas(opengl, atlas);
+    clear(opengl);
+    const bool drawn = gm_stream_draw(&opengl->stream, batch, opengl->width, opengl->height);
+    opengl->gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    opengl->gl.ReadPixels(0, 0, opengl->width, opengl->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    return drawn;
+}
+
+/* Mesa's software contexts of one process are not safe from each other: two threads that paint at once crash
+   in libOSMesa 22.3. So all canvases take turns. */
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+
+static void take_turn(void)
+{
+    pthread_mutex_lock(&turn);
+    gm_context_guard();
+}
+
+static void end_turn(void)
+{
+    gm_context_unguard();
+    pthread_mutex_unlock(&turn);
+}
+
+enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
+
+/* Whether OpenGL is where it was loaded: its threads are not in a process that was forked off afterwards, which would
+   wait for them for ever. False with a sentence. */
+static bool is_here(char *message)
+{
+    static pid_t loaded_in;
+    loaded_in = loaded_in ? loaded_in : getpid();
+    return loaded_in == getpid() ||
+           gm_refuse(message,
+                     "A process that was forked from one that had painted by OpenGL cannot paint by it.");
+}
+
+struct gm_opengl *gm_opengl_open(int width, int height, enum gm_theme theme, char *message)
+{
+    struct gm_opengl *opengl = calloc(1, sizeof *opengl);
+    if (!opengl) {
+        gm_refuse(message, "There is not enough memory for a picture.");
+        return NULL;
+    }
+    *opengl = (struct gm_opengl){.width = width, .height = height, .theme = theme};
+    take_turn();
+    const bool here = is_here(message), good = here && open_alone(opengl, message);
+    if (!good) {
+        close_alone(opengl);
+        if (here && !gm_address_space_has(TAKEN)) {
+            gm_refuse(message, "There is not enough memory to paint pictures.");
+        }
+    }
+    end_turn();
+    return good ? opengl : NULL;
+}
+
+void gm_opengl_close(struct gm_opengl *opengl)
+{
+    if (!opengl) {
+        return;
+    }
+    take_turn();
+    close_alone(opengl);
+    end_turn();
+}
+
+bool gm_opengl_draw(struct gm_opengl *opengl, const struct gm_batch *batch, const struct gm_atlas *atlas,
+                    unsigned char *rgba)
+{
+    take_turn();
+    const bool drawn = draw_alone(opengl, batch, atlas, rgba);
+    if (!drawn) {
+        gm_address_space_has(TAKEN); /* notes a refusal that was Mesa's */
+    }
+    end_turn();
+    return drawn;
+}

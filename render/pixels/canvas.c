@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A picture as triangles of a batch, drawn by the program's own rasteriser or by OpenGL. */
+#include "render/pixels/canvas.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+#include "render/drawing/page.h"
+#include "render/gl/opengl.h"
+#include "render/pixels/rasteriser.h"
+#include "render/triangles/brush.h"
+
+struct gm_canvas {
+    struct gm_brush brush;
+    struct gm_painter painter;
+    struct gm_opengl *opengl; /* NULL: the rasteriser draws */
+    struct gm_rasteriser rasteriser;
+    unsigned char *rgba;
+};
+
+/* Whether the environment asks for OpenGL. */
+static bool wants_opengl(void)
+{
+    const char *wanted = getenv("GEOMINT_GL");
+    return wanted && wanted[0] != '\0';
+}
+
+static bool rasteriser_open(struct gm_rasteriser *rasteriser, const struct gm_appearance *look, char *message)
+{
+    *rasteriser = (struct gm_rasteriser){.width = look->width, .height = look->height, .theme = look->theme};
+    return (look->width >= 1 && look->height >= 1 && look->width <= GM_RASTERISER_MOST &&
+            look->height <= GM_RASTERISER_MOST) ||
+           gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                     look->width, look->height, GM_RASTERISER_MOST);
+}
+
+static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look, char *message)
+{
+    if (!gm_page_open(&canvas->painter, &gm_brush_pen, &canvas->brush, look, message)) {
+        return false;
+    }
+    canvas->brush.glyphs = canvas->painter.glyphs;
+    if (wants_opengl()) {
+        canvas->opengl = gm_opengl_open(look->width, look->height, look->theme, message);
+    }
+    if (wants_opengl() ? !canvas->opengl : !rasteriser_open(&canvas->rasteriser, look, message)) {
+        return false;
+    }
+    canvas->rgba = malloc((size_t)look->width * (size_t)look->height * 4);
+    return canvas->rgba || gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.",
+                                     look->width, look->height);
+}
+
+struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message)
+{
+    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
+    if (!canvas) {
+        gm_refuse(message, "There is not enough memory for a picture.");
+        return NULL;
+    }
+    if (!open_all(canvas, look, message)) {
+        gm_canvas_close(canvas);
+        return NULL;
+    }
+    return canvas;
+}
+
+void gm_canvas_close(struct gm_canvas *canvas)
+{
+    if (!canvas) {
+        return;
+    }
+    gm_page_close(&canvas->painter);
+    gm_brush_free(&canvas->brush);
+    gm_opengl_close(canvas->opengl);
+    gm_rasteriser_close(&canvas->rasteriser);
+    free(canvas->rgba);
+    free(canvas);
+}
+
+const char *gm_canvas_backend(const struct gm_canvas *canvas)
+{
+    return canvas->opengl ? gm_opengl_name(canvas->opengl) : "geomint's own rasteriser";
+}
+
+#ifdef __x86_64__
+/* Four pixels at a time by one shuffle, which also writes four bytes that the next ones overwrite; how many
+   pixels are done. */
+__attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char *rgba, unsigned char *rgb,
+                                                             size_t count)
+{
+    const __m128i kept = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
+    size_t i = 0;
+    for (; i + 6 <= count; i += 4) {
+        const __m128i pixels = _mm_loadu_si128((const __m128i *)(rgba + 4 * i));
+        _mm_storeu_si128((__m128i *)(rgb + 3 * i), _mm_shuffle_epi8(pixels, kept));
+    }
+    return i;
+}
+#endif
+
+/* Elsewhere as three words; the shifts are those of processors whose low byte comes first. */
+static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t count)
+{
+    size_t i = 0;
+#ifdef __x86_64__
+    i = __builtin_cpu_supports("ssse3") ? shuffle_alpha(rgba, rgb, count) : 0;
+#endif
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    for (; i + 4 <= count; i += 4) {
+        uint32_t in[4], out[3];
+        memcpy(in, rgba + 4 * i, sizeof in);
+        out[0] = (in[0] & 0xffffff) | in[1] << 24;
+        out[1] = (in[1] >> 8 & 0xffff) | in[2] << 16;
+        out[2] = (in[2] >> 16 & 0xff) | in[3] << 8;
+        memcpy(rgb + 3 * i, out, sizeof out);
+    }
+#endif
+    for (; i < count; i++) {
+        memcpy(rgb + 3 * i, rgba + 4 * i, 3);
+    }
+}
+
+bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
+    struct gm_batch *batch = &canvas->brush.batch;
+    gm_batch_clear(batch);
+    if (!gm_page_draw(&canvas->painter, picture)) {
+        return false;
+    }
+    const struct gm_atlas atlas = gm_glyphs_atlas(canvas->painter.glyphs);
+    const bool drawn = canvas->opengl ? gm_opengl_draw(canvas->opengl, batch, &atlas, canvas->rgba)
+                                      : gm_rasteriser_draw(&canvas->rasteriser, batch, &atlas, canvas->rgba);
+    drop_alpha(canvas->rgba, rgb, (size_t)canvas->painter.look.width * (size_t)canvas->painter.look.height);
+    return drawn;
+}
+
+const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y)
+{
+    const struct gm_metrics metrics = gm_painter_metrics(&canvas->painter);
+    return gm_layout_locate(gm_layout_make(picture, &metrics), across, down, x, y);
+}

@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Milliseconds of whole processes, medians of rounds in which all take turns: nothing (`true`), --version, a step of a
+# run, and one still picture by each painter; beside another build of geomint if there is one to compare with:
+# start.sh GEOMINT [OTHER [ROUNDS]]
+set -u
+geomint=$1
+other=${2:-$1}
+rounds=${3:-25}
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+
+# take LABEL WORDS: appends their microseconds to a file
+take() {
+    label=$1
+    shift
+    begun=$(date +%s%N)
+    "$@" >"$folder/out" 2>&1
+    echo $((($(date +%s%N) - begun) / 1000)) >>"$folder/$label"
+}
+
+tell() {
+    sort -n "$folder/$1" | awk -v what="$2" '
+        { times[NR] = $1 }
+        END { printf "%-28s %8.2f ms, at least %.2f\n", what, times[int((NR + 1) / 2)] / 1000, times[1] / 1000 }'
+}
+
+round=0
+while [ "$round" -lt "$rounds" ]; do
+    take nothing true
+    for build in this other; do
+        program=$geomint
+        [ "$build" = other ] && program=$other
+        take "$build-version" "$program" --version
+        take "$build-run" "$program" run disc steps=3
+        take "$build-still" env GEOMINT_GL= "$program" render disc --size 1280x720 -o "$folder/a.png"
+        take "$build-osmesa" env GEOMINT_GL=osmesa "$program" render disc --size 1280x720 -o "$folder/b.png"
+    done
+    round=$((round + 1))
+done
+tell nothing true
+for build in this other; do
+    [ "$build" = other ] && [ "$other" = "$geomint" ] && continue
+    tell "$build-version" "$build: --version"
+    tell "$build-run" "$build: run disc steps=3"
+    tell "$build-still" "$build: still picture"
+    tell "$build-osmesa" "$build: still by OSMesa"
+done
