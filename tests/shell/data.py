@@ -470,6 +470,7 @@ def full():
                 check(all(every[key].startswith(some[key]) for key in some if not key.endswith("meta")), f"the rows of {name}")
                 check(zipfile.ZipFile(f"small/{name}").testzip() is None, f"the checksums of {name}")
             os.remove(f"small/{name}")
+            os.remove(name)
     own = "run kepler scheme=controlled-verlet2 dt=.002"
     for size in range(500, 2000, 100):  # there may be room for all rows, but not for the file beside them
         with disk(size) as there:
@@ -484,6 +485,7 @@ def full():
                 some, every = numbers_of("small/own.npz"), numbers_of("own.npz")
                 check(all(some[key] == every[key] for key in every if key != "meta"), f"a disk of {size} KiB that was full at the end: other rows")
                 os.remove("own.check")
+                os.remove("own.npz")
     with open("long.system", "w") as file:  # its text, which is in meta, is longer than what else ends an archive
         file.write("# " + 300 * 200 * "x" + "\ncoordinates: q\nH: p_q^2/2 + q^2/2\nstart: q = 1, p_q = 0\ndt: 0.1\n")
     with disk(1000) as there:
