@@ -32,10 +32,13 @@ struct outputs {
     const struct gm_options *options;
     struct gm_chosen chosen; /* the observables that are told */
     struct gm_rows rows;
-    FILE *csv; /* NULL: not asked for, as the others */
+    FILE *csv;   /* NULL: not asked for, as the others */
+    int csv_why; /* errno of the row that could not be written; 0: all could */
     struct gm_save *save;
     struct gm_pause *pause;
     struct gm_tracks *tracks;
+    /* what could not be written, and was told: the last checkpoint, the profiles, the tracks */
+    bool unkept, unprofiled, untracked;
 };
 
 struct outcome {
@@ -48,6 +51,11 @@ struct outcome {
     struct gm_paused paused;  /* numbers: the maxima */
     char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
 };
+
+static bool is_standard_output(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
 
 /* The observable that is told in place i. */
 static const struct gm_observable *told(const struct outcome *outcome, size_t i)
@@ -269,15 +277,21 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
     return text;
 }
 
-static void write_row(FILE *csv, const struct outcome *outcome)
+/* A row of the history, unless one before it could not be written. */
+static void write_row(struct outcome *outcome)
 {
     const struct gm_lane *lane = outcome->drive.lane;
+    FILE *csv = outcome->outputs->csv;
     char sentence[GM_MESSAGE];
+    if (outcome->outputs->csv_why != 0) {
+        return;
+    }
     fprintf(csv, "%s,%.17g,%s", outcome->front, lane->run->t, tell_end(outcome, sentence, sizeof sentence));
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         fprintf(csv, ",%.17g", observe_told(outcome, i));
     }
     fputc('\n', csv);
+    outcome->outputs->csv_why = ferror(csv) ? errno : 0;
 }
 
 static void take_maxima(struct outcome *outcome)
@@ -296,15 +310,27 @@ static bool write_rows(struct outcome *outcome, char *message)
     const struct outputs *outputs = outcome->outputs;
     outcome->paused.last_row = outcome->drive.lane->run->steps;
     if (outputs->csv) {
-        write_row(outputs->csv, outcome);
+        write_row(outcome);
     }
     return !outputs->save || gm_save_row(outputs->save, outcome->drive.lane->run, message);
 }
 
-/* Writes the checkpoint: the rows that it counts are on the disk before it is. */
-static bool keep_state(struct outcome *outcome, char *message)
+/* Replaces the checkpoint. False with a sentence. */
+static bool replace_checkpoint(const struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
+    const struct gm_drive *drive = &outcome->drive;
+    if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
+        return gm_temporary_refuse(message, outputs->options->checkpoint, "not enough memory");
+    }
+    return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
+}
+
+/* Keeps the state: the rows that a checkpoint counts are on the disk before it is. False with a sentence if
+   these cannot be written; without a checkpoint a run goes on. */
+static bool keep_state(struct outcome *outcome, char *message)
+{
+    struct outputs *outputs = outcome->outputs;
     const struct gm_drive *drive = &outcome->drive;
     outcome->paused.seconds = drive->seconds;
     outcome->paused.rows = 0;
@@ -314,16 +340,14 @@ static bool keep_state(struct outcome *outcome, char *message)
     if (outputs->save && !gm_save_sync(outputs->save, &outcome->paused.rows, message)) {
         return false;
     }
-    if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
-        return gm_refuse(message, "not enough memory");
-    }
-    const bool written = gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
-    if (outputs->save && written) {
+    const bool told = outputs->unkept;
+    outputs->unkept = !replace_checkpoint(outcome, message);
+    if (outputs->unkept && !told) {
+        gm_complain("%s", message);
+    } else if (!outputs->unkept && outputs->save) {
         gm_save_keep(outputs->save);
-    } else if (outputs->save) {
-        gm_save_stop(outputs->save, errno);
     }
-    return written;
+    return true;
 }
 
 /* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
@@ -398,6 +422,16 @@ static bool make_steps(struct outcome *outcome, long stop, char *message)
     return !due || write_rows(outcome, message);
 }
 
+/* Whether nobody is left who reads what is written, and that is all that is wanted. */
+static bool is_in_vain(const struct outputs *outputs)
+{
+    const struct gm_options *options = outputs->options;
+    const bool makes_file = options->save || options->tracks || options->checkpoint ||
+                            (options->profile && !is_standard_output(options->profile)) ||
+                            (options->csv && !is_standard_output(options->csv));
+    return !makes_file && ferror(stdout);
+}
+
 /* Drives one lane to its end. Looks at every step only where that is asked for. */
 static bool drive_lane(struct outcome *outcome, long steps, char *message)
 {
@@ -407,8 +441,8 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     /* without memory for it, step by step */
     double *trace = only_saves(outcome) ? malloc(TRACED * row_width(outcome) * sizeof *trace) : NULL;
     bool good = true;
-    for (long before = -1;
-         good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted && run->steps != before;) {
+    for (long before = -1; good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted &&
+                           run->steps != before && !is_in_vain(outcome->outputs);) {
         before = run->steps;
         const long stop = keeps && pace.steps < steps - before ? before + pace.steps : steps;
         good = trace ? make_rows(outcome, stop, trace, message) : make_steps(outcome, stop, message);
@@ -416,28 +450,6 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     }
     free(trace);
     return good;
-}
-
-/* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
-static bool begin_rows(struct outcome *outcome, long steps, char *message)
-{
-    const struct outputs *outputs = outcome->outputs;
-    const struct gm_run *run = outcome->drive.lane->run;
-    const uint64_t rows = outcome->paused.rows;
-    if (outputs->save) {
-        const long end = gm_drive_end(&outcome->drive, steps);
-        if (!gm_save_begin(outputs->save, outcome->drive.index, run, rows,
-                           gm_rows_expected(&outputs->rows, run, end), message)) {
-            return false;
-        }
-    }
-    if (outputs->save && rows > 0) {
-        if (outputs->csv) {
-            write_row(outputs->csv, outcome);
-        }
-        return true;
-    }
-    return !(outputs->csv || outputs->save) || write_rows(outcome, message);
 }
 
 /* What was run, as JSON; malloc'ed, NULL when memory is short. */
@@ -448,7 +460,33 @@ static char *meta_of(const struct outcome *outcome)
     return gm_meta_text(outcome->drive.lane, status, sentence);
 }
 
-/* ... and end with the last good state. A lane that did not come to its end says so in its history. */
+/* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
+static bool begin_rows(struct outcome *outcome, long steps, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_run *run = outcome->drive.lane->run;
+    const uint64_t rows = outcome->paused.rows;
+    if (outputs->save) {
+        const long end = gm_drive_end(&outcome->drive, steps);
+        char *meta = meta_of(outcome);
+        const bool begun =
+            gm_save_begin(outputs->save, outcome->drive.index, run, rows,
+                          gm_rows_expected(&outputs->rows, run, end), meta ? strlen(meta) : 0, message);
+        free(meta);
+        if (!begun) {
+            return false;
+        }
+    }
+    if (outputs->save && rows > 0) {
+        if (outputs->csv) {
+            write_row(outcome);
+        }
+        return true;
+    }
+    return !(outputs->csv || outputs->save) || write_rows(outcome, message);
+}
+
+/* The rows of a lane end with the last good state. A lane that did not come to its end says so in its history. */
 static bool end_rows(struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -456,7 +494,7 @@ static bool end_rows(struct outcome *outcome, char *message)
     const bool cut = outcome->interrupted || lane->run->status != GM_OK;
     const bool missing = outcome->paused.last_row != lane->run->steps;
     if (outputs->csv && (cut || missing)) {
-        write_row(outputs->csv, outcome);
+        write_row(outcome);
     }
     if (!outputs->save) {
         return true;
@@ -481,18 +519,17 @@ static bool save_tracks(const struct outcome *outcome, char *message)
     return good;
 }
 
-/* There was no room for all rows: those that fit are what was saved of this lane. */
+/* Not all rows could be written, mostly for want of room: those that could are what was saved of this lane,
+   even where there is no memory to say more of it. */
 static void end_cut(struct outcome *outcome)
 {
     char message[GM_MESSAGE];
     outcome->interrupted = true;
     snprintf(message, sizeof message,
-             "there was no room for more rows: the run came to t = %.6g, those of the file end before",
+             "no more rows could be written: the run came to t = %.6g, those of the file end before",
              outcome->drive.lane->run->t);
     char *meta = gm_meta_text(outcome->drive.lane, "interrupted", message);
-    if (meta) {
-        gm_save_end(outcome->outputs->save, meta, message);
-    }
+    gm_save_end(outcome->outputs->save, meta ? meta : "{}", message);
     free(meta);
 }
 
@@ -542,11 +579,6 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
            end_rows(outcome, message);
 }
 
-static bool is_standard_output(const char *path)
-{
-    return path && strcmp(path, "-") == 0;
-}
-
 /* The file, or standard output; NULL with a sentence. */
 static FILE *open_stream(const char *path, const char *mode, char *message)
 {
@@ -563,13 +595,12 @@ static FILE *open_stream(const char *path, const char *mode, char *message)
     return stream;
 }
 
-static bool close_csv(FILE *csv)
+/* False with errno; `why`: that of what could not be written before, or 0. */
+static bool close_csv(FILE *csv, int why)
 {
-    const bool failed = ferror(csv) != 0;
-    if (csv == stdout) {
-        return !failed;
-    }
-    return fclose(csv) == 0 && !failed;
+    const bool failed = ferror(csv) != 0, closed = csv == stdout || fclose(csv) == 0;
+    errno = failed && why != 0 ? why : errno;
+    return closed && !failed;
 }
 
 static FILE *open_csv(const char *path, const struct gm_request *request, const struct gm_chosen *chosen,
@@ -582,7 +613,7 @@ static FILE *open_csv(const char *path, const struct gm_request *request, const 
     char *names = front_of(request, NULL, 0);
     if (!names) { /* rows without a head tell nothing */
         gm_refuse(message, "not enough memory");
-        close_csv(csv);
+        close_csv(csv, 0);
         return NULL;
     }
     fprintf(csv, "%s,t,status", names);
@@ -622,18 +653,18 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     }
     free(front);
     free(names);
-    if (!close_csv(stream) || !told) {
+    if (!close_csv(stream, 0) || !told) {
         return gm_refuse(message, "%.360s could not be written: %s", path,
                          told ? strerror(errno) : "not enough memory");
     }
     return true;
 }
 
-/* What one lane's run has to say, where it is asked for. False with a sentence if a file could not be
- * written. */
-static bool tell(const struct outcome *outcome, const struct gm_options *options, char *message)
+/* What one lane's run has to say, where it is asked for. */
+static void tell(const struct outcome *outcome, const struct gm_options *options)
 {
-    char sentence[GM_MESSAGE];
+    struct outputs *outputs = outcome->outputs;
+    char sentence[GM_MESSAGE], message[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     if (options->json) {
         print_json(outcome, options);
@@ -642,7 +673,12 @@ static bool tell(const struct outcome *outcome, const struct gm_options *options
     } else if (sentence[0] && !ferror(stdout)) {
         gm_complain("%s: %s: %s", outcome->drive.lane->scheme->name, status, sentence);
     }
-    return !options->profile || write_profile(options->profile, outcome, message);
+    if (options->profile && !outputs->unprofiled) {
+        outputs->unprofiled = !write_profile(options->profile, outcome, message);
+        if (outputs->unprofiled && !is_standard_output(options->profile)) {
+            gm_complain("%s", message); /* of standard output gm_finish tells */
+        }
+    }
 }
 
 /* Standard output goes to one reader. */
@@ -664,13 +700,6 @@ static bool check_options(const struct gm_options *options)
     return true;
 }
 
-static void tell_written(const char *path)
-{
-    if (path && !is_standard_output(path)) {
-        gm_complain("wrote %s", path);
-    }
-}
-
 /* Whether the scene has profiles of its own, or its states have nodes on a line. */
 static bool has_profile(const struct gm_request *request)
 {
@@ -679,12 +708,6 @@ static bool has_profile(const struct gm_request *request)
     const bool has = request->scene->profile || !lane || gm_profile_is_there(lane->run);
     gm_lane_close(lane);
     return has; /* a lane that cannot be opened says why later */
-}
-
-/* A checkpoint takes the place of what is there: of a file, but not of a device, a pipe, a link or a folder. */
-static bool is_replaceable(const char *path, char *message)
-{
-    return gm_temporary_fits(path) || gm_refuse(message, "%.360s is no file that can be replaced", path);
 }
 
 /* Opens what is to be written; the status to exit with, and a sentence unless that is 0. */
@@ -724,7 +747,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     }
     const bool good =
         (!options->checkpoint || (gm_folder_make_for(options->checkpoint, message) &&
-                                  is_replaceable(options->checkpoint, message))) &&
+                                  gm_temporary_can_replace(options->checkpoint, message))) &&
         (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
         (!options->tracks || (outputs->tracks = gm_tracks_open(options->tracks, request->count, message))) &&
         (!options->save ||
@@ -733,34 +756,40 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     return good ? GM_EXIT_OK : GM_EXIT_FILE;
 }
 
-/* Finishes what was begun; the status to exit with. */
+/* Finishes what was begun, and tells of each file whether it was written; the status to exit with. */
 static int close_outputs(struct outputs *outputs, bool opened, int status)
 {
-    char message[GM_MESSAGE];
+    char history[GM_MESSAGE] = "", states[GM_MESSAGE] = "", tracks[GM_MESSAGE] = "";
     const struct gm_options *options = outputs->options;
-    const bool refused = status == GM_EXIT_FILE || !opened;
+    const bool complete = opened && status != GM_EXIT_FILE;
     /* what a checkpoint goes on with is not lost to a slip */
-    const bool keeps = options->checkpoint || (options->from_checkpoint && refused);
-    if (outputs->csv && !close_csv(outputs->csv) && outputs->csv != stdout) {
-        gm_complain("%s could not be written: %s", options->csv, strerror(errno));
-        status = GM_EXIT_FILE;
+    const bool keeps = options->checkpoint || (options->from_checkpoint && !complete);
+    if (outputs->csv && !close_csv(outputs->csv, outputs->csv_why) && outputs->csv != stdout) {
+        gm_refuse(history, "%.360s could not be written: %s", options->csv, strerror(errno));
     }
-    if (outputs->save && !gm_save_close(outputs->save, !refused, keeps, message)) {
-        gm_complain("%s", message);
-        status = GM_EXIT_FILE;
+    if (outputs->save) {
+        gm_save_close(outputs->save, complete, keeps, states);
     }
-    if (outputs->tracks && !gm_tracks_close(outputs->tracks, !refused, message)) {
-        gm_complain("%s", message);
-        status = GM_EXIT_FILE;
+    if (outputs->tracks) {
+        gm_tracks_close(outputs->tracks, complete && !outputs->untracked, tracks);
     }
     gm_pause_close(outputs->pause);
     gm_chosen_close(&outputs->chosen);
-    if (status != GM_EXIT_FILE && status != GM_EXIT_USAGE) {
-        const char *const written[] = {options->csv, options->profile, options->save, options->tracks,
-                                       options->checkpoint};
-        for (size_t i = 0; i < GM_COUNT(written); i++) {
-            tell_written(written[i]);
+    const struct {
+        const char *path, *why;
+        bool failed; /* and was told so when it did */
+    } files[] = {{options->csv, history, false},
+                 {options->profile, "", outputs->unprofiled},
+                 {options->save, states, false},
+                 {options->tracks, tracks, outputs->untracked},
+                 {options->checkpoint, "", outputs->unkept}};
+    for (size_t i = 0; i < GM_COUNT(files); i++) {
+        if (files[i].why[0]) {
+            gm_complain("%s", files[i].why);
+        } else if (complete && files[i].path && !files[i].failed && !is_standard_output(files[i].path)) {
+            gm_complain("wrote %s", files[i].path);
         }
+        status = files[i].why[0] || files[i].failed ? GM_EXIT_FILE : status;
     }
     return status;
 }
@@ -793,23 +822,21 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
         if (outputs->save && gm_save_is_cut(outputs->save)) {
             end_cut(&outcome);
             observe(&outcome);
-            if (!tell(&outcome, options, message)) {
-                gm_complain("%s", message);
-            }
+            tell(&outcome, options);
         } else {
             gm_complain("%s", message);
         }
         status = GM_EXIT_FILE;
     } else {
         observe(&outcome);
-        const bool told =
-            tell(&outcome, options, message) && (!outputs->tracks || save_tracks(&outcome, message));
+        tell(&outcome, options);
+        if (outputs->tracks && !outputs->untracked && !save_tracks(&outcome, message)) {
+            gm_complain("%s", message);
+            outputs->untracked = true;
+        }
         const bool doubtful = options->strict && outcome.warning[0] != '\0';
         const enum gm_status end = outcome.drive.lane->run->status;
-        if (!told) {
-            gm_complain("%s", message);
-            status = GM_EXIT_FILE;
-        } else if (end != GM_OK || doubtful) {
+        if (end != GM_OK || doubtful) {
             status = end == GM_OUT_OF_MEMORY ? GM_EXIT_MEMORY : GM_EXIT_NUMERICAL;
         }
     }
@@ -839,15 +866,15 @@ static int command_run(const struct gm_options *options)
     if (!opened) {
         gm_complain("%s", message);
     }
-    for (size_t i = 0; i < request.count && opened && status != GM_EXIT_FILE && !gm_interrupted; i++) {
+    for (size_t i = 0;
+         i < request.count && opened && status != GM_EXIT_FILE && !gm_interrupted && !is_in_vain(&outputs);
+         i++) {
         const int lane = make_lane(&outputs, &request, i);
         status = lane == GM_EXIT_FILE || lane == GM_EXIT_USAGE || status == GM_EXIT_OK ? lane : status;
-        if (outputs.csv && ferror(outputs.csv)) {
-            break;
-        }
     }
     status = close_outputs(&outputs, opened, status);
     gm_request_close(&request);
+    errno = outputs.csv_why != 0 ? outputs.csv_why : errno;
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
 

@@ -100,24 +100,50 @@ static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_sa
     return good ? npz : NULL;
 }
 
-enum { END = 1 << 16 /* meta and contents */, HEADS = 512 /* of a column */ };
+enum { CONTENTS = 1 << 16, HEADS = 512 /* of a column */ };
 
-/* Makes the lane's file anew, with room for so many rows and all that there are. What ends the archive has its
-   room, too: it can be ended on a disk that is full. */
+/* What ends the archive, meta and its contents, has its room from the start: it can be ended on a disk that is
+   full. */
+static uint64_t end_size(const struct gm_saved *lane)
+{
+    enum { LETTER = sizeof(uint32_t) };
+    return CONTENTS + (lane->meta_size + GM_MESSAGE) * LETTER;
+}
+
+/* How much a column has of what there is. */
+static uint64_t size_of(const struct gm_saved *lane, size_t column)
+{
+    return bytes_of(lane, column) * (is_fixed(lane, column) ? 1 : lane->rows);
+}
+
+/* The lane's file is from now on the one of this archive. */
+static void adopt(struct gm_saved *lane, struct gm_npz *npz, int file, uint64_t capacity,
+                  const uint64_t starts[], const uint32_t crcs[])
+{
+    gm_npz_close(lane->npz);
+    lane->npz = npz;
+    lane->file = file;
+    lane->capacity = capacity;
+    for (size_t i = 0; i <= lane->count; i++) {
+        lane->starts[i] = starts[i];
+        lane->columns[i].file = file;
+        lane->columns[i].crc = crcs[i];
+    }
+}
+
+/* Makes the lane's file anew, with room for so many rows and all that there are. */
 static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
-    static const char end[END];
     uint64_t starts[GM_COLUMNS] = {0};
     uint32_t crcs[GM_COLUMNS] = {0};
     const int file = gm_part_begin(saving->part, lane->index);
     struct gm_npz *npz = file < 0 ? NULL : lay_out(saving, lane, file, capacity, starts, crcs);
-    bool good = npz && gm_bytes_write(file, end, sizeof end, gm_npz_size(npz));
+    bool good = npz && gm_bytes_clear(file, gm_npz_size(npz), end_size(lane));
     for (size_t i = 0; i <= lane->count && good; i++) {
-        const uint64_t size = bytes_of(lane, i) * (is_fixed(lane, i) ? 1 : lane->rows);
-        good =
-            gm_npz_settle(npz, i, crcs[i]) &&
-            (lane->file < 0 || gm_bytes_copy(lane->file, lane->starts[i], size, file, starts[i], &crcs[i]));
-        lane->columns[i].place = starts[i] + (lane->file < 0 ? 0 : size);
+        const uint64_t size = lane->file < 0 ? 0 : size_of(lane, i);
+        good = gm_npz_settle(npz, i, crcs[i]) &&
+               gm_bytes_copy(lane->file, lane->starts[i], size, file, starts[i], &crcs[i]);
+        lane->columns[i].place = starts[i] + size;
     }
     if (!good || !gm_part_take(saving->part, lane->index)) {
         const int why = errno;
@@ -131,16 +157,8 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
     }
     if (lane->file >= 0) {
         close(lane->file);
-        gm_npz_close(lane->npz);
     }
-    lane->file = file;
-    lane->npz = npz;
-    lane->capacity = capacity;
-    for (size_t i = 0; i <= lane->count; i++) {
-        lane->starts[i] = starts[i];
-        lane->columns[i].file = file;
-        lane->columns[i].crc = crcs[i];
-    }
+    adopt(lane, npz, file, capacity, starts, crcs);
     return true;
 }
 
@@ -162,15 +180,22 @@ static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
 
 enum { FEW_ROWS = 1 << 12, MORE = 4 };
 
-/* For how many rows there is to be room: no more than the disk has. */
-static uint64_t capacity_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t expected)
+/* For how many rows there is room at most, in a file that has `own` bytes of the disk already. */
+static uint64_t most_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t own)
 {
-    uint64_t row = 0, beside = END;
+    uint64_t row = 0, beside = end_size(lane);
     for (size_t i = 0; i <= lane->count; i++) {
         row += is_fixed(lane, i) ? 0 : bytes_of(lane, i);
         beside += HEADS + (is_fixed(lane, i) ? bytes_of(lane, i) : 0);
     }
-    const uint64_t room = gm_part_room(saving->part), most = room > beside ? (room - beside) / row : 0;
+    const uint64_t room = gm_part_room(saving->part, own);
+    return room > beside ? (room - beside) / row : 0;
+}
+
+/* For how many rows there is to be room: no more than the disk has. */
+static uint64_t capacity_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t expected)
+{
+    const uint64_t most = most_rows(saving, lane, 0);
     const uint64_t wanted = expected > 0 ? expected : FEW_ROWS, fitting = wanted < most ? wanted : most;
     return fitting > lane->rows ? fitting : lane->rows + 1;
 }
@@ -190,6 +215,48 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     return good;
 }
 
+/* The columns, which are full, move apart within their file. Their room is made sure of first, as they are
+   lost if that fails on the way. */
+static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
+{
+    uint64_t starts[GM_COLUMNS] = {0};
+    uint32_t crcs[GM_COLUMNS] = {0};
+    struct gm_npz *npz = lay_out(saving, lane, lane->file, capacity, starts, crcs);
+    const uint64_t before = gm_npz_size(lane->npz) + end_size(lane);
+    bool good = npz && gm_bytes_clear(lane->file, before, gm_npz_size(npz) + end_size(lane) - before);
+    if (!good) {
+        const int why = errno;
+        gm_npz_close(npz);
+        errno = ftruncate(lane->file, (off_t)before) == 0 ? why : errno;
+        return false;
+    }
+    for (size_t i = lane->count + 1; i-- > 0 && good;) {
+        good = gm_bytes_raise(lane->file, lane->starts[i], size_of(lane, i), starts[i]);
+    }
+    for (size_t i = 0; i <= lane->count; i++) {
+        good = good && gm_npz_settle(npz, i, crcs[i]) &&
+               gm_bytes_check(lane->file, starts[i], size_of(lane, i), &crcs[i]);
+    }
+    adopt(lane, npz, lane->file, capacity, starts, crcs);
+    for (size_t i = 0; i <= lane->count; i++) {
+        lane->columns[i].place = starts[i] + (good ? size_of(lane, i) : 0);
+    }
+    return good;
+}
+
+/* Without room for a second file there may be some for a longer one, for at least this part of more rows. */
+static bool use_up(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    enum { PART = 64 };
+    const uint64_t own = gm_npz_size(lane->npz) + end_size(lane), most = most_rows(saving, lane, own);
+    bool good = false;
+    for (uint64_t more = most > lane->rows ? most - lane->rows : 0; more > lane->rows / PART && !good;
+         more /= 2) {
+        good = widen(saving, lane, lane->rows + more);
+    }
+    return good;
+}
+
 /* There are more rows than there is room for. */
 static bool grow(const struct gm_saving *saving, struct gm_saved *lane)
 {
@@ -197,7 +264,13 @@ static bool grow(const struct gm_saving *saving, struct gm_saved *lane)
     for (size_t i = 0; i <= lane->count && good; i++) {
         good = gm_column_flush(&lane->columns[i]);
     }
-    return good && make(saving, lane, capacity_of(saving, lane, MORE * lane->rows));
+    if (!good || make(saving, lane, capacity_of(saving, lane, MORE * lane->rows))) {
+        return good;
+    }
+    const int why = errno;
+    good = !saving->kept && use_up(saving, lane);
+    errno = good ? errno : why;
+    return good;
 }
 
 static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
@@ -243,8 +316,11 @@ static bool end(const struct gm_saving *saving, struct gm_saved *lane)
 {
     char name[80];
     bool good = true;
-    /* without room for another file the one that there is has gaps, of which a reader knows nothing */
     const bool full = lane->rows == lane->capacity || make(saving, lane, lane->rows);
+    if (!full && saving->kept) { /* what the checkpoint counts stays in its places */
+        return false;
+    }
+    /* without room for another file the one that there is has gaps, of which a reader knows nothing */
     for (size_t i = 0; i <= lane->count && good; i++) {
         good = full || is_fixed(lane, i) ? gm_npz_settle(lane->npz, i, lane->columns[i].crc)
                                          : gm_npz_shorten(lane->npz, i, lane->rows);

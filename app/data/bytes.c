@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { BLOCK = 1 << 18 };
+enum { BLOCK = 1 << 18, SMALL_BLOCK = 1 << 14 /* where there may be no room for more */ };
 
 size_t gm_bytes_write_most(int file, const void *bytes, size_t size, uint64_t place)
 {
@@ -75,4 +75,45 @@ bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc)
 bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
 {
     return pass(from, place, size, to, there, crc);
+}
+
+bool gm_bytes_clear(int file, uint64_t place, uint64_t size)
+{
+    static const char nothing[SMALL_BLOCK];
+    bool good = true;
+    for (uint64_t at = 0; at < size && good; at += SMALL_BLOCK) {
+        good = gm_bytes_write(file, nothing, size - at < SMALL_BLOCK ? (size_t)(size - at) : SMALL_BLOCK,
+                              place + at);
+    }
+    return good;
+}
+
+/* From the end; shorten: the source loses what was moved. */
+static bool move(int from, uint64_t place, uint64_t size, int to, uint64_t there, bool shorten)
+{
+    unsigned char block[SMALL_BLOCK];
+    bool good = true;
+    while (size > 0 && good) {
+        const size_t part = size < SMALL_BLOCK ? (size_t)size : SMALL_BLOCK;
+        size -= part;
+        good = gm_bytes_read(from, block, part, place + size) &&
+               (!shorten || ftruncate(from, (off_t)(place + size)) == 0) &&
+               gm_bytes_write(to, block, part, there + size);
+    }
+    return good;
+}
+
+bool gm_bytes_raise(int file, uint64_t place, uint64_t size, uint64_t there)
+{
+    return move(file, place, size, file, there, false);
+}
+
+bool gm_bytes_take(int from, uint64_t size, int to, uint64_t there)
+{
+    /* the end comes last: until then there is room to spare, as blocks of the disk begin elsewhere in the two */
+    unsigned char end[SMALL_BLOCK];
+    const size_t part = size < SMALL_BLOCK ? (size_t)size : SMALL_BLOCK;
+    size -= part;
+    return gm_bytes_read(from, end, part, size) && ftruncate(from, (off_t)size) == 0 &&
+           move(from, 0, size, to, there, true) && gm_bytes_write(to, end, part, there + size);
 }

@@ -18,4 +18,12 @@ bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc);
 /* ... and copies them to another file. */
 bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc);
 
+/* Zeros. */
+bool gm_bytes_clear(int file, uint64_t place, uint64_t size);
+/* Moves bytes to a later place of their file, which may overlap with theirs. */
+bool gm_bytes_raise(int file, uint64_t place, uint64_t size, uint64_t there);
+/* Moves the first bytes of a file to another one, from their end on, which the file loses as they go: no more
+   room is needed on the way than before. */
+bool gm_bytes_take(int from, uint64_t size, int to, uint64_t there);
+
 #endif

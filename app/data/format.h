@@ -23,10 +23,11 @@ struct gm_saved {
     uint64_t rows;
     int file; /* in the part; -1: closed */
     struct gm_column columns[GM_COLUMNS];
-    double *scratch; /* room for the longest quantity that is derived; NULL once the lane has ended */
-    char *meta;      /* JSON: what was run; of a lane that has ended */
-    uint64_t size;   /* bytes of its file that belong to it; of a lane that has ended */
-    uint64_t heads;  /* of .csv: lines before the rows */
+    double *scratch;  /* room for the longest quantity that is derived; NULL once the lane has ended */
+    char *meta;       /* JSON: what was run; of a lane that has ended */
+    size_t meta_size; /* bytes that it will have, about */
+    uint64_t size;    /* bytes of its file that belong to it; of a lane that has ended */
+    uint64_t heads;   /* of .csv: lines before the rows */
     /* of .npz */
     bool plain; /* every row is the numbers of the state, one a column */
     struct gm_npz *npz;
@@ -38,6 +39,7 @@ struct gm_saving {
     const struct gm_part *part;
     struct gm_saved *lanes; /* `begun` of them are there */
     size_t begun, count;
+    bool kept; /* there is a checkpoint: what it counts of the parts is to stay as it is */
 };
 
 /* A format's functions are false with errno. */

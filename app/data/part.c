@@ -172,12 +172,13 @@ bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path)
     return renameat(part->folder, name, AT_FDCWD, path) == 0;
 }
 
-uint64_t gm_part_room(const struct gm_part *part)
+uint64_t gm_part_room(const struct gm_part *part, uint64_t own)
 {
     struct statvfs disk;
     struct rlimit limit;
     const uint64_t unknown = (uint64_t)1 << 40;
-    uint64_t room = fstatvfs(part->folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : unknown;
+    uint64_t room =
+        fstatvfs(part->folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize + own : unknown;
     if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < room) {
         room = limit.rlim_cur;
     }

@@ -33,7 +33,8 @@ void gm_part_drop(const struct gm_part *part, size_t lane, bool begun);
 /* Renames a lane's file: it is now the file that was to be made. False with errno. */
 bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path);
 
-/* How many bytes a file in the folder may have: as the disk and the limits of the process are now. */
-uint64_t gm_part_room(const struct gm_part *part);
+/* How many bytes a file in the folder may have that has `own` bytes of the disk already: as the disk and the
+   limits of the process are now. */
+uint64_t gm_part_room(const struct gm_part *part, uint64_t own);
 
 #endif

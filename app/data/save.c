@@ -21,8 +21,7 @@ struct gm_save {
     struct gm_part *part;
     char *path;
     double due;   /* of a file that grows: when it is made anew */
-    bool kept;    /* there is a checkpoint: it can be gone on with */
-    int cut;      /* errno of the write for which there was no room; 0: there was none */
+    int cut;      /* errno of the write after which there are no more rows; 0: there was none */
     size_t lanes; /* of those that have begun, how many the file has */
 };
 
@@ -61,19 +60,19 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
     struct gm_save *save = calloc(1, sizeof *save);
     struct gm_saved *saved = calloc(lanes, sizeof *saved);
     char *name = strdup(path);
-    if (!save || !saved || !name || !gm_temporary_fits(path)) {
-        gm_refuse(message,
-                  save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
-                  path);
+    const bool there = save && saved && name;
+    if (!there || !gm_temporary_can_replace(path, message)) {
+        if (!there) {
+            gm_refuse(message, "not enough memory");
+        }
         free(save);
         free(saved);
         free(name);
         return NULL;
     }
-    *save = (struct gm_save){.saving = {.path = name, .lanes = saved, .count = lanes},
+    *save = (struct gm_save){.saving = {.path = name, .lanes = saved, .count = lanes, .kept = go_on},
                              .format = format_of(path),
-                             .path = name,
-                             .kept = go_on};
+                             .path = name};
     save->saving.part = save->part = gm_part_open(path, go_on, message);
     if (!save->part) {
         gm_save_close(save, false, true, message);
@@ -112,19 +111,16 @@ static void release(struct gm_saved *lane)
     lane->file = -1;
 }
 
-static bool is_want_of_room(int why)
-{
-    return why == ENOSPC || why == EFBIG || why == EDQUOT;
-}
-
-/* A lane could not begin. Where that is for want of room, the file will have those before it. */
+/* Nothing of a lane could be written: the file will have those before it. */
 static bool leave_out(struct gm_save *save, char *message)
 {
     struct gm_saved *lane = present(save);
     const int why = errno;
-    if (is_want_of_room(why) && !save->kept && save->saving.begun > 1) {
+    save->cut = 0;
+    if (!save->saving.kept && save->saving.begun > 1) {
         release(lane);
         gm_npz_close(lane->npz);
+        free(lane->meta);
         gm_part_drop(save->part, lane->index, false);
         save->saving.begun--;
         save->cut = why;
@@ -134,10 +130,11 @@ static bool leave_out(struct gm_save *save, char *message)
 }
 
 bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
-                   uint64_t expected, char *message)
+                   uint64_t expected, size_t meta, char *message)
 {
     struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
-    *lane = (struct gm_saved){.index = index, .rows = rows, .members = run->problem->m, .file = -1};
+    *lane = (struct gm_saved){
+        .index = index, .rows = rows, .members = run->problem->m, .file = -1, .meta_size = meta};
     lane->count = gm_quantities_beside_time(run, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
@@ -169,28 +166,23 @@ static bool flush(struct gm_saved *lane)
     return good;
 }
 
-void gm_save_stop(struct gm_save *save, int why)
-{
-    struct gm_saved *lane = present(save);
-    if (is_want_of_room(why) && !save->kept && save->cut == 0) {
-        flush(lane);
-        save->format->cut(&save->saving, lane);
-        save->cut = lane->rows > 0 ? why : 0;
-    }
-}
-
-/* A write failed. Where that is for want of room, and the lane has rows, it will end with those that fit. */
+/* A write failed, mostly for want of room: a lane that has rows will end with those that could be written. */
 static bool give_up(struct gm_save *save, char *message)
 {
+    struct gm_saved *lane = present(save);
     const int why = errno;
-    gm_save_stop(save, why);
+    if (!save->saving.kept && save->cut == 0) {
+        flush(lane);
+        save->format->cut(&save->saving, lane);
+        save->cut = why;
+    }
     errno = why;
-    return complain(save, message);
+    return lane->rows > 0 ? complain(save, message) : leave_out(save, message);
 }
 
 void gm_save_keep(struct gm_save *save)
 {
-    save->kept = true;
+    save->saving.kept = true;
 }
 
 bool gm_save_is_cut(const struct gm_save *save)
@@ -239,18 +231,15 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
     if (lane->file < 0) {
         return true;
     }
-    lane->meta = strdup(meta);
-    errno = ENOMEM;
-    bool good = lane->meta != NULL && flush(lane);
-    if (!good) {
-        give_up(save, message);
+    if (!flush(lane)) {
+        return give_up(save, message);
     }
-    if ((good || save->cut != 0) && !save->format->end(&save->saving, lane)) {
-        save->cut = 0;
-        good = complain(save, message);
+    lane->meta = strdup(meta);
+    if (!lane->meta || !save->format->end(&save->saving, lane)) {
+        return leave_out(save, message);
     }
     release(lane);
-    return good;
+    return true;
 }
 
 /* Puts the lanes behind each other in `file`, the first of which is `there` already. Without room for all of
@@ -265,7 +254,8 @@ static bool join(struct gm_save *save, int file, bool there)
         if (save->lanes > 0 || !there) {
             uint32_t crc = 0;
             const int source = gm_part_lane(save->part, lane->index);
-            good = source >= 0 && gm_bytes_copy(source, 0, lane->size, file, place, &crc);
+            good = source >= 0 && (saving->kept ? gm_bytes_copy(source, 0, lane->size, file, place, &crc)
+                                                : gm_bytes_take(source, lane->size, file, place));
             if (source >= 0) {
                 close(source);
             }
@@ -273,12 +263,12 @@ static bool join(struct gm_save *save, int file, bool there)
         if (!good) {
             break;
         }
-        if (save->lanes > 0 && !save->kept) {
+        if (save->lanes > 0 && !saving->kept) {
             gm_part_drop(save->part, lane->index, false);
         }
         place += lane->size;
     }
-    if (!good && (!is_want_of_room(errno) || save->kept || save->lanes == 0)) {
+    if (!good && (saving->kept || save->lanes == 0)) {
         return false;
     }
     save->cut = good ? save->cut : errno;
@@ -292,12 +282,17 @@ static bool copy(FILE *file, const void *context)
     return join(*save, fileno(file), false);
 }
 
+static bool is_want_of_room(int why)
+{
+    return why == ENOSPC || why == EFBIG || why == EDQUOT;
+}
+
 /* Where there is no room for the list of all rows, the last of them make it. */
 static bool publish_list(struct gm_save *save)
 {
     while (!gm_temporary_make(save->path, list, save)) {
         const int why = errno;
-        if (!is_want_of_room(why) || save->kept || !save->format->drop(&save->saving, present(save))) {
+        if (!is_want_of_room(why) || save->saving.kept || !save->format->drop(&save->saving, present(save))) {
             errno = why;
             return false;
         }
@@ -324,7 +319,7 @@ static bool publish(struct gm_save *save, bool keep)
     return good && gm_part_publish(save->part, first, save->path);
 }
 
-/* What became of a file for which there was no room. */
+/* What became of a file that has not all rows. */
 static bool tell_cut(const struct gm_save *save, char *message)
 {
     const struct gm_saved *last = &save->saving.lanes[save->saving.begun - 1];
@@ -343,7 +338,7 @@ static bool tell_cut(const struct gm_save *save, char *message)
 bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message)
 {
     const bool makes = (complete || save->cut != 0) && save->saving.begun > 0;
-    bool good = !makes || publish(save, keep && save->kept) || complain(save, message);
+    bool good = !makes || publish(save, keep && save->saving.kept) || complain(save, message);
     good = good && (!makes || save->cut == 0 || tell_cut(save, message));
     for (size_t i = 0; i < save->saving.begun; i++) {
         struct gm_saved *lane = &save->saving.lanes[i];
@@ -351,7 +346,7 @@ bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message
         gm_npz_close(lane->npz);
         free(lane->meta);
     }
-    gm_part_close(save->part, !keep || !save->kept);
+    gm_part_close(save->part, !keep || !save->saving.kept);
     free(save->saving.lanes);
     free(save->path);
     free(save);

@@ -24,10 +24,11 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
 uint64_t gm_save_identity(const struct gm_save *save);
 
 /* Lane `index` begins, with its first `rows` rows already there; lanes come in their order, and may be left
-   out. expected: how many rows it will have, or 0; where that turns out otherwise it only costs time. False
+   out. expected: how many rows it will have, or 0; where that turns out otherwise it only costs time. meta:
+   about how many bytes gm_save_end will be given, which are to have room on a disk that is full by then. False
    with a sentence; so are the following. */
 bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
-                   uint64_t expected, char *message);
+                   uint64_t expected, size_t meta, char *message);
 /* A row: the state now. */
 bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
 /* Whether the present lane takes many rows at once, and these: times and states, as gm_drive_to leaves them.
@@ -42,10 +43,8 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message);
 
 /* There is a checkpoint that counts the rows which were made safe: the file can be gone on with. */
 void gm_save_keep(struct gm_save *save);
-/* There was no room for something beside the file (an errno). */
-void gm_save_stop(struct gm_save *save, int why);
-/* Whether there was no room, for a file that cannot be gone on with: it will have the rows that fit, once
-   this lane has ended, and gm_save_close says so. */
+/* Whether a row could not be written, of a file that cannot be gone on with: it will have those that could,
+   once this lane has ended, and gm_save_close says so. */
 bool gm_save_is_cut(const struct gm_save *save);
 
 /* Makes the file if `complete` and any lane has begun, and frees; what it was made of stays with `keep`, to

@@ -41,7 +41,7 @@ static bool complain(const struct gm_tracks *tracks, char *message)
 
 struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
 {
-    if (!gm_folder_make_for(path, message)) {
+    if (!gm_folder_make_for(path, message) || !gm_temporary_can_replace(path, message)) {
         return NULL;
     }
     struct gm_tracks *tracks = calloc(1, sizeof *tracks);

@@ -113,14 +113,33 @@ bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_pi
     return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
 }
 
+/* The letters that the font lacks, the last place of them for that there are more. */
+static void tell_lacking(void)
+{
+    enum { TOLD = GM_LACKING - 1 };
+    uint32_t letters[GM_LACKING];
+    const size_t count = gm_glyphs_lacking(letters);
+    char told[TOLD * 16] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < count && i < TOLD; i++) {
+        const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
+        used += (size_t)snprintf(told + used, sizeof told - used, "%sU+%04" PRIX32, between, letters[i]);
+    }
+    if (count == 1) {
+        gm_complain("the font has no letter %s: a box stands for it in the picture", told);
+    } else if (count > 1) {
+        gm_complain("the font has no letters %s%s: boxes stand for them in the picture", told,
+                    count > TOLD ? " and others" : "");
+    }
+}
+
 void gm_press_tell(const struct gm_print *print, const char *table)
 {
     if (strcmp(print->path, "-") != 0) {
         gm_complain("wrote %s%s%s", print->path, table[0] ? " and " : "", table);
     }
-    if (gm_glyphs_lacking() != 0 && print->format != GM_FORMAT_SVG) {
-        gm_complain("the font has no letter U+%04" PRIX32 ": a box stands for it in the picture",
-                    gm_glyphs_lacking());
+    if (print->format != GM_FORMAT_SVG) {
+        tell_lacking();
     }
     if (print->fields > 0 && !gm_memory_was_short()) {
         gm_complain("%s in it %s of pixels; all else is lines and letters",

@@ -15,7 +15,10 @@ struct gm_drive {
     double each;     /* ... of one, when it was last measured */
     long unmeasured; /* so many more steps are taken for as long */
     double looked;   /* of the seconds, when another engine was last looked for */
-    double *trace;   /* rows, t and the state, of the next steps that are not recorded; or NULL */
+    /* Where the steps that are not recorded leave their rows, t and the state's n m numbers, and moves on; or
+       NULL. gm_drive_to makes no more steps, whether fixed or of the scheme's own choice, than up to its
+       `step`: there has to be room for a row of each. */
+    double *trace;
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.

@@ -41,9 +41,15 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
     panel->x = (struct gm_axis){.label = table->parameter->key,
                                 .scale = logarithmic ? GM_LOG : GM_LINEAR,
                                 .low = x[0],
-                                .high = x[plan->value_count]};
-    panel->y =
-        (struct gm_axis){.label = plan->label, .scale = GM_LOG, .low = y[0], .high = y[plan->step_count]};
+                                .high = x[plan->value_count],
+                                .least_tick = plan->values[0],
+                                .largest_tick = plan->values[plan->value_count - 1]};
+    panel->y = (struct gm_axis){.label = plan->label,
+                                .scale = GM_LOG,
+                                .low = y[0],
+                                .high = y[plan->step_count],
+                                .least_tick = plan->steps[0],
+                                .largest_tick = plan->steps[plan->step_count - 1]};
     for (size_t s = 0; s < plan->step_count; s++) {
         for (size_t v = 0; v < plan->value_count; v++) {
             const struct gm_map_cell *cell = &map->cells[s * plan->value_count + v];

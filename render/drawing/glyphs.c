@@ -229,11 +229,25 @@ static bool table_grow(struct gm_glyphs *glyphs)
     return true;
 }
 
-static _Atomic uint32_t lacking;
+static _Atomic uint32_t lacking[GM_LACKING]; /* 0: none */
 
-uint32_t gm_glyphs_lacking(void)
+static void note_lacking(uint32_t code)
 {
-    return lacking;
+    for (size_t i = 0; i < GM_LACKING; i++) {
+        uint32_t there = 0;
+        if (atomic_compare_exchange_strong(&lacking[i], &there, code) || there == code) {
+            return;
+        }
+    }
+}
+
+size_t gm_glyphs_lacking(uint32_t letters[GM_LACKING])
+{
+    size_t count = 0;
+    while (count < GM_LACKING && (letters[count] = lacking[count]) != 0) {
+        count++;
+    }
+    return count;
 }
 
 /* The entry of a letter; its advance is known, its image perhaps not yet. */
@@ -251,7 +265,9 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
     const FT_Face face = face_of(glyphs, font, height);
     *glyph = (struct glyph){.used = true, .key = key, .index = FT_Get_Char_Index(face, code)};
     glyphs->count++;
-    lacking = glyph->index == 0 ? code : lacking;
+    if (glyph->index == 0) {
+        note_lacking(code);
+    }
     if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0) {
         glyph->advance = (float)face->glyph->linearHoriAdvance / 65536.0f;
     }

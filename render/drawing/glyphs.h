@@ -35,9 +35,10 @@ struct gm_letter {
 bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,
                     struct gm_letter *letter);
 
-/* A letter that was asked for of a font that has none, so that a box stands for it, in any picture up to
-   now; 0: there was none. */
-uint32_t gm_glyphs_lacking(void);
+/* The letters that were asked for of a font that has none, so that boxes stand for them, in any picture up to
+   now; how many there are, GM_LACKING at most. */
+enum { GM_LACKING = 9 };
+size_t gm_glyphs_lacking(uint32_t letters[GM_LACKING]);
 
 /* The atlas: rows of `width` bytes. Rows from `changed` on have changed since the last call. It only grows
    downwards, so that places in it stay valid. */

@@ -21,6 +21,11 @@ bool gm_temporary_fits(const char *path)
     return lstat(path, &status) != 0 || S_ISREG(status.st_mode);
 }
 
+bool gm_temporary_can_replace(const char *path, char *message)
+{
+    return gm_temporary_fits(path) || gm_refuse(message, "%.360s is no file that can be replaced", path);
+}
+
 enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
 
 char *gm_temporary_name(const char *path, const char *ending)

@@ -13,6 +13,9 @@
    are not: renaming would put a file in their place. */
 bool gm_temporary_fits(const char *path);
 
+/* The same for what can only be written so; false with a sentence (GM_MESSAGE). */
+bool gm_temporary_can_replace(const char *path, char *message);
+
 /* Writes into a message (GM_MESSAGE) that the path cannot be written, and why; /dev/stdout has the name by
    which it is asked for. False, as of a refusal. */
 bool gm_temporary_refuse(char *message, const char *path, const char *reason);

@@ -219,6 +219,11 @@ size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values)
         memcpy(values, axis->ticks, own * sizeof *values);
         return own;
     }
+    const double least = fmax(low, axis->least_tick), largest = fmin(high, axis->largest_tick);
+    if (axis->least_tick < axis->largest_tick && least < largest) {
+        low = least;
+        high = largest;
+    }
     switch (axis->scale) {
     case GM_LOG:
         return ticks_log(low, high, max, values);

@@ -85,6 +85,8 @@ struct gm_axis {
     double low, high;    /* the range shown, low < high; positive on a log axis */
     const double *ticks; /* in rising order, where they stand if they have room; NULL: at round values */
     size_t tick_count;
+    double least_tick,
+        largest_tick; /* where the axis goes beyond what there is; equal: they stand anywhere */
 };
 
 /* Where a panel stands: states share a grid on the left, graphs stand on the right. */

@@ -350,6 +350,16 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
     panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
     for (int drawn = 0; drawn < 2; drawn++) {
+        for (size_t i = 0; exact && i < POINTS; i++) {
+            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
+            points[2 * i] = exact(z);
+            points[2 * i + 1] = z;
+            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
+        }
+        if (drawn && exact) { /* broader than the lanes, which agree with it */
+            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 0.9, 7, GM_SOLID}, points, POINTS,
+                         false);
+        }
         for (size_t k = 0; k < count; k++) {
             size_t made = 0;
             for (size_t i = 0; i < POINTS; i++) {
@@ -370,16 +380,6 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                 gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
             }
         }
-        for (size_t i = 0; exact && i < POINTS; i++) {
-            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
-            points[2 * i] = exact(z);
-            points[2 * i + 1] = z;
-            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
-        }
-        if (drawn && exact) { /* over the lanes, which hide what they agree with */
-            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, points, POINTS,
-                         false);
-        }
         if (!drawn && !exact) {
             gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
         }
@@ -392,7 +392,7 @@ void gm_flows_draw_profiles(const struct gm_lane *const *lanes, size_t count, st
 {
     draw_profile(picture, lanes, count, place, line, false, velocity, "u");
     draw_profile(picture, lanes, count, place, line, true, theta, "θ");
-    picture->caption = "Grey, dashed: exact.";
+    picture->caption = "Grey, broad: exact.";
 }
 
 /* The clock; none where there is no time: steady states. */

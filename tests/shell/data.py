@@ -5,6 +5,7 @@ it is installed, by VTK.
 
     data.py GEOMINT"""
 
+import contextlib
 import csv
 import json
 import os
@@ -445,14 +446,52 @@ def full():
     check(len(table) > 290000 and bytes_of("whole.csv").startswith(table), "the rows of a table that fit")
     done = geomint("run kepler scheme=verlet,rk4 steps=5000 --save lanes.npz", 3, preexec_fn=no_room_for(300000))
     check("the first 1 of 2 lanes" in done.stderr and len(numbers_of("lanes.npz")["lane0/t"]) == 8 * 5001, "lanes that fit")
-    os.mkdir("small")
-    if subprocess.run("mount -t tmpfs -o size=256k tmpfs small", shell=True, stderr=subprocess.DEVNULL).returncode == 0:
-        try:  # of a disk, as root: there is no room for the second lane to begin
+    with disk(256) as there:  # no room for the second lane to begin
+        if there:
             done = geomint("run kepler scheme=verlet,rk4 dt=.01 until=40 --save small/lanes.npz", 3)
             check("ends after 4001 rows of lane 0" in done.stderr, f"a lane that cannot begin: {done.stderr}")
             check(len(numbers_of("small/lanes.npz")["lane0/t"]) == 8 * 4001, "the lane before one that cannot begin")
-        finally:
-            subprocess.run(["umount", "small"], check=True)
+    with disk(1000) as there:  # two lanes without room for one of them twice; one whose number of rows is not known
+        for asked, name, lane, least in (("verlet,rk4 steps=8000", "two.npz", "lane1/", 8001), ("verlet,rk4 steps=8000", "two.csv", "", 1500),
+                                         ("controlled-verlet2 dt=.001 until=100", "own.npz", "", 23000)):
+            if not there:
+                break
+            done = geomint(f"run kepler scheme={asked} --save small/{name}", (0, 3))
+            geomint(f"run kepler scheme={asked} --save {name}")
+            if name == "two.csv":
+                table = bytes_of(f"small/{name}")
+                told = re.fullmatch("geomint: small/two.csv ends after ([0-9]+) rows of lane 1: No space left on device\n", done.stderr)
+                check(told and int(told[1]) >= least and table.count(b"\n") == 8002 + int(told[1]), f"{name}: {done.stderr}")
+                check(bytes_of(name).startswith(table), f"the rows of {name}")
+            else:
+                some, every = numbers_of(f"small/{name}"), numbers_of(name)
+                count = len(some.get(f"{lane}t", "")) // 8
+                check(count >= least, f"only {count} rows fit into {name}: {done.stderr}")
+                check(all(every[key].startswith(some[key]) for key in some if not key.endswith("meta")), f"the rows of {name}")
+                check(zipfile.ZipFile(f"small/{name}").testzip() is None, f"the checksums of {name}")
+            os.remove(f"small/{name}")
+            os.remove(name)
+    own = "run kepler scheme=controlled-verlet2 dt=.002"
+    for size in range(500, 2000, 100):  # there may be room for all rows, but not for the file beside them
+        with disk(size) as there:
+            if not there:
+                break
+            geomint(f"{own} until=10 --save small/own.npz --checkpoint own.check", (0, 3))
+            if os.path.exists("own.check"):
+                geomint(f"{own} until=20 --save small/own.npz --continue own.check --checkpoint own.check", (0, 3))
+                subprocess.run(["mount", "-o", "remount,size=9000k", "small"], check=True)
+                geomint(f"{own} until=30 --save small/own.npz --continue own.check")
+                geomint(f"{own} until=30 --save own.npz")
+                some, every = numbers_of("small/own.npz"), numbers_of("own.npz")
+                check(all(some[key] == every[key] for key in every if key != "meta"), f"a disk of {size} KiB that was full at the end: other rows")
+                os.remove("own.check")
+                os.remove("own.npz")
+    with open("long.system", "w") as file:  # its text, which is in meta, is longer than what else ends an archive
+        file.write("# " + 300 * 200 * "x" + "\ncoordinates: q\nH: p_q^2/2 + q^2/2\nstart: q = 1, p_q = 0\ndt: 0.1\n")
+    with disk(1000) as there:
+        if there:
+            done = geomint("run long.system scheme=verlet steps=100000 --save small/long.npz", 3)
+            check("ends after" in done.stderr and len(numbers_of("small/long.npz")["t"]) > 8 * 20000, f"a long text: {done.stderr}")
     done = geomint(f"{words} on.npz --checkpoint on.check", 3, preexec_fn=no_room_for(300000))
     check("on.npz ends after" in done.stderr and len(numbers_of("on.npz")["t"]) > 8 * 1000, "no room before a checkpoint")
     check(not os.path.exists("on.npz.part") and not os.path.exists("on.check"), "no room before a checkpoint: nothing else")
@@ -467,27 +506,79 @@ def full():
         listed("strip", "run sine-gordon points=401 steps=2000 --save", size)
 
 
+@contextlib.contextmanager
+def disk(size):
+    """A folder `small` that is a disk of so many KiB; False where nobody may mount one."""
+    os.makedirs("small", exist_ok=True)
+    there = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k,nr_inodes=100k", "tmpfs", "small"],
+                           stderr=subprocess.DEVNULL).returncode == 0
+    try:
+        yield there
+    finally:
+        if there:
+            subprocess.run(["umount", "small"], check=True)
+
+
+def beside():
+    """What cannot be written beside the rows costs none of them."""
+    too_long = 300 * "n"
+
+    def rows_stay(what, more, status, said, words="kepler scheme=verlet,rk4 steps=3000", **how):
+        geomint(f"run {words} --save whole.npz")
+        done = subprocess.run([GEOMINT] + f"run {words} --save beside.npz {more}".split(),
+                              stderr=subprocess.PIPE, text=True, timeout=600, **{"stdout": subprocess.DEVNULL, **how})
+        check(done.returncode == status, f"{what}: exit status {done.returncode}, not {status}")
+        check(sorted(done.stderr.splitlines()) == sorted(f"geomint: {line}" for line in said), f"{what}: {done.stderr}")
+        check(os.path.exists("beside.npz") and bytes_of("beside.npz") == bytes_of("whole.npz"), f"{what}: rows are lost")
+        check(not os.path.exists("beside.npz.part"), f"{what}: something stays")
+        if os.path.exists("beside.npz"):
+            os.remove("beside.npz")
+    written = "wrote beside.npz"
+    rows_stay("a checkpoint's name", f"--checkpoint {too_long}", 3, [f"cannot write {too_long}: File name too long", written])
+    rows_stay("a profile's name", f"--profile {too_long}", 3, [f"{too_long} could not be written: File name too long", written],
+              "wave points=11 dt=.01,.005 steps=3")
+    reader, writer = os.pipe()
+    os.close(reader)
+    rows_stay("standard output without a reader", "--csv -", 141, [written], stdout=writer)
+    os.close(writer)
+    with open("full.csv", "wb") as table:
+        rows_stay("standard output without room", "--csv -", 3, ["standard output could not be written: File too large", written],
+                  stdout=table, preexec_fn=no_room_for(400000))
+    table = bytes_of("full.csv")
+    check(len(table) == 400000, "standard output has what fits")
+    rows_stay("a history without room", "--csv full.csv", 3, ["full.csv could not be written: File too large", written],
+              preexec_fn=no_room_for(400000))
+    check(bytes_of("full.csv") == table, "a history has what fits")
+    with disk(8) as there:
+        if there:
+            with open("small/other", "wb") as file:
+                file.write(bytes(8192))
+            rows_stay("a checkpoint without room", "--checkpoint small/c.check", 3,
+                      ["cannot write small/c.check: No space left on device", written])
+    # without anything beside it a run whose rows nobody reads ends
+    process = subprocess.Popen([GEOMINT] + "run kepler scheme=verlet,rk4 steps=1e14 --csv -".split(), stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+    process.stdout.readline()
+    process.stdout.close()
+    check(process.stderr.read() == b"" and process.wait(timeout=600) == 141, "rows that nobody reads")
+
+
 def listed(name, words, size):
     """A list without room for all names the rows that are there, and no others are."""
-    os.makedirs("small", exist_ok=True)
-    if size is None and subprocess.run("mount -t tmpfs -o size=600k,nr_inodes=100k tmpfs small", shell=True,
-                                       stderr=subprocess.DEVNULL).returncode != 0:
-        return
-    try:
+    with disk(600) if size is None else contextlib.nullcontext(True) as there:
+        os.makedirs("small", exist_ok=True)
+        if not there:
+            return
         done = geomint(f"{words} small/{name}.pvd", 3, **({} if size is None else {"preexec_fn": no_room_for(size)}))
         told = re.fullmatch(f"geomint: small/{name}.pvd ends after ([0-9]+) rows: .*\n", done.stderr)
         there = sorted(os.listdir(f"small/{name}"))
         if size is not None and told is None:  # no row fits into a file
             check(there == [] and len(done.stderr.splitlines()) == 1, f"no row of {name}.pvd: {done.stderr}")
-            return
-        names = re.findall(rf'file="{name}/([^"]+)"', bytes_of(f"small/{name}.pvd").decode())
-        check(told and len(names) == int(told[1]) > 2 and names == there, f"{name}.pvd, {size}: {len(names)} of {len(there)} {done.stderr}")
-        check(not os.path.exists(f"small/{name}.pvd.part"), f"{name}.pvd: nothing else stays")
-    finally:
-        if size is None:
-            subprocess.run(["umount", "small"], check=True)
         else:
-            shutil.rmtree(f"small/{name}", ignore_errors=True)
+            names = re.findall(rf'file="{name}/([^"]+)"', bytes_of(f"small/{name}.pvd").decode())
+            check(told and len(names) == int(told[1]) > 2 and names == there, f"{name}.pvd, {size}: {len(names)} of {len(there)} {done.stderr}")
+            check(not os.path.exists(f"small/{name}.pvd.part"), f"{name}.pvd: nothing else stays")
+    shutil.rmtree(f"small/{name}", ignore_errors=True)
 
 
 def beginnings():
@@ -545,7 +636,8 @@ def pipes():
         check("Traceback" not in said and len(said.splitlines()) <= 2, f"{words} to a pipe: {said}")
         os.remove(path)
     os.mkfifo("pipe.npz")
-    check("no file that can be replaced" in geomint("run kepler steps=3 --save pipe.npz", 3).stderr, "states to a pipe")
+    for option in ("save", "save-tracks"):
+        check("no file that can be replaced" in geomint(f"run kepler steps=3 --{option} pipe.npz", 3).stderr, f"--{option} to a pipe")
     for kept in ("pipe.npz", "link", "folder"):
         if kept != "pipe.npz":
             os.symlink("nowhere", kept) if kept == "link" else os.mkdir(kept)
@@ -586,7 +678,7 @@ def refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for part in (rows_equal_states, shapes, flows, vtk, warm, tables, rows, profiles, tracks, memory, continued, killed, interrupted,
-                 full, beginnings, together, pipes, refusals):
+                 full, beside, beginnings, together, pipes, refusals):
         if sys.argv[2:] == ["few"] and part in (memory, killed):  # where a sanitizer watches: they are long
             continue
         if sys.argv[2:] in ([], ["few"]) or part.__name__ in sys.argv[2:]:

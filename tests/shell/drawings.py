@@ -148,6 +148,11 @@ def test_title():
     told = subprocess.run(["pdfinfo", "title.pdf"], capture_output=True, text=True).stdout
     check(f"Title:           {title}" in told and re.search("arguments: disc .*until=1\n", told) and "2000" in told, f"pdfinfo tells {told}")
     check(similarity(pixels("title.png"), pixels("title.svg")) > LIKE, "the PNG has another title")
+    lacking = [f"U+{0xE000 + i:04X}" for i in range(12)]  # of private use: no font has them
+    for count, told in ((1, f"letter {lacking[0]}: a box stands"), (2, f"letters {lacking[0]} and {lacking[1]}: boxes stand"),
+                        (9, f"letters {', '.join(lacking[:8])} and others: boxes stand")):
+        said = geomint(["render", "disc", "until=1", "--title", "".join(chr(0xE000 + i) for i in range(count)), "-o", "box.pdf"])
+        check(told in said.stderr.decode(), f"{count} letters that the font lacks: {said.stderr}")
 
 
 def test_bytes():

@@ -6,24 +6,28 @@ set -u
 . "$(dirname "$0")/answers.sh"
 
 # kill_at SIGNAL COUNT FOLDER WORDS...: kills a render when FOLDER holds COUNT frames; it stands still while they are
-# counted, so that it cannot finish on a busy machine
+# counted. On a busy machine it may be over before it is looked at again: then it is made anew.
 kill_at() {
     signal=$1
     count=$2
     where=$3
     shift 3
-    "$geomint" "$@" 2>err </dev/null &
-    pid=$!
     tries=0
-    while kill -STOP $pid && [ "$(ls "$where" 2>/dev/null | grep -c 'png$')" -lt "$count" ] && [ $tries -lt 2000 ]; do
-        kill -CONT $pid
-        sleep 0.02
+    while [ $tries -lt 50 ]; do
+        "$geomint" "$@" 2>err </dev/null &
+        pid=$!
+        while kill -STOP $pid 2>/dev/null && [ "$(ls "$where" 2>/dev/null | grep -c 'png$')" -lt "$count" ]; do
+            kill -CONT $pid
+            sleep 0.02
+        done
+        kill -"$signal" $pid 2>/dev/null
+        kill -CONT $pid 2>/dev/null
+        wait $pid
+        [ $? -le 128 ] || return
+        rm -rf "$where" "${where%.frames}"
         tries=$((tries + 1))
     done
-    kill -"$signal" $pid
-    kill -CONT $pid 2>/dev/null
-    wait $pid
-    [ $? -gt 128 ] || fail "render $* was over before it was killed"
+    fail "render $* was over before it was killed"
 }
 
 same() {

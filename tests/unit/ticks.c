@@ -62,6 +62,21 @@ static void ticks_of_ones_own(void **state)
     assert_int_not_equal(gm_ticks(&axis, 2, values), 3);
 }
 
+/* Cells around values reach half a cell beyond them, but there is no value. */
+static void ticks_within_what_there_is(void **state)
+{
+    (void)state;
+    struct gm_axis axis = {.label = "", .scale = GM_LINEAR, .low = -0.15, .high = 1.05};
+    double values[GM_TICK_MAX];
+    size_t count = gm_ticks(&axis, 6, values);
+    assert_true(values[count - 1] > 0.9);
+    axis.largest_tick = 0.9;
+    count = gm_ticks(&axis, 6, values);
+    assert_true(count >= 3 && values[0] == 0 && values[count - 1] > 0.5 && values[count - 1] <= 0.9 + 1e-9);
+    axis.low = 0.95; /* nothing of it is shown */
+    assert_int_not_equal(gm_ticks(&axis, 6, values), 0);
+}
+
 static void pi_axes_have_fractions_and_multiples(void **state)
 {
     (void)state;
@@ -158,6 +173,7 @@ int main(void)
         cmocka_unit_test(linear_axes_have_round_values),
         cmocka_unit_test(pi_axes_have_fractions_and_multiples),
         cmocka_unit_test(ticks_of_ones_own),
+        cmocka_unit_test(ticks_within_what_there_is),
         cmocka_unit_test(log_axes_have_powers_of_ten),
         cmocka_unit_test(any_range_has_three_to_six_different_ticks),
         cmocka_unit_test(odd_ranges_do_no_harm),

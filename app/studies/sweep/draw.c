@@ -421,7 +421,9 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
         *shown = (struct gm_axis){.label = key_label(chart, axis, picture),
                                   .scale = logarithmic[axis] ? GM_LOG : GM_LINEAR,
                                   .low = 1,
-                                  .high = 0};
+                                  .high = 0,
+                                  .least_tick = values[0],
+                                  .largest_tick = values[chart->bins[axis] - 1]};
         for (size_t i = 0; i <= chart->bins[axis]; i++) {
             gm_range_add(&shown->low, &shown->high, edges[axis][i]);
         }
