@@ -5,8 +5,9 @@
        (M u)_t = R(u, u_x, ..),
    or the components of a multisymplectic form,
        K z_t + L z_x = grad S(z),
-   or the wave equation between ends that hold u, on a moving mesh, as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
-   integrals of densities. The scene is made while the program runs, and does not change afterwards. */
+   or the wave equation between ends that hold u, on a moving mesh, as a scene: the parameters of its file are
+   keys, with the ring and its grid; what it keeps or observes are integrals of densities. The scene is made while
+   the program runs, and does not change afterwards. */
 #include "scenes/field/own.h"
 
 #include <math.h>
@@ -566,13 +567,11 @@ static bool make_rows(struct own_field *own)
             "derivatives: central differences of order 2, or of waves through the nodes");
     }
     if (own->moves) {
-        static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
-        static const char *const views[] = {"all", "field", "mesh", "energy", "convergence", NULL};
         common[POINTS] =
             (struct gm_parameter)GM_INTEGER_ROW(struct lane, points, "points", number_text(own, points), 1,
                                                 1e5, "nodes between the ends", .logarithmic = true);
         common[SHOW] = (struct gm_parameter)GM_CHOICE_ROW(
-            struct lane, show, "show", "all", views,
+            struct lane, show, "show", "all", gm_mesh_views,
             "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
             .live = true);
         common[ALPHA] = (struct gm_parameter)GM_REAL_ROW(
@@ -581,7 +580,7 @@ static bool make_rows(struct own_field *own)
             "length over what u goes up and down there, whichever is less",
             .automatic = true);
         common[DENSITY] = (struct gm_parameter)GM_CHOICE_ROW(
-            struct lane, density, "density", "arclength", densities,
+            struct lane, density, "density", "arclength", gm_mesh_densities,
             "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
             "tempered where the field is steeper than at the start");
     }
@@ -750,16 +749,12 @@ static const char *title_of(struct own_field *own)
 size_t gm_own_field_moving(const char *schemes, size_t *others)
 {
     size_t moving = 0;
-    *others = 0;
-    for (size_t length; schemes && *schemes; schemes += length) {
-        schemes += strspn(schemes, " ,");
-        length = strcspn(schemes, " ,");
-        char name[64];
-        snprintf(name, sizeof name, "%.*s", (int)(length < 60 ? length : 60), schemes);
-        const struct gm_scheme *scheme = length > 0 ? gm_scheme_find(name) : NULL;
+    char name[64];
+    for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
         const bool moves = scheme && scheme->family->kind == &gm_kind_mesh;
         moving += moves;
-        *others += length > 0 && !moves;
+        *others += !moves;
     }
     return moving;
 }

@@ -126,6 +126,7 @@ grep -q 'the step after t = 1.0[0-9]* was not found: the monitor, how dense step
 
 refused 1 'there is no scheme "verlett"; did you mean verlet$' run kepler scheme=verlett
 printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.system
+"$geomint" list bbm --latex | grep -qF '\partial_t\left(u - u_{xx}\right) &= -u_{x} - u\,u_{x}' || fail "list bbm --latex: no mass"
 "$geomint" list kink.system --latex | grep -qF '2\,\left[x < 0\right]' || fail "the derivative of |x| in LaTeX"
 
 # a swing of the error counts, wherever the run ends: no verdict but that of steps that are too long
