@@ -314,13 +314,18 @@ static const char *const field_facts[][2] = {
 enum { FIELD_FACTS = GM_COUNT(field_facts) };
 static const char form_fact[] = "K z_t + L z_x = grad S(z), K and L are skew, and S is smooth";
 
+static bool has_linear(const struct report *report, size_t i)
+{
+    return !gm_is_constant(&report->system.graph, report->evolution.linear[i], 0);
+}
+
 /* The linear part of the rate of a field, in words; malloc'ed. */
 static char *linear_fact(const struct report *report, size_t i)
 {
     char *line = formula_of(report, report->evolution.linear[i], false), *text = NULL;
     if (line &&
         asprintf(&text,
-                 strcmp(line, "0") == 0 ? "none that is linear in the rate of %s" : "in the rate of %s: %s",
+                 strcmp(line, "0") == 0 ? "nothing is linear in the rate of %s" : "in the rate of %s: %s",
                  report->system.variables[i].name, line) < 0) {
         text = NULL;
     }
@@ -333,7 +338,8 @@ static void print_facts(const struct report *report)
     printf("\nstructure\n");
     for (size_t i = 0; i < report->system.n && report->system.kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        gm_print_wrapped(text ? text : "", printf("  %-16s yes ", "linear part"), 23);
+        gm_print_wrapped(text ? text : "",
+                         printf("  %-16s %-3s ", "linear part", has_linear(report, i) ? "yes" : "no"), 23);
         free(text);
     }
     if (report->system.kind == GM_MATRICES) {
@@ -484,7 +490,8 @@ static void print_structure_json(const struct report *report)
     }
     for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        print_fact_json(&first, "linear_part_", system->variables[i].name, true, text ? text : "");
+        print_fact_json(&first, "linear_part_", system->variables[i].name, has_linear(report, i),
+                        text ? text : "");
         free(text);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
@@ -634,6 +641,16 @@ static bool open_problem(struct report *report)
                                     gm_own_evolution_open(&report->problem, &report->evolution, start, &any,
                                                           GM_SPACE_DIFFERENCES));
         free(start);
+        if (opened && report->system.kind == GM_EVOLUTION) {
+            const struct gm_own_evolution *evolution = &report->evolution;
+            const bool smooth = evolution->kink == GM_NO_NODE;
+            report->model.findings[GM_FACT_SMOOTH] =
+                (struct gm_finding){.asked = true,
+                                    .holds = smooth,
+                                    .how = smooth ? GM_ZERO_PROVED : GM_NOT_ZERO,
+                                    .term = evolution->kink,
+                                    .component = evolution->kinked};
+        }
         return opened;
     }
     bool good = gm_own_model_open(&report->model, &report->system);
