@@ -870,17 +870,28 @@ static const char *title_of(struct own_field *own)
     return kept ? kept : "Waves in a potential of one’s own";
 }
 
+static bool on_a_mesh(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_mesh;
+}
+
 size_t gm_own_field_moving(const char *schemes, size_t *others)
 {
     size_t moving = 0;
     char name[64];
     for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
         const struct gm_scheme *scheme = gm_scheme_find(name);
-        const bool moves = scheme && scheme->family->kind == &gm_kind_mesh;
+        const bool moves = scheme && on_a_mesh(scheme);
         moving += moves;
         *others += !moves;
     }
     return moving;
+}
+
+static bool on_a_ring(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_field &&
+           !(scheme->needs & ~(unsigned)(GM_NEEDS_WAVE | GM_NEEDS_FORM | GM_NEEDS_PAIRS));
 }
 
 static bool make(struct own_field *own, const char *name, const char *const *words, char *sentence)
@@ -929,6 +940,9 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         .track_count = 1,
         .work = &own->work,
         .settle = settle,
+        .elsewhere = own->moves                                         ? on_a_ring
+                     : system->kind == GM_FIELD && !own->initial->walls ? on_a_mesh
+                                                                        : NULL,
         .setup = setup,
         .close = close_problem,
         .start = start,
