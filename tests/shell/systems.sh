@@ -219,6 +219,14 @@ printf 'components: u v\nK-matrix: 0, 1/0 | -1/0, 0\nL-matrix: 0, 1 | -1, 0\nS: 
 refused 1 'an entry of K is no finite number' run ./restless.system
 rm restless.system walled.system half whole continued
 
+# certified on what somebody typed, on three nodes where nothing is said
+status 0 certify multiplier-trapezoidal --on phi4
+grep -q 'order 2, measured [12]\..* (phi4)' out && grep -q 'M multisymplectic *holds' out || fail "phi4, certified: $(cat out)"
+status 0 certify multiplier-trapezoidal --on phi4 points=7
+grep -q 'the law is measured on 3 nodes' out || fail "phi4 on 7 nodes, certified: $(cat out)"
+refused 1 'on takes systems of at most 28 components' certify multiplier-lobatto4 --on phi4 points=8
+refused 1 'equations and waves on moving meshes; phi4 is none' certify leapfrog --on phi4
+
 # an exact solution that begins elsewhere, or a step that leads nowhere, is no run: it was one of nonsense
 bump='start: u = exp(-x^2), u_t = 0\nhalf_length: 10\npoints: 100\ndt: 0.05\nuntil: 1\n'
 # a_field LINES: with that start
