@@ -237,6 +237,28 @@ static void a_bar_that_all_share_stands_beside_them(void **state)
     assert_true(width[1] > width[0] + 20.0);
 }
 
+/* One that a panel has alone, as where the others have no such law, keeps off the panel beside it. */
+static void a_bar_of_one_panel_keeps_off_the_next(void **state)
+{
+    (void)state;
+    for (double width = 640; width <= 1280; width *= 2) {
+        struct gm_metrics metrics = metrics_of(width, 0.5625 * width);
+        struct gm_picture *picture = picture_of(2, 0, true, true);
+        picture->state_columns = 2;
+        picture->first->equal = picture->last->equal = false;
+        picture->last->colour_bar = false;
+        check_layout(picture, &metrics);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        const struct gm_box bar = layout->frames[0].colour_bar;
+        assert_true(bar.width > 0.0 && bar.x + bar.width < layout->frames[1].box.x - 30.0);
+        assert_true(layout->frames[1].y_tick_count > 2);
+        for (size_t i = 0; i < layout->frames[0].bar_tick_count; i++) {
+            assert_true(layout->frames[0].bar_ticks[i].label[0]);
+        }
+        gm_picture_close(picture);
+    }
+}
+
 /* Lanes that share a panel are all told there, however little room there is. */
 static void every_key_is_told(void **state)
 {
@@ -546,6 +568,7 @@ int main(void)
         cmocka_unit_test(bars_point_at_what_is_beyond),
         cmocka_unit_test(notes_stay_in_their_frame),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
+        cmocka_unit_test(a_bar_of_one_panel_keeps_off_the_next),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
