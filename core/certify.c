@@ -23,6 +23,12 @@ struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum
     return &certificate->claims[bit_of(claim)];
 }
 
+void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
+{
+    struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
+    verdict->reason = verdict->measured || verdict->undecided ? NULL : reason;
+}
+
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
                          const char *problem)
 {

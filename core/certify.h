@@ -82,6 +82,8 @@ void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim
                          const char *problem);
 /* Notes that a problem can tell neither way: steps fail, or differences are lost in round-off. */
 void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem);
+/* Tells why nothing was measured of a claim on a given system, where nothing was. */
+void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason);
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
 
 /* The largest difference. */

@@ -72,7 +72,7 @@ static void offer_scenes(const struct stem *stem)
 static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
 {
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
-    const size_t count = scene ? gm_fitting_schemes(scene, fitting) : gm_scheme_count();
+    const size_t count = scene ? gm_fitting_elsewhere(scene, fitting) : gm_scheme_count();
     for (size_t i = 0; i < count; i++) {
         const struct gm_scheme *scheme = scene ? fitting[i] : gm_scheme_at(i);
         offer(stem, scheme->name, scheme->title);

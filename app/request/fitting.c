@@ -29,6 +29,17 @@ size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme *
     return count;
 }
 
+size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes)
+{
+    size_t count = gm_fitting_schemes(scene, schemes);
+    for (size_t i = 0; scene->elsewhere && i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
+        if (scene->elsewhere(gm_scheme_at(i))) {
+            schemes[count++] = gm_scheme_at(i);
+        }
+    }
+    return count;
+}
+
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row)
 {
     for (size_t i = 0; i < count; i++) {

@@ -11,6 +11,9 @@ enum { GM_FITTING_SCHEMES = 256 };
 /* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
 
+/* The same, and behind them those that the scene's own text takes on another kind of grid. */
+size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
+
 /* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
 

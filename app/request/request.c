@@ -70,7 +70,7 @@ static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, co
     }
     if (!spec->scheme) {
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
-        const char *near = gm_nearest(name, gm_fitting_schemes(scene, fitting), scheme_name, fitting);
+        const char *near = gm_nearest(name, gm_fitting_elsewhere(scene, fitting), scheme_name, fitting);
         char words[256];
         gm_arguments_tell_scene(scene, words, sizeof words);
         return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,

@@ -8,6 +8,8 @@
 
 #include "app/ground/arguments.h"
 #include "app/request/request.h"
+#include "core/mesh/moving_mesh.h"
+#include "core/schemes.h"
 
 struct kept {
     const struct gm_lane *lane;
@@ -32,8 +34,10 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
     struct gm_problem problem = lane->problem;
     const size_t n = problem.n;
     if (!kind->certify_on) {
-        return gm_refuse(message, "--on takes ordinary differential equations; %s is none of these",
-                         scene->name);
+        return gm_refuse(
+            message,
+            "--on takes ordinary differential equations and waves on moving meshes; %s is none of these",
+            scene->name);
     }
     if (n > kind->most_certified || problem.passive > 0) {
         return gm_refuse(message,
@@ -77,6 +81,11 @@ static bool ask(const char *scheme, const char *system, int count, const char *c
                 gm_arguments_add(&typed, choice);
     for (int i = 0; good && i < count; i++) {
         good = gm_arguments_add(&typed, words[i]);
+    }
+    /* on a mesh of as few nodes as all claims are measured on, where nothing is said of it */
+    const struct gm_scheme *row = gm_scheme_find(scheme);
+    if (good && row && row->family->kind == &gm_kind_mesh && !gm_arguments_have(&typed, "points=")) {
+        good = gm_arguments_add(&typed, "points=3");
     }
     if (!good) {
         gm_refuse(message, "not enough memory");

@@ -521,6 +521,21 @@ bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *mar
     return found;
 }
 
+gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const bool *marked, size_t variables)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, formula, &count), kink = GM_NO_NODE;
+    for (size_t i = 0; parts && i < count && kink == GM_NO_NODE; i++) {
+        const struct gm_operation_row *row = &gm_operation_rows[graph->nodes[parts[i]].operation];
+        if (row->name && !row->smooth && gm_formula_holds(graph, parts[i], marked, variables)) {
+            kink = parts[i];
+        }
+    }
+    graph->failed |= !parts;
+    free(parts);
+    return kink;
+}
+
 gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count)
 {
     return gm_formula_parts_of(graph, &node, 1, count);

@@ -256,20 +256,24 @@ char *gm_formula_latex(const struct gm_formula *graph, gm_node_id node, const st
     return text_of(graph, node, naming, true);
 }
 
-/* A word of a name: a letter, a Greek one, or upright. */
+/* A word of a name: a letter, a Greek one, one letter repeated as derivatives have it, or upright. */
 static void write_word(FILE *out, const char *word, size_t length)
 {
     static const char greek[] =
         " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma "
         "tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega ";
     char wanted[16];
+    size_t same = 1;
+    while (same < length && word[same] == word[0]) {
+        same++;
+    }
     if (length < 12) {
         snprintf(wanted, sizeof wanted, " %.*s ", (int)length, word);
     }
     if (length > 1 && length < 12 && strstr(greek, wanted)) {
         fprintf(out, "\\%.*s", (int)length, word);
     } else {
-        fprintf(out, length > 1 && gm_is_letter(word[0]) ? "\\mathrm{%.*s}" : "%.*s", (int)length, word);
+        fprintf(out, same < length && gm_is_letter(word[0]) ? "\\mathrm{%.*s}" : "%.*s", (int)length, word);
     }
 }
 

@@ -892,21 +892,21 @@ static bool holds_only(struct gm_own_system *system, gm_node_id node, const size
     return good;
 }
 
+/* V and S may have corners in parameters, which are constant. */
 static bool is_smooth(struct gm_own_system *system, const char *what, struct gm_fault *fault)
 {
-    size_t count = 0;
-    bool good = true;
-    gm_node_id *parts = gm_formula_parts(&system->graph, system->energy, &count);
-    for (size_t i = 0; parts && i < count && good; i++) {
-        const struct gm_operation_row *row = &gm_operation_rows[system->graph.nodes[parts[i]].operation];
-        if (row->name && !row->smooth) {
-            good = gm_fail(fault, system->graph.places[parts[i]],
-                           "%s has to be smooth, and %s is not: its force would jump", what, row->name);
-        }
+    bool *marked = malloc(system->n * sizeof *marked);
+    for (size_t i = 0; marked && i < system->n; i++) {
+        marked[i] = true;
     }
-    system->graph.failed |= !parts;
-    free(parts);
-    return good;
+    const gm_node_id kink =
+        marked ? gm_formula_kink(&system->graph, system->energy, marked, system->n) : GM_NO_NODE;
+    system->graph.failed |= !marked;
+    free(marked);
+    return !system->graph.failed &&
+           (kink == GM_NO_NODE || gm_fail(fault, system->graph.places[kink],
+                                          "%s has to be smooth, and %s is not: its force would jump", what,
+                                          gm_operation_rows[system->graph.nodes[kink].operation].name));
 }
 
 /* What the starts, exact solutions and densities of a field hold. */

@@ -68,6 +68,7 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
 {
     struct gm_border border = {0};
     size_t bars = 0;
+    bool between = false; /* a panel with a bar has another one beside it */
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_border own =
             gm_border_of(list, group->frames[i].panel, group->detail, names_x(group, i), calm);
@@ -77,8 +78,9 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
         border.bottom = fmax(border.bottom, own.bottom);
         border.bar = fmax(border.bar, own.bar);
         bars += own.bar > 0.0;
+        between |= own.bar > 0.0 && i + 1 < group->count && (i + 1) % group->columns != 0;
     }
-    if (bars > 1) {
+    if (bars > 1 || between) {
         border.right += border.bar;
         border.bar = 0.0;
     }

@@ -5,8 +5,9 @@
        (M u)_t = R(u, u_x, ..),
    or the components of a multisymplectic form,
        K z_t + L z_x = grad S(z),
-   or the wave equation between ends that hold u, on a moving mesh, as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
-   integrals of densities. The scene is made while the program runs, and does not change afterwards. */
+   or the wave equation between ends that hold u, on a moving mesh, as a scene: the parameters of its file are
+   keys, with the ring and its grid; what it keeps or observes are integrals of densities. The scene is made while
+   the program runs, and does not change afterwards. */
 #include "scenes/field/own.h"
 
 #include <math.h>
@@ -177,6 +178,44 @@ static bool closes(const struct own_field *own, const struct gm_problem *problem
                           : gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
 }
 
+enum { SAMPLES = 4096 }; /* that tell whether an exact solution begins as the start does */
+
+/* Whether they are the same but for what is `least` visible. */
+static bool begins_as(const struct own_field *own, size_t component, double x, double exact, double start,
+                      double least, char *sentence)
+{
+    return fabs(exact - start) <= least ||
+           gm_refuse(sentence, "exact: %.60s would begin at %.6g where x = %.6g, and it starts at %.6g",
+                     own->system.variables[component].name, exact, x, start);
+}
+
+static double visible(double largest)
+{
+    return 1e-3 * fmax(1e-9, largest);
+}
+
+/* The same on a moving mesh, wherever its nodes are. */
+static bool mesh_begins_exactly(const struct own_field *own, const struct gm_problem *problem, char *sentence)
+{
+    const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
+    struct gm_mesh mesh;
+    moving->describe(problem, &mesh);
+    double u[SAMPLES + 1], largest = 0, slope, rate;
+    for (size_t i = 0; i <= SAMPLES; i++) {
+        moving->start(problem->parameters, mesh.first + mesh.length * (double)i / SAMPLES, &u[i], &slope,
+                      &rate);
+        largest = fmax(largest, fabs(u[i]));
+    }
+    for (size_t i = 0; i <= SAMPLES; i++) {
+        const double x = mesh.first + mesh.length * (double)i / SAMPLES;
+        if (!begins_as(own, 0, x, moving->exact(problem->parameters, x, 0), u[i], visible(largest),
+                       sentence)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     const struct lane *lane = parameters;
@@ -184,7 +223,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     bool good = (values && open_problem(lane, problem, values)) || gm_refuse(sentence, "not enough memory");
     if (good) {
         problem->name = lane->own->scene.name;
-        good = closes(lane->own, problem, sentence);
+        good = closes(lane->own, problem, sentence) &&
+               (!lane->own->moves || !lane->own->solved || mesh_begins_exactly(lane->own, problem, sentence));
     }
     if (!good && values) {
         close_problem(problem);
@@ -202,6 +242,96 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     } else {
         gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
     }
+}
+
+/* Of a component, which of a wave is the first. */
+static double exact_component(const struct gm_view *view, size_t component, double x)
+{
+    const struct own_field *own = field_of(view);
+    return own->evolves   ? gm_own_evolution_exact(view->problem, component, x, view->t)
+           : own->is_form ? gm_own_form_exact(view->problem, component, x, view->t)
+                          : gm_own_wave_exact(view->problem, x, view->t);
+}
+
+/* How many components a state has at each node. */
+static size_t components_of(const struct gm_view *view)
+{
+    const struct own_field *own = field_of(view);
+    return own->evolves || own->is_form ? view->problem->n / view->problem->line.points : 1;
+}
+
+/* By how much a component may be off from the exact solution: a potential's constant is free. */
+static double free_constant(const struct gm_view *view, size_t component)
+{
+    const struct gm_line *line = &view->problem->line;
+    return field_of(view)->is_form && gm_own_form_is_potential(view->problem, component)
+               ? view->state[component * line->points] -
+                     exact_component(view, component, gm_line_node(line, 0))
+               : 0;
+}
+
+/* Largest magnitude of what is finite; *wrong is the first entry that is not, or `count`. */
+static double largest_of(const double *values, size_t count, size_t *wrong)
+{
+    double largest = 0;
+    *wrong = count;
+    for (size_t i = count; i-- > 0;) {
+        *wrong = isfinite(values[i]) ? *wrong : i;
+        largest = isfinite(values[i]) ? fmax(largest, fabs(values[i])) : largest;
+    }
+    return largest;
+}
+
+/* Whether the exact solution begins as the start does, at as many nodes as tell it. */
+static bool begins_exactly(const void *parameters, const struct gm_problem *problem, const double *y,
+                           char *sentence)
+{
+    const struct own_field *own = ((const struct lane *)parameters)->own;
+    const struct gm_line *line = &problem->line;
+    const struct gm_view view = {.problem = problem, .parameters = parameters, .state = y};
+    const size_t components = components_of(&view), apart = gm_line_seen(line) / SAMPLES + 1;
+    size_t wrong;
+    const double least = visible(largest_of(y, components * line->points, &wrong));
+    for (size_t c = 0; c < components; c++) {
+        const double constant = free_constant(&view, c);
+        for (size_t i = 0; i < gm_line_seen(line); i += apart) {
+            const double x = gm_line_node(line, i);
+            if (!begins_as(own, c, x, exact_component(&view, c, x) + constant, y[c * line->points + i], least,
+                           sentence)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Whether the other level of a wave is one that a step can lead to. */
+static bool has_levels(const struct own_field *own, const struct gm_problem *problem, const double *y,
+                       char *sentence)
+{
+    const double most = 1e6;
+    const size_t points = problem->line.points;
+    size_t wrong;
+    const double start = largest_of(y, points, &wrong), further = largest_of(y + points, points, &wrong);
+    if (wrong < points) {
+        return gm_refuse(sentence, "%.60s is not finite where x = %.6g one step after the start",
+                         own->system.variables[0].name, gm_line_node(&problem->line, wrong));
+    }
+    return further <= most * fmax(1, start) ||
+           gm_refuse(
+               sentence,
+               "%.60s would be %.3g one step after the start: V' is too large there, or dt = %.3g too long",
+               own->system.variables[0].name, further, y[2 * points]);
+}
+
+static bool start_checked(const void *parameters, const struct gm_problem *problem,
+                          const struct gm_scheme *scheme, double *y, char *sentence)
+{
+    const struct own_field *own = ((const struct lane *)parameters)->own;
+    (void)scheme;
+    start(parameters, problem, y);
+    return (!own->solved || begins_exactly(parameters, problem, y, sentence)) &&
+           (own->evolves || own->is_form || has_levels(own, problem, y, sentence));
 }
 
 static bool start_mesh(const void *parameters, const struct gm_problem *problem,
@@ -227,31 +357,19 @@ static void note_alpha(const struct gm_problem *problem, void *parameters)
 
 /* ---- what is observed ---- */
 
-/* Of a component, which of a wave is the first. */
-static double exact_component(const struct gm_view *view, size_t component, double x)
-{
-    const struct own_field *own = field_of(view);
-    return own->evolves   ? gm_own_evolution_exact(view->problem, component, x, view->t)
-           : own->is_form ? gm_own_form_exact(view->problem, component, x, view->t)
-                          : gm_own_wave_exact(view->problem, x, view->t);
-}
-
 static double exact(const struct gm_view *view, double x)
 {
     return exact_component(view, 0, x);
 }
 
-/* Of all components; of potentials but for their constant, which is free. */
+/* Of all components. */
 static double solution_error(const struct gm_view *view)
 {
-    const struct own_field *own = field_of(view);
     const struct gm_line *line = &view->problem->line;
-    const size_t components = own->evolves || own->is_form ? view->problem->n / line->points : 1;
+    const size_t components = components_of(view);
     double largest = 0;
     for (size_t c = 0; c < components; c++) {
-        const double *u = view->state + c * line->points;
-        const bool is_free = own->is_form && gm_own_form_is_potential(view->problem, c);
-        const double constant = is_free ? u[0] - exact_component(view, c, gm_line_node(line, 0)) : 0;
+        const double *u = view->state + c * line->points, constant = free_constant(view, c);
         for (size_t i = 0; i < gm_line_seen(line); i++) {
             const double error = fabs(u[i] - constant - exact_component(view, c, gm_line_node(line, i)));
             largest = error > largest || isnan(error) ? error : largest;
@@ -523,7 +641,7 @@ static bool open_tape(const struct own_field *own, struct gm_tape *tape, gm_node
     return good;
 }
 
-static bool make_rows(struct own_field *own)
+static bool make_rows(struct own_field *own, char *sentence)
 {
     const struct gm_own_system *system = &own->system;
     const size_t parameters = system->velocities - system->parameters;
@@ -566,13 +684,11 @@ static bool make_rows(struct own_field *own)
             "derivatives: central differences of order 2, or of waves through the nodes");
     }
     if (own->moves) {
-        static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
-        static const char *const views[] = {"all", "field", "mesh", "energy", "convergence", NULL};
         common[POINTS] =
             (struct gm_parameter)GM_INTEGER_ROW(struct lane, points, "points", number_text(own, points), 1,
                                                 1e5, "nodes between the ends", .logarithmic = true);
         common[SHOW] = (struct gm_parameter)GM_CHOICE_ROW(
-            struct lane, show, "show", "all", views,
+            struct lane, show, "show", "all", gm_mesh_views,
             "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
             .live = true);
         common[ALPHA] = (struct gm_parameter)GM_REAL_ROW(
@@ -581,15 +697,21 @@ static bool make_rows(struct own_field *own)
             "length over what u goes up and down there, whichever is less",
             .automatic = true);
         common[DENSITY] = (struct gm_parameter)GM_CHOICE_ROW(
-            struct lane, density, "density", "arclength", densities,
+            struct lane, density, "density", "arclength", gm_mesh_densities,
             "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
             "tempered where the field is steeper than at the start");
     }
     memcpy(own->rows, common, own->values * sizeof *common);
     bool good = true;
-    for (size_t i = 0; i < parameters; i++) {
+    for (size_t i = 0; i < parameters && good; i++) {
         const struct gm_system_variable *variable = &system->variables[system->parameters + i];
         const bool ranged = !isnan(variable->low);
+        for (size_t k = 0; k < own->values; k++) {
+            good = good &&
+                   (strcmp(common[k].key, variable->name) != 0 ||
+                    gm_refuse(sentence, "%.60s is a key of moving meshes: a parameter needs another name",
+                              variable->name));
+        }
         own->rows[own->values + i] = (struct gm_parameter){
             .key = variable->name,
             .unit = variable->unit ? variable->unit : "",
@@ -635,6 +757,7 @@ static bool make_observables(struct own_field *own, char *sentence)
     };
     static const struct gm_observable moving[] = {GM_MESH_ENERGIES, GM_MESH_NODES},
                                       errors[] = {GM_MESH_ERRORS};
+    static const char infinite[] = "its density is not finite everywhere";
     static const struct gm_observable error =
         GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
     const struct gm_own_system *system = &own->system;
@@ -679,8 +802,8 @@ static bool make_observables(struct own_field *own, char *sentence)
         }
         own->observables[own->observable_count++] =
             kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(key, integral, item->name, item->name,
-                                                            .least = item->scale)
-                 : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name);
+                                                            .least = item->scale, .missing = infinite)
+                 : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
     }
     return true;
 }
@@ -747,21 +870,28 @@ static const char *title_of(struct own_field *own)
     return kept ? kept : "Waves in a potential of one’s own";
 }
 
+static bool on_a_mesh(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_mesh;
+}
+
 size_t gm_own_field_moving(const char *schemes, size_t *others)
 {
     size_t moving = 0;
-    *others = 0;
-    for (size_t length; schemes && *schemes; schemes += length) {
-        schemes += strspn(schemes, " ,");
-        length = strcspn(schemes, " ,");
-        char name[64];
-        snprintf(name, sizeof name, "%.*s", (int)(length < 60 ? length : 60), schemes);
-        const struct gm_scheme *scheme = length > 0 ? gm_scheme_find(name) : NULL;
-        const bool moves = scheme && scheme->family->kind == &gm_kind_mesh;
+    char name[64];
+    for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        const bool moves = scheme && on_a_mesh(scheme);
         moving += moves;
-        *others += length > 0 && !moves;
+        *others += !moves;
     }
     return moving;
+}
+
+static bool on_a_ring(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_field &&
+           !(scheme->needs & ~(unsigned)(GM_NEEDS_WAVE | GM_NEEDS_FORM | GM_NEEDS_PAIRS));
 }
 
 static bool make(struct own_field *own, const char *name, const char *const *words, char *sentence)
@@ -783,7 +913,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     if (!(own->evolves   ? gm_own_evolution_derive(&own->evolution, system)
           : own->is_form ? gm_own_form_derive(&own->form, system)
                          : gm_own_wave_derive(&own->wave, system)) ||
-        !make_rows(own)) {
+        !make_rows(own, sentence)) {
         return false;
     }
     own->solved = (own->evolves   ? own->evolution.exact[0]
@@ -810,10 +940,13 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         .track_count = 1,
         .work = &own->work,
         .settle = settle,
+        .elsewhere = own->moves                                         ? on_a_ring
+                     : system->kind == GM_FIELD && !own->initial->walls ? on_a_mesh
+                                                                        : NULL,
         .setup = setup,
         .close = close_problem,
         .start = start,
-        .start_with = own->moves ? start_mesh : NULL,
+        .start_with = own->moves ? start_mesh : start_checked,
         .chosen = own->moves ? note_alpha : NULL,
         .draw = own->moves ? draw_mesh : draw,
         .failure = tell_failure,
@@ -833,7 +966,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
             gm_moving_mesh_of(&problem)->start(problem.parameters, x, &y[i], &slope, &rate);
         }
     } else if (good) {
-        start(own->initial, &problem, y);
+        good = start_checked(own->initial, &problem, NULL, y, sentence);
     }
     if (good) {
         own->low = own->high = y[0];

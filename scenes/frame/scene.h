@@ -202,6 +202,9 @@ struct gm_scene {
     /* Makes parameters agree that follow from others, after those of these keys were set; false with a
        sentence if they contradict. NULL: none do. */
     bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
+    /* Whether a scheme that does not fit is one that the scene's own text takes on another kind of grid: a word that
+       asks for it makes another scene. NULL: there is no other. */
+    bool (*elsewhere)(const struct gm_scheme *scheme);
     /* Settles, in the lane's own copy, the parameters that were left to it ("auto"); NULL: there are none. */
     void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */

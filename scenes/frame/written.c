@@ -40,23 +40,26 @@ char *gm_written_mark(const char *name, const char *text)
     return asprintf(&mark, "%s:%08x", name, (unsigned)sum) < 0 ? NULL : mark;
 }
 
+bool gm_listed_word(const char **list, char *word, size_t size)
+{
+    const char *text = *list ? *list + strspn(*list, " ,") : "";
+    const size_t length = strcspn(text, " ,");
+    snprintf(word, size, "%.*s", (int)(length < size ? length : size), text);
+    *list = text + length;
+    return length > 0;
+}
+
 bool gm_written_schemes(const char *text, const struct gm_problem *problem, const char **schemes, size_t most,
                         size_t *count, char *sentence)
 {
-    *count = 0;
-    for (size_t length; text && *text && *count < most; text += length) {
-        text += strspn(text, " ,");
-        length = strcspn(text, " ,");
-        char name[64];
-        snprintf(name, sizeof name, "%.*s", (int)(length < 60 ? length : 60), text);
-        const struct gm_scheme *scheme = length ? gm_scheme_find_for(name, problem) : NULL;
-        if (length && !(scheme && gm_scheme_fits(scheme, problem))) {
+    char name[64];
+    for (*count = 0; *count < most && gm_listed_word(&text, name, sizeof name);) {
+        const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
+        if (!(scheme && gm_scheme_fits(scheme, problem))) {
             return gm_refuse(sentence, "schemes: %s %s", name,
                              scheme ? "does not fit this system" : "is no scheme");
         }
-        if (length) {
-            schemes[(*count)++] = scheme->name;
-        }
+        schemes[(*count)++] = scheme->name;
     }
     return true;
 }

@@ -18,6 +18,10 @@ void gm_kept_texts_close(struct gm_kept_texts *texts);
 /* The name with a checksum of the text, which tells two of one name apart; malloc'ed, NULL: no memory. */
 char *gm_written_mark(const char *name, const char *text);
 
+/* The next word of a list by blanks or commas, cut off where it is longer than the room for it, and the list goes on
+   behind it; false at its end, or of NULL. */
+bool gm_listed_word(const char **list, char *word, size_t size);
+
 /* The schemes that a text names, by blanks or commas, at most `most`; their number is *count, 0 where the
    text is NULL. False with a sentence where one is unknown or does not fit. */
 bool gm_written_schemes(const char *text, const struct gm_problem *problem, const char **schemes, size_t most,

@@ -15,6 +15,9 @@ enum gm_mesh_view {
     GM_MESH_CONVERGENCE,
 };
 
+/* The names of enum gm_mesh_view and of enum gm_mesh_density (core/mesh/moving_mesh.h), until NULL. */
+extern const char *const gm_mesh_views[], *const gm_mesh_densities[];
+
 /* The parameters of such a scene begin with these; its first track is that of the paths (scenes/mesh/observed.h). */
 struct gm_mesh_parameters {
     struct gm_timing timing;

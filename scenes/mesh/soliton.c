@@ -25,8 +25,6 @@ struct parameters {
 };
 
 static const char *const fields[] = {"sine-gordon", "phi4", NULL};
-static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
-static const char *const shows[] = {"all", "field", "mesh", "energy", "convergence", NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-6, 10),
@@ -41,7 +39,7 @@ static const struct gm_parameter parameters[] = {
                 "weight of the field's slope in the mesh density; auto: 2.5 for one soliton, 1.5 for two",
                 .automatic = true),
     GM_CHOICE_ROW(
-        struct parameters, own.density, "density", "arclength", densities,
+        struct parameters, own.density, "density", "arclength", gm_mesh_densities,
         "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
         "tempered where the field is steeper than a soliton"),
     GM_CHOICE_ROW(struct parameters, own.field, "potential", "sine-gordon", fields,
@@ -49,7 +47,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct parameters, own.length, "length", "25", 1, 1e4, "distance of the walls",
                 .logarithmic = true),
     GM_CHOICE_ROW(
-        struct parameters, shown.show, "show", "all", shows,
+        struct parameters, shown.show, "show", "all", gm_mesh_views,
         "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .live = true),
 };

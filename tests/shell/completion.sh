@@ -52,6 +52,14 @@ offers '' again pic
 offers '' run room mesh=
 offers '' run room mesh=a
 offers '' nonsense x
+# a typed V on a ring and on a moving mesh, between walls not
+printf 'field: u\nV: u^2/2\nstart: u = exp(-x^2), u_t = 0\n' >"$files/bump.system"
+bump=$files/bump.system
+offers 'scheme=multiplier-lobatto2 scheme=multiplier-lobatto4' run "$bump" scheme=multiplier-l
+offers 'alpha=' run "$bump" scheme=multiplier-lobatto4 al
+offers 'scheme=leapfrog' run "$bump" scheme=multiplier-lobatto4 scheme=leap
+printf 'boundary: walls\n' >>"$bump"
+offers '' run "$bump" scheme=multiplier-l
 # tours: those of the folder
 GEOMINT_TOURS=$2/share/tours
 GEOMINT_SYSTEMS=$2/share/systems # which tours show

@@ -237,6 +237,30 @@ static void a_bar_that_all_share_stands_beside_them(void **state)
     assert_true(width[1] > width[0] + 20.0);
 }
 
+/* One that a panel has alone, as where the others have no such law, stands as far from the panel beside it as where
+   each has its own. */
+static void a_bar_of_one_panel_keeps_off_the_next(void **state)
+{
+    (void)state;
+    for (double width = 640; width <= 1280; width *= 2) {
+        struct gm_metrics metrics = metrics_of(width, 0.5625 * width);
+        double apart[2];
+        for (int alone = 0; alone < 2; alone++) {
+            struct gm_picture *picture = picture_of(2, 0, true, true);
+            picture->state_columns = 2;
+            picture->first->equal = picture->last->equal = false;
+            picture->last->colour_bar = !alone;
+            check_layout(picture, &metrics);
+            const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+            const struct gm_box bar = layout->frames[0].colour_bar;
+            assert_true(bar.width > 0.0);
+            apart[alone] = layout->frames[1].box.x - bar.x - bar.width;
+            gm_picture_close(picture);
+        }
+        assert_float_equal(apart[1], apart[0], 1e-9);
+    }
+}
+
 /* Lanes that share a panel are all told there, however little room there is. */
 static void every_key_is_told(void **state)
 {
@@ -546,6 +570,7 @@ int main(void)
         cmocka_unit_test(bars_point_at_what_is_beyond),
         cmocka_unit_test(notes_stay_in_their_frame),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
+        cmocka_unit_test(a_bar_of_one_panel_keeps_off_the_next),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
 #include "core/count.h"
 #include "core/mesh/certify/law.h"
 #include "core/mesh/families/multiplier.h"
@@ -213,6 +214,47 @@ static void laws_hold_of_somebodys_potential(void **unused)
     }
 }
 
+static struct gm_certificate certificate_of(const struct typed *typed, const struct gm_scheme *scheme)
+{
+    double start[4 * 3];
+    assert_true(gm_mesh_start(&typed->mesh, gm_scheme_mesh(scheme), gm_moving_mesh_of(&typed->problem)->start,
+                              typed->problem.parameters, start));
+    const struct gm_certified_system system = {.problem = &typed->problem, .start = start, .dt = 0.1};
+    return gm_certify_on(scheme, &system);
+}
+
+/* The claims of a row, measured on what somebody wrote; a wrong digit and a claim that is none are found out. */
+static void schemes_are_certified_on_somebodys_potential(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"multiplier-lobatto4", "multiplier-trapezoidal", "control-gauss4",
+                                        "uniform-gauss2", "multiplier-adaptive4"};
+    static const char *const texts[] = {phi4, both};
+    for (size_t which = 0; which < GM_COUNT(texts); which++) {
+        struct typed typed;
+        open_typed(&typed, texts[which], 6, 3, NAN);
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+            const struct gm_certificate certificate = certificate_of(&typed, scheme);
+            if (!certificate.holds || !(fabs(certificate.order - scheme->order) < 0.15)) {
+                fail_msg("%s: order %.3f", names[i], certificate.order);
+            }
+        }
+        struct gm_tableau tableau = gm_tableau_lobatto4;
+        tableau.abar[2][1] += 1e-3;
+        struct gm_multiplier digit = gm_multiplier_lobatto4;
+        digit.tableau = &tableau;
+        struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
+        wrong.coefficients = &digit;
+        assert_false(certificate_of(&typed, &wrong).holds);
+        wrong = *gm_scheme_find("control-gauss4");
+        assert_true(certificate_of(&typed, &wrong).holds);
+        wrong.claims |= GM_MULTISYMPLECTIC;
+        assert_false(certificate_of(&typed, &wrong).holds);
+        close_typed(&typed);
+    }
+}
+
 /* A kink of phi^4 over three quarters of its way: the energy swings, the less the shorter the step, and does not
    drift; with the control-theoretic strategy it does not come back. */
 static void energy_is_kept(void **unused)
@@ -269,6 +311,7 @@ int main(void)
         cmocka_unit_test(typed_again_the_soliton_is_the_same),
         cmocka_unit_test(orders_are_claimed_ones),
         cmocka_unit_test(laws_hold_of_somebodys_potential),
+        cmocka_unit_test(schemes_are_certified_on_somebodys_potential),
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(what_does_not_rest_is_refused),
     };

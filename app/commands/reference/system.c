@@ -73,23 +73,32 @@ static void print_equation(const struct report *report, const char *left, gm_nod
     free(text);
 }
 
+/* A component, plain or as LaTeX; malloc'ed. */
+static char *name_of(const struct report *report, size_t component, bool latex)
+{
+    const char *name = report->system.variables[component].name;
+    return latex ? gm_name_latex(name) : strdup(name);
+}
+
 /* "u_t", or with a mass "(u - u_xx)_t" */
-static void name_rate(const struct report *report, size_t i, char *left, size_t size)
+static void name_rate(const struct report *report, size_t i, bool latex, char *left, size_t size)
 {
     const struct gm_own_system *system = &report->system;
-    snprintf(left, size, "%.60s_t", system->variables[i].name);
+    char *name = name_of(report, i, latex);
+    snprintf(left, size, latex ? "\\partial_t %.60s" : "%.60s_t", name ? name : "");
+    free(name);
     for (size_t k = 0; k < system->item_count; k++) {
         const struct gm_system_item *item = &system->items[k];
         if (item->word == GM_WORD_MASS && gm_system_mass_field(system, item->nodes[0]) == i) {
-            char *mass = formula_of(report, item->nodes[0], false);
-            snprintf(left, size, "(%.100s)_t", mass ? mass : "");
+            char *mass = formula_of(report, item->nodes[0], latex);
+            snprintf(left, size, latex ? "\\partial_t\\left(%.200s\\right)" : "(%.200s)_t", mass ? mass : "");
             free(mass);
         }
     }
 }
 
 /* A row of K z_t + L z_x, as its entries are written: "-v_t + w_x" */
-static void name_row(const struct report *report, size_t row, char *left, size_t size)
+static void name_row(const struct report *report, size_t row, bool latex, char *left, size_t size)
 {
     const struct gm_own_system *system = &report->system;
     const size_t n = system->n;
@@ -98,16 +107,25 @@ static void name_row(const struct report *report, size_t row, char *left, size_t
     for (size_t which = 0; which < 2; which++) {
         for (size_t c = 0; c < n && used < size; c++) {
             const gm_node_id node = system->matrices[(which * n + row) * n + c];
-            char *entry = formula_of(report, node, false);
+            char *entry = formula_of(report, node, latex), *name = name_of(report, c, latex);
             const bool one = gm_is_constant(&system->graph, node, 1),
                        minus = gm_is_constant(&system->graph, node, -1);
             const char *sign = minus ? (used ? " - " : "-") : used ? " + " : "";
-            if (entry && !gm_is_constant(&system->graph, node, 0)) {
-                used += (size_t)snprintf(left + used, size - used,
-                                         one || minus ? "%s%.0s%.40s%s" : "%s(%.60s) %.40s%s", sign, entry,
-                                         system->variables[c].name, which ? "_x" : "_t");
+            if (entry && name && !gm_is_constant(&system->graph, node, 0)) {
+                used += (size_t)snprintf(left + used, size - used, "%s", sign);
+                if (!one && !minus && used < size) {
+                    used += (size_t)snprintf(left + used, size - used,
+                                             latex ? "\\left(%.80s\\right)\\," : "(%.60s) ", entry);
+                }
+                if (used < size) {
+                    const char *variable = which ? "x" : "t";
+                    used += (size_t)(latex ? snprintf(left + used, size - used, "\\partial_%s %.60s",
+                                                      variable, name)
+                                           : snprintf(left + used, size - used, "%.40s_%s", name, variable));
+                }
             }
             free(entry);
+            free(name);
         }
     }
     if (used == 0) {
@@ -115,27 +133,29 @@ static void name_row(const struct report *report, size_t row, char *left, size_t
     }
 }
 
-/* What the rate of component number i is called, and its node; GM_NO_NODE: it has none. */
-static gm_node_id equation_of(const struct report *report, size_t i, char *left, size_t size)
+/* The left side of equation number i, and the node of its right one; GM_NO_NODE: it has none. */
+static gm_node_id equation_of(const struct report *report, size_t i, bool latex, char *left, size_t size)
 {
     const struct gm_own_system *system = &report->system;
     const size_t half = system->n / 2;
-    if (system->kind == GM_LAGRANGIAN && i < half) {
-        snprintf(left, size, "%.60s", system->variables[half + i].name);
-        return system->momenta[i];
-    }
-    if (system->kind == GM_FIELD) { /* number 1: the first one says that u_t is u_t */
-        snprintf(left, size, "%.60s_tt - %.60s_xx", system->variables[0].name, system->variables[0].name);
-        return system->rates[i];
-    }
+    const bool momentum = system->kind == GM_LAGRANGIAN && i < half;
     if (system->kind == GM_MATRICES) {
-        name_row(report, i, left, size);
+        name_row(report, i, latex, left, size);
     } else if (system->kind == GM_EVOLUTION) {
-        name_rate(report, i, left, size);
+        name_rate(report, i, latex, left, size);
     } else {
-        snprintf(left, size, "%.60s'", system->variables[i].name);
+        /* of a field number 1: the first one says that u_t is u_t */
+        char *text = name_of(report, momentum ? half + i : system->kind == GM_FIELD ? 0 : i, latex);
+        const char *name = text ? text : "";
+        if (system->kind == GM_FIELD) {
+            snprintf(left, size, latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
+                     name, name);
+        } else {
+            snprintf(left, size, momentum ? "%.60s" : latex ? "\\dot{%.60s}" : "%.60s'", name);
+        }
+        free(text);
     }
-    return system->rates[i];
+    return momentum ? system->momenta[i] : system->rates[i];
 }
 
 static size_t first_equation(const struct gm_own_system *system)
@@ -241,7 +261,7 @@ static void print_equations(const struct report *report)
     }
     for (size_t i = first_equation(system); i < system->n; i++) {
         char left[140];
-        const gm_node_id node = equation_of(report, i, left, sizeof left);
+        const gm_node_id node = equation_of(report, i, false, left, sizeof left);
         if (i == MOST_EQUATIONS) {
             printf("  and %zu more\n", system->n - i);
             break;
@@ -294,13 +314,18 @@ static const char *const field_facts[][2] = {
 enum { FIELD_FACTS = GM_COUNT(field_facts) };
 static const char form_fact[] = "K z_t + L z_x = grad S(z), K and L are skew, and S is smooth";
 
+static bool has_linear(const struct report *report, size_t i)
+{
+    return !gm_is_constant(&report->system.graph, report->evolution.linear[i], 0);
+}
+
 /* The linear part of the rate of a field, in words; malloc'ed. */
 static char *linear_fact(const struct report *report, size_t i)
 {
     char *line = formula_of(report, report->evolution.linear[i], false), *text = NULL;
     if (line &&
         asprintf(&text,
-                 strcmp(line, "0") == 0 ? "none that is linear in the rate of %s" : "in the rate of %s: %s",
+                 strcmp(line, "0") == 0 ? "nothing is linear in the rate of %s" : "in the rate of %s: %s",
                  report->system.variables[i].name, line) < 0) {
         text = NULL;
     }
@@ -313,7 +338,8 @@ static void print_facts(const struct report *report)
     printf("\nstructure\n");
     for (size_t i = 0; i < report->system.n && report->system.kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        gm_print_wrapped(text ? text : "", printf("  %-16s yes ", "linear part"), 23);
+        gm_print_wrapped(text ? text : "",
+                         printf("  %-16s %-3s ", "linear part", has_linear(report, i) ? "yes" : "no"), 23);
         free(text);
     }
     if (report->system.kind == GM_MATRICES) {
@@ -415,7 +441,7 @@ static void print_equations_json(const struct report *report)
     const char *comma = "";
     for (size_t i = first_equation(system); i < system->n; i++, comma = ",") {
         printf("%s", comma);
-        const gm_node_id node = equation_of(report, i, name, sizeof name);
+        const gm_node_id node = equation_of(report, i, false, name, sizeof name);
         print_formula_pair(report, name, node);
     }
     printf("},\"constraints\":[");
@@ -464,7 +490,8 @@ static void print_structure_json(const struct report *report)
     }
     for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        print_fact_json(&first, "linear_part_", system->variables[i].name, true, text ? text : "");
+        print_fact_json(&first, "linear_part_", system->variables[i].name, has_linear(report, i),
+                        text ? text : "");
         free(text);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
@@ -547,22 +574,11 @@ static void print_latex(struct report *report)
         }
     }
     for (size_t i = first_equation(system); i < system->n; i++) {
-        const bool momentum = system->kind == GM_LAGRANGIAN && i < half, field = system->kind == GM_FIELD;
-        char *name = gm_name_latex(system->variables[momentum ? half + i : field ? 0 : i].name), left[140];
-        char *text = formula_of(report, equation_of(report, i, left, sizeof left), true);
-        if (field) {
-            printf("  \\partial_t^2 %s - \\partial_x^2 %s &= %s", name ? name : "", name ? name : "",
-                   text ? text : "");
-        } else if (system->kind == GM_MATRICES) {
-            printf("%s  %s &= %s", i > 0 ? " \\\\\n" : "", left, text ? text : "");
-        } else {
-            printf(momentum ? "%s  %s &= %s" : "%s  \\dot{%s} &= %s",
-                   i > first_equation(system) ? " \\\\\n" : "", name ? name : "", text ? text : "");
-            if (i >= half) {
-                print_forces(report, i - half);
-            }
+        char left[400], *text = formula_of(report, equation_of(report, i, true, left, sizeof left), true);
+        printf("%s  %s &= %s", i > first_equation(system) ? " \\\\\n" : "", left, text ? text : "");
+        if (i >= half && !gm_system_is_field(system)) {
+            print_forces(report, i - half);
         }
-        free(name);
         free(text);
     }
     for (size_t i = 0; i < system->item_count; i++) {
@@ -625,6 +641,16 @@ static bool open_problem(struct report *report)
                                     gm_own_evolution_open(&report->problem, &report->evolution, start, &any,
                                                           GM_SPACE_DIFFERENCES));
         free(start);
+        if (opened && report->system.kind == GM_EVOLUTION) {
+            const struct gm_own_evolution *evolution = &report->evolution;
+            const bool smooth = evolution->kink == GM_NO_NODE;
+            report->model.findings[GM_FACT_SMOOTH] =
+                (struct gm_finding){.asked = true,
+                                    .holds = smooth,
+                                    .how = smooth ? GM_ZERO_PROVED : GM_NOT_ZERO,
+                                    .term = evolution->kink,
+                                    .component = evolution->kinked};
+        }
         return opened;
     }
     bool good = gm_own_model_open(&report->model, &report->system);

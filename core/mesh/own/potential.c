@@ -9,7 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <gsl/gsl_integration.h>
+
 #include "core/count.h"
+#include "core/memory.h"
 #include "core/tape.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
@@ -31,25 +34,17 @@ size_t gm_own_mesh_order(const struct gm_own_wave *wave)
     return wave->degree + 1 <= 2 * MOST_NODES - 1 ? ((size_t)wave->degree + 3) / 2 : MOST_NODES;
 }
 
-/* Zeros of Legendre's polynomial of degree n by Newton's method. */
-static void set_rule(struct own *own, size_t n)
+/* Gauss's nodes, and weights that add up to 1, which GSL has in tables; false where it is refused memory. */
+static bool set_rule(void *data)
 {
-    own->nodes = n;
-    for (size_t k = 0; k < n; k++) {
-        double x = cos(M_PI * ((double)k + 0.75) / ((double)n + 0.5)), slope = 1;
-        for (int iteration = 0; iteration < 8; iteration++) {
-            double before = 1, now = x;
-            for (size_t j = 2; j <= n; j++) {
-                const double next = ((double)(2 * j - 1) * x * now - (double)(j - 1) * before) / (double)j;
-                before = now;
-                now = next;
-            }
-            slope = (double)n * (x * now - before) / (x * x - 1);
-            x -= now / slope;
-        }
-        own->place[k] = x;
-        own->weight[k] = 1 / ((1 - x * x) * slope * slope);
+    struct own *own = data;
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(own->nodes);
+    for (size_t k = 0; table && k < own->nodes; k++) {
+        gsl_integration_glfixed_point(-1, 1, k, &own->place[k], &own->weight[k], table);
+        own->weight[k] /= 2;
     }
+    gsl_integration_glfixed_table_free(table);
+    return table != NULL;
 }
 
 static void first(const struct gm_potential *potential, const double *middle, const double *rise, size_t n,
@@ -176,8 +171,9 @@ bool gm_own_mesh_open(struct gm_problem *problem, const struct gm_own_wave *wave
                                  .length = 2 * chosen->half_length,
                                  .potential = &own->functions};
     own->has_exact = wave->exact != GM_NO_NODE;
-    set_rule(own, gm_own_mesh_order(wave));
-    if (!gm_tape_open(&own->means, graph, means, GM_COUNT(means), 1, values) ||
+    own->nodes = gm_own_mesh_order(wave);
+    if (!gm_memory_guard_gsl(set_rule, own) ||
+        !gm_tape_open(&own->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&own->bend, graph, &wave->by_u[1], 1, 1, values) ||
         !gm_tape_open(&own->forces, graph, wave->by_u, GM_COUNT(wave->by_u), 1, values) ||
         !gm_tape_open(&own->start, graph, begin, GM_COUNT(begin), 1, values) ||

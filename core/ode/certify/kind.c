@@ -181,12 +181,6 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     }
 }
 
-static void withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
-{
-    struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
-    verdict->reason = verdict->measured || verdict->undecided ? NULL : reason;
-}
-
 /* A polynomial's differences of this many steps along a direction, beside the size of its values. */
 static double differences(const struct gm_subject *subject, const struct gm_kept *kept, int steps,
                           const double *direction)
@@ -326,26 +320,32 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     const char *const no_energy = "the system has no Hamiltonian of the whole state";
-    withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
-    withhold(certificate, GM_REVERSIBLE,
-             subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy);
-    withhold(certificate, GM_KEEPS_ENERGY, no_energy);
-    withhold(certificate, GM_KEEPS_VOLUME, "the system is not of three components without divergence");
-    withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
-    withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
-    withhold(certificate, GM_KEEPS_BILINEAR, "the system names no invariant of the form q' A p");
-    withhold(certificate, GM_KEEPS_MOMENTUM_MAPS, "the system names no symmetry that moves q by affine maps");
-    withhold(certificate, GM_KEEPS_CASIMIRS,
-             ode->poisson ? "the system names no Casimir" : "the system has no bracket");
-    withhold(certificate, GM_POISSON_MAP,
-             ode->poisson ? "the scheme chooses its steps" : "the system has no bracket");
-    withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
-    withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
-    withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");
+    gm_certificate_withhold(certificate, GM_SYMPLECTIC,
+                            subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
+    gm_certificate_withhold(certificate, GM_REVERSIBLE,
+                            subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round"
+                                                : no_energy);
+    gm_certificate_withhold(certificate, GM_KEEPS_ENERGY, no_energy);
+    gm_certificate_withhold(certificate, GM_KEEPS_VOLUME,
+                            "the system is not of three components without divergence");
+    gm_certificate_withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
+    gm_certificate_withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
+    gm_certificate_withhold(certificate, GM_KEEPS_BILINEAR,
+                            "the system names no invariant of the form q' A p");
+    gm_certificate_withhold(certificate, GM_KEEPS_MOMENTUM_MAPS,
+                            "the system names no symmetry that moves q by affine maps");
+    gm_certificate_withhold(certificate, GM_KEEPS_CASIMIRS,
+                            ode->poisson ? "the system names no Casimir" : "the system has no bracket");
+    gm_certificate_withhold(certificate, GM_POISSON_MAP,
+                            ode->poisson ? "the scheme chooses its steps" : "the system has no bracket");
+    gm_certificate_withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
+    gm_certificate_withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
+    gm_certificate_withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        withhold(certificate, (enum gm_claim)(1u << bit),
-                 certificate->claims[bit].reason ? certificate->claims[bit].reason
-                                                 : "it means nothing of ordinary differential equations");
+        gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit),
+                                certificate->claims[bit].reason
+                                    ? certificate->claims[bit].reason
+                                    : "it means nothing of ordinary differential equations");
     }
 }
 

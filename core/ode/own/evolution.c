@@ -19,7 +19,11 @@
 #include "core/system/equations.h"
 #include "core/tape.h"
 
-enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };
+enum {
+    ROOM = 64 /* places that are computed together */,
+    ORDERS = GM_MOST_DERIVATIVES + 1,
+    MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2
+};
 
 /* What a call works in. */
 struct room {
@@ -89,6 +93,25 @@ static bool split(struct gm_own_evolution *evolution, struct gm_own_system *syst
            renumber(system, evolution->rests, system->n);
 }
 
+static bool find_kink(struct gm_own_evolution *evolution, struct gm_own_system *system)
+{
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    evolution->kink = GM_NO_NODE;
+    for (size_t i = 0; marked && i < system->n; i++) {
+        marked[i] = true;
+        for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
+            marked[system->velocities + 1 + i * GM_MOST_DERIVATIVES + k] = true;
+        }
+    }
+    for (size_t i = 0; marked && i < system->n && evolution->kink == GM_NO_NODE; i++) {
+        evolution->kink = gm_formula_kink(&system->graph, system->rates[i], marked, system->variable_count);
+        evolution->kinked = i;
+    }
+    const bool good = marked && !system->graph.failed;
+    free(marked);
+    return good;
+}
+
 bool gm_own_evolution_derive(struct gm_own_evolution *evolution, struct gm_own_system *system)
 {
     const size_t n = system->n;
@@ -120,7 +143,7 @@ bool gm_own_evolution_derive(struct gm_own_evolution *evolution, struct gm_own_s
             evolution->masses[field] = mass;
         }
     }
-    return good && split(evolution, system);
+    return good && find_kink(evolution, system) && split(evolution, system);
 }
 
 void gm_own_evolution_close(struct gm_own_evolution *evolution)
@@ -484,6 +507,7 @@ bool gm_own_evolution_open(struct gm_problem *problem, const struct gm_own_evolu
     own->loops = (struct gm_loops){.field = field};
     own->facets = (struct gm_ode){
         .components = own->names,
+        .rough = evolution->kink != GM_NO_NODE,
         .semilinear = &own->semilinear,
         .loops = {&own->loops, &own->loops, &own->loops},
     };
@@ -513,21 +537,31 @@ void gm_own_evolution_shut(struct gm_problem *problem)
 
 /* ---- what is asked of it ---- */
 
-static double start_of(const struct own *own, size_t field, double x)
+/* The fields at the start at so many places, at most ROOM: [field * count + place]. */
+static void starts_at(const struct own *own, const double *x, size_t count, double *values)
 {
-    double inputs[MOST_INPUTS] = {0}, values[GM_MOST_FIELDS];
-    inputs[own->inputs - 2] = x;
-    gm_tape_values(&own->starts, inputs, values, 1);
-    return values[field];
+    double inputs[MOST_INPUTS * ROOM] = {0};
+    memcpy(inputs + (own->inputs - 2) * count, x, count * sizeof *x);
+    gm_tape_values(&own->starts, inputs, values, count);
 }
 
 void gm_own_evolution_start(const struct gm_problem *problem, double *y)
 {
     const struct own *own = own_of(problem);
-    for (size_t i = 0; i < problem->n; i++) {
-        const size_t points = own->line.points;
-        const double sign = i % points < gm_line_seen(&own->line) ? 1 : own->mirrored[i / points];
-        y[i] = sign * start_of(own, i / points, gm_line_node(&own->line, i % points));
+    const size_t points = own->line.points;
+    double x[ROOM], values[GM_MOST_FIELDS * ROOM];
+    for (size_t first = 0, some; first < points; first += some) {
+        some = points - first < ROOM ? points - first : ROOM;
+        for (size_t i = 0; i < some; i++) {
+            x[i] = gm_line_node(&own->line, first + i);
+        }
+        starts_at(own, x, some, values);
+        for (size_t c = 0; c < own->fields; c++) {
+            for (size_t i = 0; i < some; i++) {
+                const double sign = first + i < gm_line_seen(&own->line) ? 1 : own->mirrored[c];
+                y[c * points + first + i] = sign * values[c * some + i];
+            }
+        }
     }
 }
 
@@ -562,21 +596,23 @@ double gm_own_evolution_integral(const struct gm_problem *problem, size_t densit
     return sum * own->line.dx;
 }
 
-static bool field_closes(const struct own *own, size_t field, char *sentence, size_t size)
+/* u: that field of the state at the start */
+static bool field_closes(const struct own *own, size_t field, const double *u, char *sentence, size_t size)
 {
     const struct gm_line *line = &own->line;
     const char *name = own->evolution->system->variables[field].name;
-    double low = INFINITY, high = -INFINITY;
+    double low = INFINITY, high = -INFINITY, values[2 * GM_MOST_FIELDS];
     for (size_t i = 0; i < line->points; i++) {
-        const double x = gm_line_node(line, i), value = start_of(own, field, x);
-        if (!isfinite(value)) {
-            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name, x);
+        if (!isfinite(u[i])) {
+            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name,
+                     gm_line_node(line, i));
             return false;
         }
-        low = fmin(low, value);
-        high = fmax(high, value);
+        low = fmin(low, u[i]);
+        high = fmax(high, u[i]);
     }
-    const double left = start_of(own, field, line->first), right = start_of(own, field, -line->first);
+    starts_at(own, (const double[]){line->first, -line->first}, 2, values);
+    const double left = values[2 * field], right = values[2 * field + 1];
     if (line->walls && own->mirrored[field] < 0 &&
         !(fabs(left) + fabs(right) <= 1e-3 * fmax(fabs(low), fabs(high)))) {
         snprintf(
@@ -596,21 +632,8 @@ static bool field_closes(const struct own *own, size_t field, char *sentence, si
     return true;
 }
 
-bool gm_own_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
+static bool has_masses(const struct own *own, char *sentence, size_t size)
 {
-    const struct own *own = own_of(problem);
-    if (own->line.walls && own->mirrored[0] == 0) {
-        snprintf(
-            sentence, size,
-            "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
-            "change their sign in the mirror");
-        return false;
-    }
-    for (size_t i = 0; i < own->fields; i++) {
-        if (!field_closes(own, i, sentence, size)) {
-            return false;
-        }
-    }
     for (size_t i = 0; i < gm_modes_half(own->line.points) * own->fields; i++) {
         const size_t mode = i / own->fields;
         if (!(cabs(own->masses[i]) > 1e-12)) {
@@ -622,4 +645,47 @@ bool gm_own_evolution_closes(const struct gm_problem *problem, char *sentence, s
         }
     }
     return true;
+}
+
+static bool has_rates(const struct own *own, const double *rates, char *sentence, size_t size)
+{
+    const size_t points = own->line.points;
+    for (size_t i = 0; i < own->fields * points; i++) {
+        if (!isfinite(rates[i])) {
+            snprintf(sentence, size, "the rate of %.60s at the start is not finite where x = %.6g",
+                     own->evolution->system->variables[i / points].name,
+                     gm_line_node(&own->line, i % points));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gm_own_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
+{
+    const struct own *own = own_of(problem);
+    if (own->line.walls && own->mirrored[0] == 0) {
+        snprintf(
+            sentence, size,
+            "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
+            "change their sign in the mirror");
+        return false;
+    }
+    double *y = malloc(2 * problem->n * sizeof *y), *rates = y ? y + problem->n : NULL;
+    bool good = y != NULL;
+    if (good) {
+        gm_own_evolution_start(problem, y);
+    } else {
+        snprintf(sentence, size, "not enough memory");
+    }
+    for (size_t i = 0; i < own->fields && good; i++) {
+        good = field_closes(own, i, y + i * own->line.points, sentence, size);
+    }
+    good = good && has_masses(own, sentence, size);
+    if (good) {
+        field(problem, y, rates, 1);
+        good = has_rates(own, rates, sentence, size);
+    }
+    free(y);
+    return good;
 }
