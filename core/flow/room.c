@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const keys[GM_ROOM_KEYS] = {"speed",      "flow", "scalar", "temperature",
-                                               "tangential", "rate", "x",      "y"};
+static const char *const keys[GM_ROOM_KEYS] = {"speed", "flow", "scalar", "temperature", "tangential", "heat",
+                                               "rate",  "x",    "y"};
 
 #define CARRIED (1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TEMPERATURE)
 
@@ -20,7 +20,7 @@ static const struct {
 } words[] = {
     [GM_ROOM_INLET] = {"inlet", 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | CARRIED, 0},
     [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0},
-    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL, 0},
+    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT, 0},
     [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_RATE},
     [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
     [GM_ROOM_START] = {"start", CARRIED, 0},
@@ -172,6 +172,9 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, line->place, "%s: needs %s =", words[line->word].word, keys[key]);
         }
     }
+    if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
+        return gm_fail(fault, line->place, "wall: holds its temperature = or gives heat =, not both");
+    }
     const unsigned place = 1u << GM_ROOM_X | 1u << GM_ROOM_Y;
     if (given & place && (given & place) != place) {
         return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[line->word].word);
@@ -301,16 +304,19 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
                                                    : room->diffusivity;
     size_t warm = 0, place = 0;
     for (size_t i = 0; i < room->count; i++) {
-        const size_t here = room->lines[i].value[GM_ROOM_TEMPERATURE].place;
+        const struct gm_room_formula *value = room->lines[i].value;
+        const size_t here = value[GM_ROOM_TEMPERATURE].place + value[GM_ROOM_HEAT].place; /* one is 0 */
         warm += here > 0;
         place = here > 0 ? here : place;
     }
     if (warm > 0 && isnan(room->buoyancy)) {
-        return gm_fail(fault, place,
-                       "a temperature needs a line buoyancy: (g beta; 0 where warm air does not rise)");
+        return gm_fail(
+            fault, place,
+            "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
     if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
-        return gm_fail(fault, 0, "%s: needs a temperature = of a wall, an inlet or the start",
+        return gm_fail(fault, 0,
+                       "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
                        isnan(room->buoyancy) ? "reference-temperature" : "buoyancy");
     }
     room->reference_temperature =
@@ -431,7 +437,8 @@ static double varying_at(const void *data, enum gm_given what, double s, const d
 {
     static const enum gm_room_key key[] = {[GM_GIVEN_THETA] = GM_ROOM_SCALAR,
                                            [GM_GIVEN_TEMPERATURE] = GM_ROOM_TEMPERATURE,
-                                           [GM_GIVEN_TANGENTIAL] = GM_ROOM_TANGENTIAL};
+                                           [GM_GIVEN_TANGENTIAL] = GM_ROOM_TANGENTIAL,
+                                           [GM_GIVEN_HEAT] = GM_ROOM_HEAT};
     const struct profile *profile = data;
     return value_at(profile, key[what], what == GM_GIVEN_TEMPERATURE ? profile->reference : 0, s, at);
 }
@@ -580,16 +587,12 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
     return true;
 }
 
-/* The speed of a free fall over the room's size with the largest difference of temperature that it is given:
+/* The speed of a free fall over the room's size with the largest difference of temperature that there is:
    the Reynolds number of that is the root of Grashof's. */
 static double fall(const struct gm_flow *flow)
 {
-    double low = flow->reference_temperature, high = low;
-    for (size_t v = 0; flow->heat && v < flow->complex->vertices; v++) {
-        low = fmin(low, flow->temperature[v]);
-        high = fmax(high, flow->temperature[v]);
-    }
-    return sqrt(fabs(flow->buoyancy) * (high - low) * sqrt(flow->complex->total_area));
+    const double *range = flow->temperature_range;
+    return sqrt(fabs(flow->buoyancy) * (range[1] - range[0]) * sqrt(flow->complex->total_area));
 }
 
 /* What the room's lines say of a side at a time. */
@@ -605,6 +608,7 @@ static bool make_side(struct profile *profile, struct gm_side *side, struct gm_f
     side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN, profile->scratch);
     side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
     side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
+    side->heats = line->value[GM_ROOM_HEAT].place != 0;
     side->profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL;
     side->varying = varying_at;
     side->data = profile;
@@ -680,6 +684,24 @@ void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, doubl
     gm_flow_close_now(now);
 }
 
+/* How far what is given at a moment goes. */
+static void widen(struct gm_flow *flow, const struct gm_flow *now)
+{
+    double low = flow->reference_temperature, high = low, least = 0, most = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        flow->theta_high = fmax(flow->theta_high, now->theta[v]);
+        if (flow->heat) {
+            low = fmin(low, now->temperature[v]);
+            high = fmax(high, now->temperature[v]);
+            least = fmin(least, now->heating[v]);
+            most = fmax(most, now->heating[v]);
+        }
+    }
+    const double heated = gm_flow_heated(now);
+    flow->temperature_range[0] = fmin(flow->temperature_range[0], low - (least < 0 ? heated : 0));
+    flow->temperature_range[1] = fmax(flow->temperature_range[1], high + (most > 0 ? heated : 0));
+}
+
 /* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end, as
    far as some moments tell. */
 static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
@@ -693,6 +715,7 @@ static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
     for (int k = 1; good && k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run tells when it is there */
             flow->speed = fmax(flow->speed, now->speed);
+            widen(flow, now);
         }
     }
     gm_flow_close_now(now);
@@ -720,15 +743,20 @@ struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation
                     gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
     good = good && name_sides(room, mesh, flow->side_of, fault) &&
            set_sides(room, flow->side_of, 0, flow, fault, boundary) &&
-           place_things(room, flow, scratch, fault) && (!room->timed || look_ahead(room, flow));
+           place_things(room, flow, scratch, fault);
+    flow->viscosity = room->viscosity;
+    flow->diffusivity = room->diffusivity;
+    flow->temperature_range[0] = flow->temperature_range[1] = flow->reference_temperature;
+    if (good) {
+        widen(flow, flow);
+        good = !room->timed || look_ahead(room, flow);
+    }
     free(scratch);
     mesh->complex = NULL;
     if (!good) {
         gm_flow_close(flow);
         return NULL;
     }
-    flow->viscosity = room->viscosity;
-    flow->diffusivity = room->diffusivity;
     flow->reynolds = flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
     flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     flow->scalar = true;

@@ -24,6 +24,7 @@ enum gm_room_key {
     GM_ROOM_SCALAR,
     GM_ROOM_TEMPERATURE,
     GM_ROOM_TANGENTIAL,
+    GM_ROOM_HEAT,
     GM_ROOM_RATE,
     GM_ROOM_X,
     GM_ROOM_Y,

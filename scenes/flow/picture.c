@@ -246,7 +246,9 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         double value = 0;
         memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
         if (is_common(lanes, count, offset)) {
-            told = gm_picture_text(picture, "%s%s %.6g,  ", told, look->told[i].name, value);
+            const char *unit = look->told[i].unit ? look->told[i].unit : "";
+            told = gm_picture_text(picture, "%s%s %.6g%s%s,  ", told, look->told[i].name, value,
+                                   unit[0] ? " " : "", unit);
         }
     }
     return gm_picture_text(picture, "%s%s%s", told, mesh_and_scheme(picture, lanes, count),

@@ -68,6 +68,26 @@ status 0 run "$rooms/heated.room" until=1 scheme=crank-nicolson show=temperature
 status 0 render "$rooms/office.room" until=0.1 --size 320x200 --out pictures
 [ -s pictures/office-render.png ] || fail "no picture of a room"
 
+# walls may give heat instead of holding a temperature: what one gives the other takes in a steady state
+{ sed '/^wall: heater/d' "$rooms/heated.room"; echo 'wall: heater  heat = 0.5'; } >flux.room
+cp "$rooms/heated.msh" .
+status 0 run ./flux.room scheme=steady until=3 --json
+within heater_heat 0.7499999 0.7500001 # 1.5 m of it
+within window_heat -0.7500001 -0.7499999
+{ sed '/^wall: heater/d' "$rooms/heated.room"; echo 'wall: heater  heat = 0.5*(1 - exp(-t))'; } >rising.room
+status 0 run ./rising.room until=1 --json
+within heater_heat 0.4740904 0.4740905
+status 0 render ./flux.room until=0.5 --size 320x200 --out pictures
+sed '/^wall: window/d' flux.room >alone.room
+"$geomint" run ./alone.room scheme=steady >out 2>err
+grep -q 'nothing holds the temperature or lets heat out' out || fail "no word of heat that nothing takes"
+
+# pictures tell in which units
+status 0 render "$rooms/heated.room" until=0.5 -o units.svg
+for text in 'viscosity 0.002 m²/s' 'temperature / K' 'mean temperature / K' 'kinetic energy / (m⁴/s²)' 'x / m'; do
+    grep -qF "$text" units.svg || fail "no $text in a picture"
+done
+
 # what the boundary gives may change in time: the same bits where it does not, the order of each scheme where it
 # does, what enters at every moment what the line says, and budgets that close
 timed() { # NAME FACTOR: the office, whose door's speed has a factor
@@ -180,7 +200,11 @@ wrong 'wrong.room:5:17: what .* may change in time: no start' 'start: scalar = t
 wrong 'door is named twice' 'inlet: door flow = 1'
 wrong 'no physical group "dor" on its boundary (there are: door, vent, window, hatch, pillar)' 'wall: dor'
 wrong 'printer at (2, 1.4) is not in the room' 'source: printer x = 2 y = 1.4 rate = 1'
-wrong 'wrong.room:5:28: a temperature needs a line buoyancy:' 'wall: pillar temperature = 300'
+wrong 'wrong.room:5:28: a temperature or heat needs a line buoyancy:' 'wall: pillar temperature = 300'
+wrong 'wrong.room:5:21: a temperature or heat needs a line buoyancy:' 'wall: pillar heat = 300'
+wrong 'wrong.room:5:7: wall: holds its temperature = or gives heat =, not both' 'wall: pillar heat = 3 temperature = 300'
+wrong 'wrong.room:5:21: the heat is not finite at (' 'wall: pillar heat = log(x - 2)\nbuoyancy: 1'
+wrong 'wrong.room:5:13: inlet: takes speed =' 'inlet: vent heat = 1'
 wrong 'buoyancy: needs a temperature =' 'buoyancy: 0.03'
 wrong 'buoyancy: is a finite number' 'wall: pillar temperature = 1\nbuoyancy: inf'
 wrong 'reference-temperature: needs a temperature =' 'reference-temperature: 290'
