@@ -3,6 +3,7 @@
 #include "core/flow/room.h"
 #include "core/count.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -237,25 +238,27 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
 /* A line that says one thing: true where it is known. */
 static bool read_single(struct gm_room *room, struct gm_text_line line, bool *met, struct gm_fault *fault)
 {
+    const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
+                               reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
     const struct {
         const char *word;
         char **text;
         double *number;
-        bool any; /* not only positive */
+        struct gm_room_range range;
     } rows[] = {
-        {"title", &room->title, NULL, false},
-        {"about", &room->about, NULL, false},
-        {"mesh", &room->mesh, NULL, false},
-        {"units", &room->units, NULL, false},
-        {"scalar", &room->scalar, NULL, false},
-        {"viscosity", NULL, &room->viscosity, false},
-        {"diffusivity", NULL, &room->diffusivity, false},
-        {"reynolds", NULL, &room->reynolds, false},
-        {"schmidt", NULL, &room->schmidt, false},
-        {"buoyancy", NULL, &room->buoyancy, true},
-        {"reference-temperature", NULL, &room->reference_temperature, true},
-        {"dt", NULL, &room->dt, false},
-        {"until", NULL, &room->until, false},
+        {"title", &room->title, NULL, any},
+        {"about", &room->about, NULL, any},
+        {"mesh", &room->mesh, NULL, any},
+        {"units", &room->units, NULL, any},
+        {"scalar", &room->scalar, NULL, any},
+        {"viscosity", NULL, &room->viscosity, gm_room_viscosity},
+        {"diffusivity", NULL, &room->diffusivity, positive},
+        {"reynolds", NULL, &room->reynolds, reynolds},
+        {"schmidt", NULL, &room->schmidt, gm_room_schmidt},
+        {"buoyancy", NULL, &room->buoyancy, any},
+        {"reference-temperature", NULL, &room->reference_temperature, any},
+        {"dt", NULL, &room->dt, gm_room_dt},
+        {"until", NULL, &room->until, gm_room_until},
     };
     const size_t length = line.word.end - line.word.begin;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
@@ -277,10 +280,14 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         char number[64];
         snprintf(number, sizeof number, "%.*s", (int)(line.value.end - line.value.begin),
                  room->text + line.value.begin);
-        return (gm_number_parse(number, rows[i].number) && (rows[i].any || *rows[i].number > 0) &&
-                isfinite(*rows[i].number)) ||
-               gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
-                       rows[i].any ? "finite" : "positive");
+        const double least = rows[i].range.least, most = rows[i].range.most;
+        if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
+            (least >= 0 && !(*rows[i].number > 0))) {
+            return gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
+                           least >= 0 ? "positive" : "finite");
+        }
+        return (*rows[i].number >= least && *rows[i].number <= most) ||
+               gm_fail(fault, line.value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
     }
     return true;
 }
@@ -302,6 +309,11 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
     room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
                         : isnan(room->diffusivity) ? room->viscosity
                                                    : room->diffusivity;
+    const double ratio = room->viscosity / room->diffusivity;
+    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most)) {
+        return gm_fail(fault, 0, "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
+                       gm_room_schmidt.least, gm_room_schmidt.most);
+    }
     size_t warm = 0, place = 0;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_formula *value = room->lines[i].value;
@@ -567,9 +579,10 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
         const long tag = gm_triangulation_group(mesh, line->name);
         bool met = false;
         for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
-            if (mesh->edge_group[mesh->complex->boundary_edge[b]] == tag) {
+            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
                 if (side_of[b] != 0) {
-                    return gm_fail(fault, line->place, "the group %.63s has a line already", line->name);
+                    return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+                                   line->name, room->lines[side_of[b] - 1].name);
                 }
                 side_of[b] = (unsigned char)(i + 1);
                 met = true;

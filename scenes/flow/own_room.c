@@ -563,12 +563,12 @@ static void make_rows(struct gm_own_room *own)
         gm_number_format(numbers[i], own->numbers[i], sizeof own->numbers[i]);
     }
     const struct gm_parameter rows[] = {
-        GM_DT(own->numbers[0], 1e-9, 1e6),
+        GM_DT(own->numbers[0], gm_room_dt.least, gm_room_dt.most),
         GM_UNTIL(own->numbers[1]),
-        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", own->numbers[2], 1e-12, 1e6,
-                    "kinematic viscosity", .logarithmic = true),
-        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], 1e-6, 1e6,
-                    "Schmidt number, viscosity / diffusivity", .logarithmic = true),
+        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", own->numbers[2], gm_room_viscosity.least,
+                    gm_room_viscosity.most, "kinematic viscosity", .logarithmic = true),
+        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], gm_room_schmidt.least,
+                    gm_room_schmidt.most, "Schmidt number, viscosity / diffusivity", .logarithmic = true),
         GM_FLOWS_STAR,
         GM_FLOWS_REFINE,
         GM_FLOWS_TRACERS("350"),
