@@ -586,23 +586,39 @@ static void make_rows(struct gm_own_room *own)
     own->scene.parameter_count = GM_COUNT(rows);
 }
 
-/* Its words, the mesh's path, and a mark: the name with a checksum of the text (FNV-1a). */
-static bool copy_words(struct gm_own_room *own, const char *name, const char *word, const char *path)
+/* FNV-1a of more bytes. */
+static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
 {
-    uint32_t sum = UINT32_C(2166136261);
-    for (const char *at = own->room.text; *at; at++) {
-        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
+    for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
+        sum = (sum ^ *at) * UINT32_C(16777619);
     }
+    return sum;
+}
+
+/* The room's name with a checksum of its text and of the mesh, in which another room with the same name differs. */
+static bool make_mark(struct gm_own_room *own, const char *name, const struct gm_triangulation *mesh)
+{
+    const struct gm_complex *complex = mesh->complex;
+    uint32_t sum = checksum(UINT32_C(2166136261), own->room.text, strlen(own->room.text));
+    sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
+    sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
+    sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
     if (asprintf(&own->mark, "%s:%08x", name, (unsigned)sum) < 0) {
         own->mark = NULL;
     }
+    return own->mark != NULL;
+}
+
+/* Its words and the mesh's path. */
+static bool copy_words(struct gm_own_room *own, const char *word, const char *path)
+{
     const char *slash = own->room.mesh[0] == '/' ? NULL : strrchr(path, '/');
     own->path = strdup(path);
     if (asprintf(&own->mesh, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, own->room.mesh) < 0) {
         own->mesh = NULL;
     }
     own->words[0] = own->word = strdup(word);
-    return own->path && own->word && own->mesh && own->mark;
+    return own->path && own->word && own->mesh;
 }
 
 const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, const char *word,
@@ -632,9 +648,10 @@ const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, 
         return NULL;
     }
     own->room = *room;
-    bool good = copy_words(own, name, word, path) || gm_refuse(sentence, "not enough memory");
+    bool good = copy_words(own, word, path) || gm_refuse(sentence, "not enough memory");
     if (good && gm_flows_file(own->mesh, GM_STAR_AUTO, &mesh, sentence)) {
-        good = make_observables(own, &mesh) || gm_refuse(sentence, "not enough memory");
+        good = (make_observables(own, &mesh) && make_mark(own, name, &mesh)) ||
+               gm_refuse(sentence, "not enough memory");
         gm_triangulation_close(&mesh);
     } else {
         good = false;

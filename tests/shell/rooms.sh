@@ -159,6 +159,22 @@ for line in lines:
     assert errors[0] < 0.5 and errors[1] < 0.55 * errors[0] and errors[2] < 0.55 * errors[1], errors
 END
 
+# neither a checkpoint nor `again` goes on with another room, or another mesh
+cp "$rooms/office.room" "$rooms/office.msh" .
+status 0 run ./office.room steps=1 --checkpoint kept.checkpoint
+status 0 render ./office.room steps=1 --size 320x200 -o kept.png
+status 0 run ./office.room steps=2 --continue kept.checkpoint
+status 0 again kept.png -o same.png
+cmp -s kept.png same.png || fail 'again makes another picture of a room'
+sed -i 's/^1.6 1.1 0$/1.61 1.1 0/' office.msh
+cmp -s office.msh "$rooms/office.msh" && fail 'the mesh is the same'
+refused 3 'a checkpoint of something else' run ./office.room steps=2 --continue kept.checkpoint
+refused 3 'its room is another one now' again kept.png -o other.png
+cp "$rooms/office.msh" .
+sed -i 's/0.004/0.005/' office.room
+refused 3 'its room is another one now' again kept.png -o other.png
+[ ! -e other.png ] || fail 'a picture of another room'
+
 # a body that no scalar is brought to: drag and lift are what is shown
 status 0 render "$rooms/cylinder.room" steps=2 -o force.svg
 grep -q 'cylinder force along x' force.svg || fail 'no drag beside a body'
