@@ -15,10 +15,24 @@
 #include "render/vector/svg.h"
 
 /* The texts that it reads. */
-enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, PAGE, TITLE, SYSTEM, TEXTS };
+enum {
+    COMMAND,
+    ARGUMENTS,
+    CHANGES,
+    STEPS,
+    PICTURE,
+    NEEDED,
+    SCALE = NEEDED,
+    DPI,
+    PAGE,
+    TITLE,
+    SYSTEM,
+    ROOM,
+    TEXTS
+};
 static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
                                         GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_PAGE,
-                                        GM_KEY_TITLE,   GM_KEY_SYSTEM};
+                                        GM_KEY_TITLE,   GM_KEY_SYSTEM,    GM_KEY_ROOM};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -60,6 +74,14 @@ static bool parse(struct gm_request *request, const char *arguments, const char 
         return gm_refuse(message, "its log of changes is damaged");
     }
     return true;
+}
+
+/* A room is read from its files, which may be others by now. */
+static bool same_room(const struct gm_request *request, const char *told, char *message)
+{
+    const char *now = request->scene->room ? request->scene->mark : "none";
+    return !told || strcmp(told, now) == 0 ||
+           gm_refuse(message, "its room is another one now: it was %.100s, and is %.100s", told, now);
 }
 
 /* The word that named the system means the text that the picture tells. False: no memory. */
@@ -178,7 +200,8 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     } else {
         gm_catch_interrupts();
         lanes = calloc(request.count, sizeof *lanes);
-        if (!lanes || !drive(&request, lanes, texts[STEPS], message)) {
+        if (!lanes || !same_room(&request, texts[ROOM], message) ||
+            !drive(&request, lanes, texts[STEPS], message)) {
             gm_complain("%s cannot be made again: %s", path, message);
         } else if (gm_interrupted) {
             status = GM_EXIT_INTERRUPTED;

@@ -110,6 +110,7 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
         take(provenance, GM_KEY_PICTURE, format("%dx%d %s", look->width, look->height, theme_name(look))) &&
         take_look(provenance, look) &&
         (!request->scene->source || take(provenance, GM_KEY_SYSTEM, format("%s", request->scene->source))) &&
+        (!request->scene->room || take(provenance, GM_KEY_ROOM, format("%s", request->scene->mark))) &&
         take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);

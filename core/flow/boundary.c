@@ -25,7 +25,8 @@ static double given(const struct gm_side *side, enum gm_given what, double s, co
 {
     const double same[] = {[GM_GIVEN_THETA] = side->theta,
                            [GM_GIVEN_TEMPERATURE] = side->temperature,
-                           [GM_GIVEN_TANGENTIAL] = side->speed};
+                           [GM_GIVEN_TANGENTIAL] = side->speed,
+                           [GM_GIVEN_HEAT] = side->heat};
     return side->varying ? side->varying(side->data, what, s, at) : same[what];
 }
 
@@ -342,20 +343,53 @@ static void number_holes(struct gm_flow *flow)
     }
 }
 
-/* A wall that moves adds to the circulation of both cells at its edge, to each by what the middle of its half
-   does. */
-static void push(struct gm_flow *flow, const struct gm_side *side, size_t e)
+/* The vertices of boundary edge e, with what a side gives at the middle of the half that is in the cell of each;
+   tells how long that is. */
+static double halves(const struct gm_flow *flow, const struct gm_side *side, size_t e, enum gm_given what,
+                     int vertex[2], double value[2])
 {
     const struct gm_complex *complex = flow->complex;
-    const int vertex[2] = {complex->boundary_vertex[e],
-                           complex->boundary_vertex[gm_complex_next(complex, e)]};
-    const double half = complex->length[complex->boundary_edge[e]] / 2;
+    vertex[0] = complex->boundary_vertex[e];
+    vertex[1] = complex->boundary_vertex[gm_complex_next(complex, e)];
     for (int k = 0; k < 2; k++) {
         const double *near = complex->point + 2 * vertex[k], *far = complex->point + 2 * vertex[1 - k],
-                     middle[2] = {near[0] + (far[0] - near[0]) / 4, near[1] + (far[1] - near[1]) / 4},
-                     speed = given(side, GM_GIVEN_TANGENTIAL, 0, middle);
-        flow->sheet[vertex[k]] -= speed * half;
-        flow->speed = fmax(flow->speed, fabs(speed));
+                     middle[2] = {near[0] + (far[0] - near[0]) / 4, near[1] + (far[1] - near[1]) / 4};
+        value[k] = given(side, what, 0, middle);
+    }
+    return complex->length[complex->boundary_edge[e]] / 2;
+}
+
+/* A wall that moves adds to the circulation of both cells at its edge. */
+static void push(struct gm_flow *flow, const struct gm_side *side, size_t e)
+{
+    int vertex[2];
+    double speed[2];
+    const double half = halves(flow, side, e, GM_GIVEN_TANGENTIAL, vertex, speed);
+    for (int k = 0; k < 2; k++) {
+        flow->sheet[vertex[k]] -= speed[k] * half;
+        flow->speed = fmax(flow->speed, fabs(speed[k]));
+    }
+}
+
+/* Walls that give heat: to cells where no other wall holds the temperature. */
+static void heat_walls(const struct maker *maker)
+{
+    struct gm_flow *flow = maker->flow;
+    for (size_t e = 0; flow->heat && e < flow->complex->boundary; e++) {
+        const struct gm_side *side = &maker->sides[maker->side_of[e]];
+        int vertex[2];
+        double heat[2];
+        if (!side->heats) {
+            continue;
+        }
+        const double half = halves(flow, side, e, GM_GIVEN_HEAT, vertex, heat);
+        for (int k = 0; k < 2; k++) {
+            const int v = vertex[k];
+            flow->heating[v] += heat[k] * half;
+            if (!flow->temperature_fixed[v]) {
+                flow->temperature_holder[v] = (unsigned char)(1 + (side - maker->sides));
+            }
+        }
     }
 }
 
@@ -392,12 +426,16 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
     flow->opening = NULL;
     flow->openings = flow->holes = 0;
     memset(flow->sheet, 0, complex->vertices * sizeof *flow->sheet);
+    if (flow->heat) {
+        memset(flow->heating, 0, complex->vertices * sizeof *flow->heating);
+    }
     number_holes(flow);
     enum gm_boundary_fault fault = find_openings(&maker);
     if (fault != GM_BOUNDARY_OK) {
         return fault;
     }
     set_walls(&maker);
+    heat_walls(&maker);
     fault = share_flow(&maker);
     if (fault != GM_BOUNDARY_OK || flow->openings == 0) {
         return fault;

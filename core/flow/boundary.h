@@ -9,7 +9,7 @@
 enum gm_edge_kind { GM_EDGE_WALL, GM_EDGE_INLET, GM_EDGE_OUTLET, GM_EDGE_LID, GM_EDGE_SLIP };
 
 /* What a side may give that is another number at each of its places. */
-enum gm_given { GM_GIVEN_THETA, GM_GIVEN_TEMPERATURE, GM_GIVEN_TANGENTIAL };
+enum gm_given { GM_GIVEN_THETA, GM_GIVEN_TEMPERATURE, GM_GIVEN_TANGENTIAL, GM_GIVEN_HEAT };
 
 /* What edges of one name give. Each piece of an inlet or outlet is one opening; pieces follow each other
    counter-clockwise, from the lowest of the wall's leftmost points on. */
@@ -25,14 +25,18 @@ struct gm_side {
     /* The normal speed at the part s, 0 to 1, of all pieces together, instead of a parabola; scaled where a
        flow is given, too. NULL: none. */
     double (*profile)(const void *data, double s, const double at[2]);
-    /* Where it varies along the side: instead of theta, of temperature, and of speed of a lid; s is 0 but of
-       inlets. NULL: it does not. */
+    /* Where it varies along the side: instead of theta, of temperature, of heat, and of speed of a lid; s is 0 but
+       of inlets. NULL: it does not. */
     double (*varying)(const void *data, enum gm_given what, double s, const double at[2]);
     const void *data;      /* of both */
     bool theta_free;       /* no flux; of outlets always */
     double theta;          /* else it is held at this */
     bool temperature_free; /* the same of temperature, of flows that carry heat */
     double temperature;
+    bool
+        heats; /* a wall that does not hold it gives this heat, per unit of length and time, over density and heat
+                   capacity */
+    double heat;
 };
 
 enum gm_boundary_fault {

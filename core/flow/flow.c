@@ -76,6 +76,7 @@ void gm_flow_close(struct gm_flow *flow)
     free(flow->temperature_fixed);
     free(flow->temperature);
     free(flow->temperature_holder);
+    free(flow->heating);
     free(flow->inflow.point);
     free(flow->inflow.psi);
     free(flow->inflow.triangle);
@@ -108,9 +109,10 @@ struct gm_flow *gm_flow_open_now(const struct gm_flow *flow)
     now->temperature_fixed = copy_of(flow->temperature_fixed, n * sizeof *flow->temperature_fixed);
     now->temperature = copy_of(flow->temperature, n * sizeof *flow->temperature);
     now->temperature_holder = copy_of(flow->temperature_holder, n);
+    now->heating = copy_of(flow->heating, n * sizeof *flow->heating);
     now->opening = NULL;
     now->inflow = (struct gm_inflow){0};
-    const bool warm = now->temperature_fixed && now->temperature && now->temperature_holder;
+    const bool warm = now->temperature_fixed && now->temperature && now->temperature_holder && now->heating;
     if (!now->kind || !now->psi || !now->hole || !now->open || !now->sheet || !now->theta_fixed ||
         !now->theta || (flow->heat && !warm)) {
         gm_flow_close_now(now);
@@ -136,7 +138,8 @@ bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_
     flow->temperature_fixed = calloc(n, sizeof *flow->temperature_fixed);
     flow->temperature = malloc(n * sizeof *flow->temperature);
     flow->temperature_holder = calloc(n, 1);
-    flow->heat = flow->temperature_fixed && flow->temperature && flow->temperature_holder;
+    flow->heating = calloc(n, sizeof *flow->heating);
+    flow->heat = flow->temperature_fixed && flow->temperature && flow->temperature_holder && flow->heating;
     for (size_t v = 0; flow->heat && v < n; v++) {
         flow->temperature[v] = reference_temperature;
     }

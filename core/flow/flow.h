@@ -75,10 +75,15 @@ struct gm_flow {
     double *source;                         /* of the scalar, per unit of time, a vertex; NULL: none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
     double buoyancy, reference_temperature; /* g beta; where there is none */
-    /* As those of theta; NULL without heat. holder: 1 + the side that holds it at a vertex, 0: none */
+    /* As those of theta; NULL without heat. holder: 1 + the side that holds it at a vertex, or heats it, 0: none;
+       heating: what walls give to the cells at them, per unit of time, over density and heat capacity */
     bool *temperature_fixed;
     double *temperature;
     unsigned char *temperature_holder;
+    double *heating;
+    /* Of rooms, over the time that they are meant for: the largest theta that is given, and between which temperatures
+       air will be. */
+    double theta_high, temperature_range[2];
     size_t tracers;
     bool smoke; /* tracers come in one after the other, where air does and at the places of sources */
     struct gm_flow_place *smoking;
@@ -199,9 +204,13 @@ struct gm_budget {
 struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
 
 /* The heat, over density and heat capacity, that a side's vertices give to the air per unit of time, after
-   the last step: what holding the temperature there adds. Summed up over all sides it is what warms the
-   room. */
+   the last step: what holding the temperature there adds, or what is given. Summed up over all sides it is what
+   warms the room. */
 double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
+/* About the difference of temperature that heat given by walls makes: that of conduction over the room's size, less
+   where air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice what warms the air that
+   goes through. 0: walls give none. */
+double gm_flow_heated(const struct gm_flow *flow);
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y);
 
 /* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over

@@ -30,6 +30,7 @@ struct element {
     long entity; /* of a line; in 2.2 its physical tag */
 };
 
+/* A row for each physical group of a curve. */
 struct curve {
     long tag, physical;
 };
@@ -39,9 +40,10 @@ struct reader {
     long line;
     struct gm_triangulation_fault *fault;
     const char *section;
-    bool old;    /* version 2.2 */
-    bool binary; /* the file */
-    bool raw;    /* what is read now: bytes as they are in memory */
+    bool old;      /* version 2.2 */
+    bool binary;   /* the file */
+    bool entities; /* they were read */
+    bool raw;      /* what is read now: bytes as they are in memory */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -282,7 +284,7 @@ static bool skip_numbers(struct reader *reader, long count)
 /* tag, bounding box, physical tags and, from curves on, bounding entities */
 static bool read_entity(struct reader *reader, int dimension)
 {
-    long tag = 0, count = 0, physical = 0, first = 0;
+    long tag = 0, count = 0, physical = 0, bound = 0;
     if (!take_whole(reader, &tag, "an entity's tag") || !skip_numbers(reader, dimension == 0 ? 3 : 6) ||
         !take_count(reader, &count, "the number of physical tags")) {
         return false;
@@ -291,10 +293,15 @@ static bool read_entity(struct reader *reader, int dimension)
         if (!take_whole(reader, &physical, "a physical tag")) {
             return false;
         }
-        first = i == 0 && labs(physical) < MOST ? labs(physical) : first; /* the sign is an orientation */
-    }
-    if (dimension == 1) {
-        reader->curves[reader->curve_count++] = (struct curve){tag, first};
+        if (dimension == 1 && labs(physical) < MOST) {
+            struct curve *more = realloc(reader->curves, (reader->curve_count + 1) * sizeof *more);
+            if (!more) {
+                return fail(reader, GM_TRIANGULATION_MEMORY, "");
+            }
+            reader->curves = more;
+            more[reader->curve_count++] =
+                (struct curve){tag, labs(physical)}; /* the sign is an orientation */
+        }
     }
     long bounds = 0;
     if (dimension == 0) {
@@ -302,7 +309,7 @@ static bool read_entity(struct reader *reader, int dimension)
     }
     bool good = take_count(reader, &bounds, "a number of entities");
     for (long i = 0; good && i < bounds; i++) {
-        good = take_whole(reader, &first, "an entity's tag");
+        good = take_whole(reader, &bound, "an entity's tag");
     }
     return good;
 }
@@ -316,13 +323,10 @@ static bool read_entities(struct reader *reader)
             return false;
         }
     }
-    if (reader->curves) {
+    if (reader->entities) {
         return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
     }
-    reader->curves = calloc((size_t)counts[1] + 1, sizeof *reader->curves);
-    if (!reader->curves) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
+    reader->entities = true;
     for (int dimension = 0; dimension < 4; dimension++) {
         for (long i = 0; i < counts[dimension]; i++) {
             if (!read_entity(reader, dimension)) {
@@ -668,16 +672,25 @@ static bool number_nodes(struct reader *reader, double *points, long *tags, int 
 static int compare_curves(const void *a, const void *b)
 {
     const struct curve *p = a, *q = b;
-    return (p->tag > q->tag) - (p->tag < q->tag);
+    return p->tag != q->tag ? (p->tag > q->tag) - (p->tag < q->tag)
+                            : (p->physical > q->physical) - (p->physical < q->physical);
 }
 
-static long physical_of(const struct reader *reader, long entity)
+/* Puts an edge into all groups of its curve. */
+static bool add_groups_of(const struct reader *reader, long entity, size_t edge,
+                          struct gm_triangulation *mesh)
 {
-    const struct curve key = {.tag = entity};
-    const struct curve *curve = reader->curve_count == 0 ? NULL
-                                                         : bsearch(&key, reader->curves, reader->curve_count,
-                                                                   sizeof *reader->curves, compare_curves);
-    return curve ? curve->physical : 0;
+    size_t low = 0, high = reader->curve_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        low = reader->curves[middle].tag < entity ? middle + 1 : low;
+        high = reader->curves[middle].tag < entity ? high : middle;
+    }
+    bool good = true;
+    for (; good && low < reader->curve_count && reader->curves[low].tag == entity; low++) {
+        good = gm_triangulation_add(mesh, edge, (int)reader->curves[low].physical);
+    }
+    return good;
 }
 
 static int find_edge(const struct gm_complex *complex, int a, int b)
@@ -705,10 +718,13 @@ static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
                                 element->nodes[a ? 1 : 0]);
         }
         const int e = a->vertex >= 0 && b->vertex >= 0 ? find_edge(mesh->complex, a->vertex, b->vertex) : -1;
-        if (e >= 0) {
-            mesh->edge_group[e] = (int)(reader->old ? element->entity : physical_of(reader, element->entity));
+        const bool good = e < 0 || (reader->old ? gm_triangulation_add(mesh, (size_t)e, (int)element->entity)
+                                                : add_groups_of(reader, element->entity, (size_t)e, mesh));
+        if (!good) {
+            return fail(reader, GM_TRIANGULATION_MEMORY, "");
         }
     }
+    gm_triangulation_sort(mesh);
     return true;
 }
 
@@ -771,8 +787,63 @@ void gm_triangulation_close(struct gm_triangulation *mesh)
     gm_complex_close(mesh->complex);
     free(mesh->tags);
     free(mesh->edge_group);
+    free(mesh->more);
     free(mesh->group);
     *mesh = (struct gm_triangulation){0};
+}
+
+/* Where the further tags of an edge begin. */
+static size_t first_of(const struct gm_triangulation *mesh, size_t edge)
+{
+    size_t low = 0, high = mesh->more_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const bool before = mesh->more[middle].edge < (int)edge;
+        low = before ? middle + 1 : low;
+        high = before ? high : middle;
+    }
+    return low;
+}
+
+bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag)
+{
+    bool has = mesh->edge_group[edge] == tag;
+    for (size_t i = first_of(mesh, edge); i < mesh->more_count && mesh->more[i].edge == (int)edge; i++) {
+        has |= mesh->more[i].tag == tag;
+    }
+    return has;
+}
+
+static int compare_members(const void *a, const void *b)
+{
+    const struct gm_triangulation_member *p = a, *q = b;
+    return p->edge != q->edge ? (p->edge > q->edge) - (p->edge < q->edge)
+                              : (p->tag > q->tag) - (p->tag < q->tag);
+}
+
+bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag)
+{
+    const size_t count = mesh->more_count;
+    if (tag == 0 || mesh->edge_group[edge] == 0 || mesh->edge_group[edge] == tag) {
+        mesh->edge_group[edge] = tag != 0 ? tag : mesh->edge_group[edge];
+        return true;
+    }
+    if ((count & (count - 1)) == 0) { /* it is full: twice as many */
+        struct gm_triangulation_member *more = realloc(mesh->more, (2 * count + 1) * sizeof *more);
+        if (!more) {
+            return false;
+        }
+        mesh->more = more;
+    }
+    mesh->more[mesh->more_count++] = (struct gm_triangulation_member){(int)edge, tag};
+    return true;
+}
+
+void gm_triangulation_sort(struct gm_triangulation *mesh)
+{
+    if (mesh->more_count > 0) {
+        qsort(mesh->more, mesh->more_count, sizeof *mesh->more, compare_members);
+    }
 }
 
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name)
@@ -785,7 +856,7 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
     char *rest = NULL;
     const long tag = strtol(name, &rest, 10);
     for (size_t e = 0; rest != name && *rest == '\0' && mesh->complex && e < mesh->complex->edges; e++) {
-        if (mesh->edge_group[e] == tag) {
+        if (tag != 0 && gm_triangulation_has(mesh, e, tag)) {
             return tag;
         }
     }

@@ -9,7 +9,11 @@ struct gm_triangulation {
     struct gm_complex *complex;
     long *tags;      /* of the vertices, increasing */
     int *edge_group; /* a physical tag for every edge of the complex; 0: none */
-    size_t groups;   /* physical groups of curves */
+    struct gm_triangulation_member {
+        int edge, tag;
+    } * more; /* further tags of edges that are in several groups, by edge */
+    size_t more_count;
+    size_t groups; /* physical groups of curves */
     struct gm_triangulation_group {
         long tag;
         char name[64]; /* "" where it has none */
@@ -29,6 +33,13 @@ void gm_triangulation_close(struct gm_triangulation *mesh);
 
 /* The physical tag of a group of lines, by its name or its tag; 0 if there is none. */
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);
+
+/* Whether an edge is in the group of that tag, which is not 0. */
+bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag);
+
+/* Puts an edge into a group, to be sorted when all are in theirs. False: memory is short. */
+bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag);
+void gm_triangulation_sort(struct gm_triangulation *mesh);
 
 /* The names of the groups, "door, window", as many as fit; "none". Returns names. */
 const char *gm_triangulation_group_names(const struct gm_triangulation *mesh, char *names, size_t size);

@@ -133,6 +133,27 @@ double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side)
     return sum;
 }
 
+double gm_flow_heated(const struct gm_flow *flow)
+{
+    double most = 0, sum = 0, through = 0;
+    const struct gm_complex *complex = flow->complex;
+    for (size_t b = 0; flow->heat && b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b];
+        const double beside = complex->length[complex->boundary_edge[b]] +
+                              complex->length[complex->boundary_edge[gm_complex_previous(complex, b)]];
+        most = fmax(most, fabs(flow->heating[v]) / (beside / 2));
+        sum += fabs(flow->heating[v]);
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
+    }
+    const double size = sqrt(complex->total_area), conducted = most * size / flow->diffusivity,
+                 rayleigh = flow->buoyancy * most * pow(size, 4) /
+                            (flow->viscosity * flow->diffusivity * flow->diffusivity),
+                 convected = conducted / fmax(1, 0.4 * pow(fabs(rayleigh), 0.2));
+    return through > 0 ? fmin(convected, 2 * sum / through) : convected;
+}
+
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y)
 {
     double sum = 0;

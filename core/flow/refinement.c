@@ -53,9 +53,10 @@ bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
 {
     const struct gm_complex *coarse = mesh->complex;
     const size_t n = coarse->vertices, finer = n + coarse->edges;
+    struct gm_triangulation halved = *mesh;
     double *points = malloc(2 * finer * sizeof *points);
     long *tags = malloc(finer * sizeof *tags);
-    int *corners = malloc(12 * coarse->triangles * sizeof *corners), *group = NULL;
+    int *corners = malloc(12 * coarse->triangles * sizeof *corners);
     struct gm_complex *fine = NULL;
     *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     if (points && tags && corners) {
@@ -63,25 +64,40 @@ bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
         divide_triangles(coarse, corners);
         fine =
             gm_complex_open(points, finer, corners, 4 * coarse->triangles, coarse->period, star, tags, fault);
-        group = fine ? calloc(fine->edges, sizeof *group) : NULL;
     }
+    halved.complex = fine;
+    halved.edge_group = fine ? calloc(fine->edges, sizeof *halved.edge_group) : NULL;
+    halved.more = NULL;
+    halved.more_count = 0;
     free(points);
     free(corners);
-    if (!fine || !group) {
+    bool good = fine && halved.edge_group;
+    for (size_t e = 0; good && e < coarse->edges; e++) {
+        for (int k = 0; good && k < 2; k++) {
+            const int *end = coarse->edge + 2 * e;
+            good =
+                gm_triangulation_add(&halved, edge_between(fine, end[k], (int)(n + e)), mesh->edge_group[e]);
+        }
+    }
+    for (size_t i = 0; good && i < 2 * mesh->more_count; i++) {
+        const struct gm_triangulation_member *member = &mesh->more[i / 2];
+        const int end = coarse->edge[2 * member->edge + (int)(i % 2)];
+        good = gm_triangulation_add(&halved, edge_between(fine, end, (int)n + member->edge), member->tag);
+    }
+    if (!good) {
+        *fault = fine ? (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY} : *fault;
         gm_complex_close(fine);
+        free(halved.edge_group);
+        free(halved.more);
         free(tags);
         return false;
     }
-    for (size_t e = 0; e < coarse->edges; e++) {
-        for (int k = 0; k < 2 && mesh->edge_group[e] != 0; k++) {
-            group[edge_between(fine, coarse->edge[2 * e + (size_t)k], (int)(n + e))] = mesh->edge_group[e];
-        }
-    }
+    gm_triangulation_sort(&halved);
+    halved.tags = tags;
     gm_complex_close(mesh->complex);
     free(mesh->tags);
     free(mesh->edge_group);
-    mesh->complex = fine;
-    mesh->tags = tags;
-    mesh->edge_group = group;
+    free(mesh->more);
+    *mesh = halved;
     return true;
 }

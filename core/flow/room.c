@@ -3,13 +3,14 @@
 #include "core/flow/room.h"
 #include "core/count.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const keys[GM_ROOM_KEYS] = {"speed",      "flow", "scalar", "temperature",
-                                               "tangential", "rate", "x",      "y"};
+static const char *const keys[GM_ROOM_KEYS] = {"speed", "flow", "scalar", "temperature", "tangential", "heat",
+                                               "rate",  "x",    "y"};
 
 #define CARRIED (1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TEMPERATURE)
 
@@ -20,7 +21,7 @@ static const struct {
 } words[] = {
     [GM_ROOM_INLET] = {"inlet", 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | CARRIED, 0},
     [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0},
-    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL, 0},
+    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT, 0},
     [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_RATE},
     [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
     [GM_ROOM_START] = {"start", CARRIED, 0},
@@ -172,6 +173,9 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, line->place, "%s: needs %s =", words[line->word].word, keys[key]);
         }
     }
+    if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
+        return gm_fail(fault, line->place, "wall: holds its temperature = or gives heat =, not both");
+    }
     const unsigned place = 1u << GM_ROOM_X | 1u << GM_ROOM_Y;
     if (given & place && (given & place) != place) {
         return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[line->word].word);
@@ -234,25 +238,27 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
 /* A line that says one thing: true where it is known. */
 static bool read_single(struct gm_room *room, struct gm_text_line line, bool *met, struct gm_fault *fault)
 {
+    const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
+                               reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
     const struct {
         const char *word;
         char **text;
         double *number;
-        bool any; /* not only positive */
+        struct gm_room_range range;
     } rows[] = {
-        {"title", &room->title, NULL, false},
-        {"about", &room->about, NULL, false},
-        {"mesh", &room->mesh, NULL, false},
-        {"units", &room->units, NULL, false},
-        {"scalar", &room->scalar, NULL, false},
-        {"viscosity", NULL, &room->viscosity, false},
-        {"diffusivity", NULL, &room->diffusivity, false},
-        {"reynolds", NULL, &room->reynolds, false},
-        {"schmidt", NULL, &room->schmidt, false},
-        {"buoyancy", NULL, &room->buoyancy, true},
-        {"reference-temperature", NULL, &room->reference_temperature, true},
-        {"dt", NULL, &room->dt, false},
-        {"until", NULL, &room->until, false},
+        {"title", &room->title, NULL, any},
+        {"about", &room->about, NULL, any},
+        {"mesh", &room->mesh, NULL, any},
+        {"units", &room->units, NULL, any},
+        {"scalar", &room->scalar, NULL, any},
+        {"viscosity", NULL, &room->viscosity, gm_room_viscosity},
+        {"diffusivity", NULL, &room->diffusivity, positive},
+        {"reynolds", NULL, &room->reynolds, reynolds},
+        {"schmidt", NULL, &room->schmidt, gm_room_schmidt},
+        {"buoyancy", NULL, &room->buoyancy, any},
+        {"reference-temperature", NULL, &room->reference_temperature, any},
+        {"dt", NULL, &room->dt, gm_room_dt},
+        {"until", NULL, &room->until, gm_room_until},
     };
     const size_t length = line.word.end - line.word.begin;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
@@ -274,10 +280,14 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         char number[64];
         snprintf(number, sizeof number, "%.*s", (int)(line.value.end - line.value.begin),
                  room->text + line.value.begin);
-        return (gm_number_parse(number, rows[i].number) && (rows[i].any || *rows[i].number > 0) &&
-                isfinite(*rows[i].number)) ||
-               gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
-                       rows[i].any ? "finite" : "positive");
+        const double least = rows[i].range.least, most = rows[i].range.most;
+        if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
+            (least >= 0 && !(*rows[i].number > 0))) {
+            return gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
+                           least >= 0 ? "positive" : "finite");
+        }
+        return (*rows[i].number >= least && *rows[i].number <= most) ||
+               gm_fail(fault, line.value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
     }
     return true;
 }
@@ -299,18 +309,26 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
     room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
                         : isnan(room->diffusivity) ? room->viscosity
                                                    : room->diffusivity;
+    const double ratio = room->viscosity / room->diffusivity;
+    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most)) {
+        return gm_fail(fault, 0, "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
+                       gm_room_schmidt.least, gm_room_schmidt.most);
+    }
     size_t warm = 0, place = 0;
     for (size_t i = 0; i < room->count; i++) {
-        const size_t here = room->lines[i].value[GM_ROOM_TEMPERATURE].place;
+        const struct gm_room_formula *value = room->lines[i].value;
+        const size_t here = value[GM_ROOM_TEMPERATURE].place + value[GM_ROOM_HEAT].place; /* one is 0 */
         warm += here > 0;
         place = here > 0 ? here : place;
     }
     if (warm > 0 && isnan(room->buoyancy)) {
-        return gm_fail(fault, place,
-                       "a temperature needs a line buoyancy: (g beta; 0 where warm air does not rise)");
+        return gm_fail(
+            fault, place,
+            "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
     if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
-        return gm_fail(fault, 0, "%s: needs a temperature = of a wall, an inlet or the start",
+        return gm_fail(fault, 0,
+                       "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
                        isnan(room->buoyancy) ? "reference-temperature" : "buoyancy");
     }
     room->reference_temperature =
@@ -431,7 +449,8 @@ static double varying_at(const void *data, enum gm_given what, double s, const d
 {
     static const enum gm_room_key key[] = {[GM_GIVEN_THETA] = GM_ROOM_SCALAR,
                                            [GM_GIVEN_TEMPERATURE] = GM_ROOM_TEMPERATURE,
-                                           [GM_GIVEN_TANGENTIAL] = GM_ROOM_TANGENTIAL};
+                                           [GM_GIVEN_TANGENTIAL] = GM_ROOM_TANGENTIAL,
+                                           [GM_GIVEN_HEAT] = GM_ROOM_HEAT};
     const struct profile *profile = data;
     return value_at(profile, key[what], what == GM_GIVEN_TEMPERATURE ? profile->reference : 0, s, at);
 }
@@ -560,9 +579,10 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
         const long tag = gm_triangulation_group(mesh, line->name);
         bool met = false;
         for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
-            if (mesh->edge_group[mesh->complex->boundary_edge[b]] == tag) {
+            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
                 if (side_of[b] != 0) {
-                    return gm_fail(fault, line->place, "the group %.63s has a line already", line->name);
+                    return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+                                   line->name, room->lines[side_of[b] - 1].name);
                 }
                 side_of[b] = (unsigned char)(i + 1);
                 met = true;
@@ -580,16 +600,12 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
     return true;
 }
 
-/* The speed of a free fall over the room's size with the largest difference of temperature that it is given:
+/* The speed of a free fall over the room's size with the largest difference of temperature that there is:
    the Reynolds number of that is the root of Grashof's. */
 static double fall(const struct gm_flow *flow)
 {
-    double low = flow->reference_temperature, high = low;
-    for (size_t v = 0; flow->heat && v < flow->complex->vertices; v++) {
-        low = fmin(low, flow->temperature[v]);
-        high = fmax(high, flow->temperature[v]);
-    }
-    return sqrt(fabs(flow->buoyancy) * (high - low) * sqrt(flow->complex->total_area));
+    const double *range = flow->temperature_range;
+    return sqrt(fabs(flow->buoyancy) * (range[1] - range[0]) * sqrt(flow->complex->total_area));
 }
 
 /* What the room's lines say of a side at a time. */
@@ -605,6 +621,7 @@ static bool make_side(struct profile *profile, struct gm_side *side, struct gm_f
     side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN, profile->scratch);
     side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
     side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
+    side->heats = line->value[GM_ROOM_HEAT].place != 0;
     side->profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL;
     side->varying = varying_at;
     side->data = profile;
@@ -680,6 +697,24 @@ void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, doubl
     gm_flow_close_now(now);
 }
 
+/* How far what is given at a moment goes. */
+static void widen(struct gm_flow *flow, const struct gm_flow *now)
+{
+    double low = flow->reference_temperature, high = low, least = 0, most = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        flow->theta_high = fmax(flow->theta_high, now->theta[v]);
+        if (flow->heat) {
+            low = fmin(low, now->temperature[v]);
+            high = fmax(high, now->temperature[v]);
+            least = fmin(least, now->heating[v]);
+            most = fmax(most, now->heating[v]);
+        }
+    }
+    const double heated = gm_flow_heated(now);
+    flow->temperature_range[0] = fmin(flow->temperature_range[0], low - (least < 0 ? heated : 0));
+    flow->temperature_range[1] = fmax(flow->temperature_range[1], high + (most > 0 ? heated : 0));
+}
+
 /* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end, as
    far as some moments tell. */
 static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
@@ -693,6 +728,7 @@ static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
     for (int k = 1; good && k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run tells when it is there */
             flow->speed = fmax(flow->speed, now->speed);
+            widen(flow, now);
         }
     }
     gm_flow_close_now(now);
@@ -720,15 +756,20 @@ struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation
                     gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
     good = good && name_sides(room, mesh, flow->side_of, fault) &&
            set_sides(room, flow->side_of, 0, flow, fault, boundary) &&
-           place_things(room, flow, scratch, fault) && (!room->timed || look_ahead(room, flow));
+           place_things(room, flow, scratch, fault);
+    flow->viscosity = room->viscosity;
+    flow->diffusivity = room->diffusivity;
+    flow->temperature_range[0] = flow->temperature_range[1] = flow->reference_temperature;
+    if (good) {
+        widen(flow, flow);
+        good = !room->timed || look_ahead(room, flow);
+    }
     free(scratch);
     mesh->complex = NULL;
     if (!good) {
         gm_flow_close(flow);
         return NULL;
     }
-    flow->viscosity = room->viscosity;
-    flow->diffusivity = room->diffusivity;
     flow->reynolds = flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
     flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     flow->scalar = true;

@@ -24,12 +24,20 @@ enum gm_room_key {
     GM_ROOM_SCALAR,
     GM_ROOM_TEMPERATURE,
     GM_ROOM_TANGENTIAL,
+    GM_ROOM_HEAT,
     GM_ROOM_RATE,
     GM_ROOM_X,
     GM_ROOM_Y,
     GM_ROOM_KEYS
 };
 enum { GM_ROOM_NAME = 64, GM_LARGEST_ROOM = 1 << 16, GM_ROOM_SIDES = 255 };
+
+/* Between which its numbers lie, in files as on the command line. */
+struct gm_room_range {
+    double least, most;
+};
+static const struct gm_room_range gm_room_dt = {1e-9, 1e6}, gm_room_until = {0, 1e12},
+                                  gm_room_viscosity = {1e-12, 1e6}, gm_room_schmidt = {1e-6, 1e6};
 
 struct gm_room_line {
     enum gm_room_word word;

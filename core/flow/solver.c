@@ -487,7 +487,8 @@ bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, c
         gm_transport_apply(&solver->heat, temperature, solver->field);
     }
     for (size_t i = 0; temperature && i < solver->warm; i++) {
-        solver->b[solver->unknowns.count + solver->soft + i] = -solver->field[solver->warm_vertex[i]];
+        const int v = solver->warm_vertex[i];
+        solver->b[solver->unknowns.count + solver->soft + i] = solver->flow->heating[v] - solver->field[v];
     }
     return solve_directly(solver, omega, temperature);
 }

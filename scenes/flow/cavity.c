@@ -57,7 +57,9 @@ static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sid
     if (lid) {
         *sides = calloc(mesh.complex->boundary, 1);
         for (size_t b = 0; *sides && b < mesh.complex->boundary; b++) {
-            (*sides)[b] = mesh.edge_group[mesh.complex->boundary_edge[b]] == lid ? GM_EDGE_LID : GM_EDGE_WALL;
+            (*sides)[b] = gm_triangulation_has(&mesh, (size_t)mesh.complex->boundary_edge[b], lid)
+                              ? GM_EDGE_LID
+                              : GM_EDGE_WALL;
         }
         flow = gm_flow_open(mesh.complex);
         mesh.complex = NULL;

@@ -178,6 +178,7 @@ struct gm_look {
     struct {
         const char *name;
         size_t offset;
+        const char *unit; /* NULL: none */
     } told[2];
     const char *remark;     /* NULL: none */
     const char *clock_unit; /* after the clock's time; "" */

@@ -18,7 +18,7 @@ struct subject {
     double at[2];  /* of a probe */
 };
 
-enum { ROWS = 14, MOST_OBSERVED = GM_MOST_OBSERVABLES };
+enum { ROWS = 14, MOST_OBSERVED = GM_MOST_OBSERVABLES, UNIT = 96 /* bytes of one */ };
 
 struct gm_own_room {
     struct gm_scene scene; /* first: a scene is found to be this */
@@ -33,8 +33,8 @@ struct gm_own_room {
     struct subject subjects[MOST_OBSERVED];
     bool overfull;       /* there are more */
     const char *doubled; /* a key that two of them have; NULL: none */
-    char scalar_titles[4][128];
-    char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + 32]; /* keys and titles */
+    char scalar_titles[4][128], common_titles[4][128];
+    char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + UNIT]; /* keys and titles */
     size_t observable_count;
     const char *forces
         [2]; /* on the first hole: what a room shows where no scalar is brought; NULL: it is, or no hole */
@@ -43,6 +43,50 @@ struct gm_own_room {
 static const struct gm_own_room *rooms_of(const void *parameters)
 {
     return ((const struct gm_flows *)parameters)->room;
+}
+
+/* Powers of the units of length, time and temperature. */
+struct powers {
+    int of[3];
+};
+
+/* A product of powers of what the line `units:` names, "K m²/s"; "" where one of them is not named. */
+static const char *name_unit(const struct gm_own_room *own, struct powers powers, char *name)
+{
+    static const char *const raised[] = {"", "", "²", "³", "⁴"};
+    static const int order[3] = {2, 0, 1};
+    char above[UNIT / 2] = "", below[UNIT / 2] = "";
+    for (int i = 0; i < 3; i++) {
+        const char *at = own->room.units ? own->room.units : "";
+        const int power = powers.of[order[i]];
+        for (int place = order[i]; place > 0 && *at; place--) {
+            at += strcspn(at, ", ");
+            at += strspn(at, ", ");
+        }
+        const int length = (int)strcspn(at, ", ");
+        if (power != 0 && (length == 0 || length > 12)) {
+            name[0] = '\0';
+            return name;
+        }
+        char *part = power > 0 ? above : below;
+        const size_t used = strlen(part);
+        if (power != 0) {
+            snprintf(part + used, sizeof above - used, "%s%.*s%s", used > 0 ? " " : "", length, at,
+                     raised[abs(power)]);
+        }
+    }
+    snprintf(name, UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
+    return name;
+}
+
+/* " / (m/s)", behind what is measured in it. */
+static const char *beside_unit(const struct gm_own_room *own, struct powers powers, char *text)
+{
+    char unit[UNIT];
+    name_unit(own, powers, unit);
+    const bool alone = !strpbrk(unit, "/ ");
+    snprintf(text, UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit, alone ? "" : ")");
+    return text;
 }
 
 static const struct subject *subject_of(const struct gm_view *view)
@@ -216,13 +260,27 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     return gm_flows_problem(problem, flow, "room", sentence);
 }
 
-/* Why the boundary could give nothing in the next step. */
+/* Whether heat is carried that nothing takes away. */
+static bool is_free(const struct gm_flow *flow)
+{
+    bool held = flow->openings > 0;
+    for (size_t v = 0; flow->heat && v < flow->complex->vertices && !held; v++) {
+        held = flow->temperature_fixed[v];
+    }
+    return flow->heat && !held;
+}
+
+/* Why the boundary could give nothing in the next step, or there is no steady state. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_own_room *own = rooms_of(view->parameters);
     char sentence[GM_MESSAGE] = "";
     if (own->room.timed && view->scheme->steady) {
         gm_refuse(sentence, "what the boundary gives changes in time, and so there is no steady state");
+    }
+    if (!sentence[0] && view->scheme->steady && is_free(gm_flow_of(view->problem))) {
+        gm_refuse(sentence,
+                  "nothing holds the temperature or lets heat out, and so there is no single steady state");
     }
     for (int half = 1; half <= 2 && !sentence[0] && view->run; half++) {
         struct gm_fault fault;
@@ -277,17 +335,6 @@ static bool readable(const void *parameters, char *sentence)
     return good;
 }
 
-/* A word of the line `units:`, for lengths, times; "". */
-static const char *unit_of(struct gm_picture *picture, const struct gm_own_room *own, int place)
-{
-    const char *at = own->room.units ? own->room.units : "";
-    for (; place > 0 && *at; place--) {
-        at += strcspn(at, ", ");
-        at += strspn(at, ", ");
-    }
-    return gm_picture_text(picture, "%.*s", (int)strcspn(at, ", "), at);
-}
-
 /* About the largest that sources make of the scalar: twice what the air has when it leaves. */
 static double enriched(const struct gm_flow *flow)
 {
@@ -311,41 +358,33 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct gm_own_room *own = rooms_of(lanes[0]->parameters);
     const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
-    const char *length = unit_of(picture, own, 0), *time = unit_of(picture, own, 1);
-    const bool units = length[0] != '\0';
-    const char *degree = unit_of(picture, own, 2);
-    double high = 0, warm[2] = {flow->reference_temperature, flow->reference_temperature};
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        high = fmax(high, flow->theta[v]);
-        for (int k = 0; k < 2 && flow->heat; k++) {
-            warm[k] = k == 0 ? fmin(warm[k], flow->temperature[v]) : fmax(warm[k], flow->temperature[v]);
-        }
-    }
-    high = fmax(high, enriched(flow));
-    warm[1] = warm[1] > warm[0] ? warm[1] : warm[0] + 1;
+    static const struct {
+        int show;
+        const char *name;
+        struct powers powers;
+    } shown[] = {{GM_SHOW_VORTICITY, "vorticity ω", {{0, -1, 0}}},
+                 {GM_SHOW_SPEED, "speed |u|", {{1, -1, 0}}},
+                 {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
+                 {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
+    const struct powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
+    char unit[UNIT + 8];
+    const double *range = flow->temperature_range,
+                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1},
+                 high = fmax(flow->theta_high, enriched(flow));
     /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const struct gm_look look = {
+    struct gm_look look = {
         .title = own->scene.title,
-        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)},
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
+                  gm_picture_text(picture, "%s", name_unit(own, spread, unit))},
                  {"Schmidt number", offsetof(struct gm_flows, schmidt)}},
-        .clock_unit = time,
-        .axes = {units ? gm_picture_text(picture, "x / %s", length) : "x",
-                 units ? gm_picture_text(picture, "y / %s", length) : "y"},
+        .clock_unit = gm_picture_text(picture, "%s", name_unit(own, time, unit)),
+        .axes = {gm_picture_text(picture, "x%s", beside_unit(own, length, unit)),
+                 gm_picture_text(picture, "y%s", beside_unit(own, length, unit))},
         .scalar_high = high > 0 ? high : 1,
         .temperature = {warm[0], warm[1]},
-        .names =
-            {
-                [GM_SHOW_SCALAR] = own->room.scalar,
-                [GM_SHOW_VORTICITY] = time[0] ? gm_picture_text(picture, "vorticity ω / (1/%s)", time) : NULL,
-                [GM_SHOW_SPEED] =
-                    time[0] ? gm_picture_text(picture, "speed |u| / (%s/%s)", length, time) : NULL,
-                [GM_SHOW_PRESSURE] =
-                    time[0] ? gm_picture_text(picture, "total pressure / (%s²/%s²)", length, time) : NULL,
-                [GM_SHOW_TEMPERATURE] =
-                    degree[0] ? gm_picture_text(picture, "temperature / %s", degree) : NULL,
-            },
+        .names = {[GM_SHOW_SCALAR] = own->room.scalar},
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
         .sides = own->sides,
@@ -357,13 +396,18 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                    : own->forces[1] ? own->forces[1]
                                     : "scalar_outflow"},
     };
+    for (size_t i = 0; i < GM_COUNT(shown); i++) {
+        look.names[shown[i].show] =
+            gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(own, shown[i].powers, unit));
+    }
     gm_flows_draw(lanes, count, picture, &look);
 }
 
-/* Adds an observable "NAME_what" of a subject; blanks and signs in names become _. What has no room, or a key
-   that is there already, is noted. */
+/* Adds an observable "NAME_what" of a subject, with its unit; blanks and signs in names become _. What has no room,
+   or a key that is there already, is noted. */
 static void observe(struct gm_own_room *own, const char *name, const char *what, const char *title,
-                    double (*evaluate)(const struct gm_view *view), struct subject subject)
+                    struct powers powers, double (*evaluate)(const struct gm_view *view),
+                    struct subject subject)
 {
     const size_t i = own->observable_count;
     if (i == MOST_OBSERVED) {
@@ -379,7 +423,9 @@ static void observe(struct gm_own_room *own, const char *name, const char *what,
         own->doubled = !own->doubled && strcmp(own->observables[k].key, key) == 0 ? own->observables[k].key
                                                                                   : own->doubled;
     }
-    snprintf(own->observed[i][1], sizeof own->observed[i][1], "%s %s", name, title);
+    char unit[UNIT + 8];
+    snprintf(own->observed[i][1], sizeof own->observed[i][1], "%s %s%s", name, title,
+             beside_unit(own, powers, unit));
     own->observables[i] = (struct gm_observable){
         .key = key,
         .title = own->observed[i][1],
@@ -390,6 +436,29 @@ static void observe(struct gm_own_room *own, const char *name, const char *what,
                                                 : NULL};
     own->subjects[i] = subject;
     own->observable_count++;
+}
+
+/* Units of what all rooms have. */
+static void name_common(struct gm_own_room *own)
+{
+    static const struct {
+        const char *key;
+        struct powers powers;
+    } rows[] = {{"kinetic_energy", {{4, -2, 0}}},
+                {"enstrophy", {{2, -2, 0}}},
+                {"speed_max", {{1, -1, 0}}},
+                {"temperature_mean", {{0, 0, 1}}}};
+    char unit[UNIT + 8];
+    for (size_t i = 0; i < own->observable_count; i++) {
+        for (size_t k = 0; k < GM_COUNT(rows); k++) {
+            struct gm_observable *observable = &own->observables[i];
+            if (strcmp(observable->key, rows[k].key) == 0) {
+                snprintf(own->common_titles[k], sizeof own->common_titles[k], "%.60s%.60s", observable->title,
+                         beside_unit(own, rows[k].powers, unit));
+                observable->title = own->common_titles[k];
+            }
+        }
+    }
 }
 
 /* The mean of the scalar, and titles of what it has in common with all rooms where it has a name. */
@@ -434,23 +503,29 @@ static bool make_observables(struct gm_own_room *own, const struct gm_triangulat
         own->observables[own->observable_count++] =
             (struct gm_observable)GM_OBSERVABLE("temperature_mean", temperature_mean, "mean temperature");
     }
+    name_common(own);
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
         struct subject subject = {.number = i + 1};
         if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
-            observe(own, line->name, "flow", "flow", opening_flow, subject);
-            observe(own, line->name, "scalar_flow", "flow of pollutant", opening_scalar_flow, subject);
+            observe(own, line->name, "flow", "flow", (struct powers){{2, -1, 0}}, opening_flow, subject);
+            observe(own, line->name, "scalar_flow", "flow of pollutant", (struct powers){{0, 0, 0}},
+                    opening_scalar_flow, subject);
         } else if (line->word == GM_ROOM_PROBE) {
             gm_room_point(room, line, scratch, subject.at);
-            observe(own, line->name, "scalar", "concentration", probe_scalar, subject);
-            observe(own, line->name, "speed", "speed", probe_speed, subject);
-            observe(own, line->name, "pressure", "pressure, over the density", probe_pressure, subject);
+            observe(own, line->name, "scalar", "concentration", (struct powers){{0, 0, 0}}, probe_scalar,
+                    subject);
+            observe(own, line->name, "speed", "speed", (struct powers){{1, -1, 0}}, probe_speed, subject);
+            observe(own, line->name, "pressure", "pressure, over the density", (struct powers){{2, -2, 0}},
+                    probe_pressure, subject);
             if (heat) {
-                observe(own, line->name, "temperature", "temperature", probe_temperature, subject);
+                observe(own, line->name, "temperature", "temperature", (struct powers){{0, 0, 1}},
+                        probe_temperature, subject);
             }
-        } else if (line->word == GM_ROOM_WALL && line->value[GM_ROOM_TEMPERATURE].place > 0) {
+        } else if (line->word == GM_ROOM_WALL &&
+                   (line->value[GM_ROOM_TEMPERATURE].place > 0 || line->value[GM_ROOM_HEAT].place > 0)) {
             observe(own, line->name, "heat", "heat given to the air, over density and heat capacity",
-                    wall_heat, subject);
+                    (struct powers){{2, -1, 1}}, wall_heat, subject);
         }
     }
     free(scratch);
@@ -469,9 +544,12 @@ static bool make_observables(struct gm_own_room *own, const struct gm_triangulat
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
         const struct subject subject = {.number = hole};
-        observe(own, name, "drag", "force along x, over the density", hole_drag, subject);
-        observe(own, name, "lift", "force along y, over the density", hole_lift, subject);
-        observe(own, name, "circulation", "circulation", hole_circulation, subject);
+        observe(own, name, "drag", "force along x, over the density", (struct powers){{3, -2, 0}}, hole_drag,
+                subject);
+        observe(own, name, "lift", "force along y, over the density", (struct powers){{3, -2, 0}}, hole_lift,
+                subject);
+        observe(own, name, "circulation", "circulation", (struct powers){{2, -1, 0}}, hole_circulation,
+                subject);
     }
     return true;
 }
@@ -485,12 +563,12 @@ static void make_rows(struct gm_own_room *own)
         gm_number_format(numbers[i], own->numbers[i], sizeof own->numbers[i]);
     }
     const struct gm_parameter rows[] = {
-        GM_DT(own->numbers[0], 1e-9, 1e6),
+        GM_DT(own->numbers[0], gm_room_dt.least, gm_room_dt.most),
         GM_UNTIL(own->numbers[1]),
-        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", own->numbers[2], 1e-12, 1e6,
-                    "kinematic viscosity", .logarithmic = true),
-        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], 1e-6, 1e6,
-                    "Schmidt number, viscosity / diffusivity", .logarithmic = true),
+        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", own->numbers[2], gm_room_viscosity.least,
+                    gm_room_viscosity.most, "kinematic viscosity", .logarithmic = true),
+        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], gm_room_schmidt.least,
+                    gm_room_schmidt.most, "Schmidt number, viscosity / diffusivity", .logarithmic = true),
         GM_FLOWS_STAR,
         GM_FLOWS_REFINE,
         GM_FLOWS_TRACERS("350"),
@@ -508,23 +586,39 @@ static void make_rows(struct gm_own_room *own)
     own->scene.parameter_count = GM_COUNT(rows);
 }
 
-/* Its words, the mesh's path, and a mark: the name with a checksum of the text (FNV-1a). */
-static bool copy_words(struct gm_own_room *own, const char *name, const char *word, const char *path)
+/* FNV-1a of more bytes. */
+static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
 {
-    uint32_t sum = UINT32_C(2166136261);
-    for (const char *at = own->room.text; *at; at++) {
-        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
+    for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
+        sum = (sum ^ *at) * UINT32_C(16777619);
     }
+    return sum;
+}
+
+/* The room's name with a checksum of its text and of the mesh, in which another room with the same name differs. */
+static bool make_mark(struct gm_own_room *own, const char *name, const struct gm_triangulation *mesh)
+{
+    const struct gm_complex *complex = mesh->complex;
+    uint32_t sum = checksum(UINT32_C(2166136261), own->room.text, strlen(own->room.text));
+    sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
+    sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
+    sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
     if (asprintf(&own->mark, "%s:%08x", name, (unsigned)sum) < 0) {
         own->mark = NULL;
     }
+    return own->mark != NULL;
+}
+
+/* Its words and the mesh's path. */
+static bool copy_words(struct gm_own_room *own, const char *word, const char *path)
+{
     const char *slash = own->room.mesh[0] == '/' ? NULL : strrchr(path, '/');
     own->path = strdup(path);
     if (asprintf(&own->mesh, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, own->room.mesh) < 0) {
         own->mesh = NULL;
     }
     own->words[0] = own->word = strdup(word);
-    return own->path && own->word && own->mesh && own->mark;
+    return own->path && own->word && own->mesh;
 }
 
 const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, const char *word,
@@ -554,9 +648,10 @@ const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, 
         return NULL;
     }
     own->room = *room;
-    bool good = copy_words(own, name, word, path) || gm_refuse(sentence, "not enough memory");
+    bool good = copy_words(own, word, path) || gm_refuse(sentence, "not enough memory");
     if (good && gm_flows_file(own->mesh, GM_STAR_AUTO, &mesh, sentence)) {
-        good = make_observables(own, &mesh) || gm_refuse(sentence, "not enough memory");
+        good = (make_observables(own, &mesh) && make_mark(own, name, &mesh)) ||
+               gm_refuse(sentence, "not enough memory");
         gm_triangulation_close(&mesh);
     } else {
         good = false;

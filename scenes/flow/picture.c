@@ -131,7 +131,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     }
     const double size = fmax(box[1] - box[0], box[3] - box[2]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
-    const double beside = flow->inflow.count > 0 && named && !look->sides ? 0.1 * size : edge;
+    const double beside = flow->inflow.count > 0 && named && !look->sides ? 0.15 * size : edge;
     /* names of openings stand outside, and need their width in small pictures too */
     double aside[2] = {beside, beside};
     bool stands[2] = {false, false};
@@ -246,7 +246,9 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         double value = 0;
         memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
         if (is_common(lanes, count, offset)) {
-            told = gm_picture_text(picture, "%s%s %.6g,  ", told, look->told[i].name, value);
+            const char *unit = look->told[i].unit ? look->told[i].unit : "";
+            told = gm_picture_text(picture, "%s%s %.6g%s%s,  ", told, look->told[i].name, value,
+                                   unit[0] ? " " : "", unit);
         }
     }
     return gm_picture_text(picture, "%s%s%s", told, mesh_and_scheme(picture, lanes, count),

@@ -86,7 +86,7 @@ static bool name_sides(const struct gm_triangulation *mesh, const char *key, con
         const long tag = gm_flows_group(mesh, key, name, sentence);
         bool good = tag != 0;
         for (size_t b = 0; good && b < mesh->complex->boundary; b++) {
-            if (mesh->edge_group[mesh->complex->boundary_edge[b]] == tag) {
+            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
                 good = sides[b] == GM_EDGE_WALL ||
                        gm_refuse(sentence, "the group \"%.60s\" is named twice", name);
                 sides[b] = (unsigned char)kind;

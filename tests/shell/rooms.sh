@@ -68,6 +68,26 @@ status 0 run "$rooms/heated.room" until=1 scheme=crank-nicolson show=temperature
 status 0 render "$rooms/office.room" until=0.1 --size 320x200 --out pictures
 [ -s pictures/office-render.png ] || fail "no picture of a room"
 
+# walls may give heat instead of holding a temperature: what one gives the other takes in a steady state
+{ sed '/^wall: heater/d' "$rooms/heated.room"; echo 'wall: heater  heat = 0.5'; } >flux.room
+cp "$rooms/heated.msh" .
+status 0 run ./flux.room scheme=steady until=3 --json
+within heater_heat 0.7499999 0.7500001 # 1.5 m of it
+within window_heat -0.7500001 -0.7499999
+{ sed '/^wall: heater/d' "$rooms/heated.room"; echo 'wall: heater  heat = 0.5*(1 - exp(-t))'; } >rising.room
+status 0 run ./rising.room until=1 --json
+within heater_heat 0.4740904 0.4740905
+status 0 render ./flux.room until=0.5 --size 320x200 --out pictures
+sed '/^wall: window/d' flux.room >alone.room
+"$geomint" run ./alone.room scheme=steady >out 2>err
+grep -q 'nothing holds the temperature or lets heat out' out || fail "no word of heat that nothing takes"
+
+# pictures tell in which units
+status 0 render "$rooms/heated.room" until=0.5 -o units.svg
+for text in 'viscosity 0.002 m²/s' 'temperature / K' 'mean temperature / K' 'kinetic energy / (m⁴/s²)' 'x / m'; do
+    grep -qF "$text" units.svg || fail "no $text in a picture"
+done
+
 # what the boundary gives may change in time: the same bits where it does not, the order of each scheme where it
 # does, what enters at every moment what the line says, and budgets that close
 timed() { # NAME FACTOR: the office, whose door's speed has a factor
@@ -139,6 +159,22 @@ for line in lines:
     assert errors[0] < 0.5 and errors[1] < 0.55 * errors[0] and errors[2] < 0.55 * errors[1], errors
 END
 
+# neither a checkpoint nor `again` goes on with another room, or another mesh
+cp "$rooms/office.room" "$rooms/office.msh" .
+status 0 run ./office.room steps=1 --checkpoint kept.checkpoint
+status 0 render ./office.room steps=1 --size 320x200 -o kept.png
+status 0 run ./office.room steps=2 --continue kept.checkpoint
+status 0 again kept.png -o same.png
+cmp -s kept.png same.png || fail 'again makes another picture of a room'
+sed -i 's/^1.6 1.1 0$/1.61 1.1 0/' office.msh
+cmp -s office.msh "$rooms/office.msh" && fail 'the mesh is the same'
+refused 3 'a checkpoint of something else' run ./office.room steps=2 --continue kept.checkpoint
+refused 3 'its room is another one now' again kept.png -o other.png
+cp "$rooms/office.msh" .
+sed -i 's/0.004/0.005/' office.room
+refused 3 'its room is another one now' again kept.png -o other.png
+[ ! -e other.png ] || fail 'a picture of another room'
+
 # a body that no scalar is brought to: drag and lift are what is shown
 status 0 render "$rooms/cylinder.room" steps=2 -o force.svg
 grep -q 'cylinder force along x' force.svg || fail 'no drag beside a body'
@@ -162,6 +198,51 @@ status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 refine
 within triangles $((4 * coarse)) $((4 * coarse))
 refused 1 'refine=3: edges are halved' run room "mesh=$meshes/hole.msh" inlet=door outlet=window refine=3 steps=1
 
+# an edge may be in several groups, in both formats, and on finer meshes
+python3 - <<'END' || fail 'no mesh with groups over each other'
+cells = 6
+nodes = [(i / cells, j / cells) for j in range(cells + 1) for i in range(cells + 1)]
+corner = lambda i, j: 1 + i + j * (cells + 1)
+triangles = []
+for j in range(cells):
+    for i in range(cells):
+        a, b, c, d = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+        triangles += [(a, b, c), (a, c, d)]
+sides = [[(corner(0, j), corner(0, j + 1)) for j in range(cells)], [(corner(cells, j), corner(cells, j + 1)) for j in range(cells)],
+         [(corner(i, 0), corner(i + 1, 0)) for i in range(cells)], [(corner(i, cells), corner(i + 1, cells)) for i in range(cells)]]
+groups = [[5, 1], [5, 2], [3, 5, 4], []] # all, and in, out, floor with another name
+names = '$PhysicalNames\n5\n1 1 "in"\n1 2 "out"\n1 3 "floor"\n1 4 "ground"\n1 5 "all"\n$EndPhysicalNames\n'
+def section(name, lines):
+    return '$%s\n%s\n$End%s\n' % (name, '\n'.join(lines), name)
+lines = [(tag, edge) for side, tags in zip(sides, groups) for tag in tags for edge in side]
+open('groups22.msh', 'w').write(section('MeshFormat', ['2.2 0 8']) + names +
+    section('Nodes', [str(len(nodes))] + ['%d %r %r 0' % (k + 1, *p) for k, p in enumerate(nodes)]) +
+    section('Elements', [str(len(lines) + len(triangles))] + ['%d 1 2 %d 1 %d %d' % (k + 1, tag, *edge) for k, (tag, edge) in enumerate(lines)] +
+            ['%d 2 2 9 1 %d %d %d' % (1000 + k, *t) for k, t in enumerate(triangles)]))
+edges = sum(map(len, sides))
+open('groups41.msh', 'w').write(section('MeshFormat', ['4.1 0 8']) + names +
+    section('Entities', ['0 4 1 0'] + ['%d 0 0 0 1 1 0 %d %s 0' % (k + 1, len(g), ' '.join(map(str, g))) for k, g in enumerate(groups)] +
+            ['1 0 0 0 1 1 0 1 9 4 1 2 3 4']) +
+    section('Nodes', ['1 %d 1 %d' % (len(nodes), len(nodes)), '2 1 0 %d' % len(nodes)] + [str(k + 1) for k in range(len(nodes))] +
+            ['%r %r 0' % p for p in nodes]) +
+    section('Elements', ['5 %d 1 %d' % (edges + len(triangles), edges + len(triangles))] +
+            [line for k, side in enumerate(sides) for line in ['1 %d 1 %d' % (k + 1, len(side))] +
+             ['%d %d %d' % (100 * k + i + 1, *e) for i, e in enumerate(side)]] +
+            ['2 1 2 %d' % len(triangles)] + ['%d %d %d %d' % (1000 + k, *t) for k, t in enumerate(triangles)]))
+END
+for mesh in groups22 groups41; do
+    printf '%s\n' "mesh: $mesh.msh" 'viscosity: 0.05' 'inlet: in  flow = 0.1  scalar = 1' 'outlet: out' \
+        'wall: ground  tangential = -2' >$mesh.room
+    for refine in 1 2; do
+        status 0 run ./$mesh.room refine=$refine steps=3 --json
+        within in_flow 0.09999 0.10001
+        within speed_max 1.99999 2.00001
+    done
+    echo 'wall: all  scalar = 1' >>$mesh.room
+    refused 1 "$mesh.room:6:7: curves of the group all have a line already: ground" run ./$mesh.room
+    status 0 run room mesh=$mesh.msh inlet=in outlet=2 steps=1 --json
+done
+
 # wrong ones: the lines of a good room, of which one is another
 wrong() {
     cp "$meshes/hole.msh" .
@@ -180,7 +261,11 @@ wrong 'wrong.room:5:17: what .* may change in time: no start' 'start: scalar = t
 wrong 'door is named twice' 'inlet: door flow = 1'
 wrong 'no physical group "dor" on its boundary (there are: door, vent, window, hatch, pillar)' 'wall: dor'
 wrong 'printer at (2, 1.4) is not in the room' 'source: printer x = 2 y = 1.4 rate = 1'
-wrong 'wrong.room:5:28: a temperature needs a line buoyancy:' 'wall: pillar temperature = 300'
+wrong 'wrong.room:5:28: a temperature or heat needs a line buoyancy:' 'wall: pillar temperature = 300'
+wrong 'wrong.room:5:21: a temperature or heat needs a line buoyancy:' 'wall: pillar heat = 300'
+wrong 'wrong.room:5:7: wall: holds its temperature = or gives heat =, not both' 'wall: pillar heat = 3 temperature = 300'
+wrong 'wrong.room:5:21: the heat is not finite at (' 'wall: pillar heat = log(x - 2)\nbuoyancy: 1'
+wrong 'wrong.room:5:13: inlet: takes speed =' 'inlet: vent heat = 1'
 wrong 'buoyancy: needs a temperature =' 'buoyancy: 0.03'
 wrong 'buoyancy: is a finite number' 'wall: pillar temperature = 1\nbuoyancy: inf'
 wrong 'reference-temperature: needs a temperature =' 'reference-temperature: 290'
@@ -205,6 +290,11 @@ wrong 'the rate is not finite at (0, ' 'source: printer rate = 1/x'
 wrong 'wrong.room:5:10: this program reads files of format 1, not 2$' 'geomint: 2'
 wrong 'scalar: is given twice' 'scalar: age\nscalar: dust'
 wrong 'viscosity: is a positive number' '' 's/0.01/-1/'
+wrong 'wrong.room:2:12: viscosity: lies between 1e-12 and 1e+06' '' 's/0.01/1e300/'
+wrong 'wrong.room:5:5: dt: lies between 1e-09 and 1e+06' 'dt: 1e300'
+wrong 'wrong.room:5:8: until: lies between 0 and 1e+12' 'until: 1e13'
+wrong 'viscosity / diffusivity is 1e+08; it lies between 1e-06 and 1e+06' 'diffusivity: 1e-10'
+wrong 'wrong.room:4:11: reynolds: lies between 1e-06 and 1e+12' 'reynolds: 1e13' '/viscosity/d'
 wrong 'a room needs a line viscosity:' '' '/viscosity/d'
 wrong 'an inlet but no outlet' '' '/outlet/d'
 wrong 'wrong.room:4:23: all flows are given, and what enters does not leave: 0.2 in, 0.1 out$' '' 's/outlet: window/outlet: window flow = 0.1/'

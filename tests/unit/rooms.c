@@ -960,6 +960,64 @@ static void air_rises_at_a_hot_wall(void **unused)
     }
 }
 
+static double warmth(const void *data, enum gm_given what, double s, const double at[2])
+{
+    (void)data, (void)s;
+    return what == GM_GIVEN_HEAT ? 1 + at[1] : 0;
+}
+
+/* A wall that gives the heat 1 across a square where air rests: by conduction the temperature falls by 1, evenly, on
+   any mesh. Of heat that varies the wall gives all, at every step, in the same steady state of steps and of Newton's
+   method where air moves. */
+static void walls_give_heat(void **unused)
+{
+    (void)unused;
+    struct gm_flow *flow = open_square(12, 0, 0.4);
+    const struct gm_complex *complex = flow->complex;
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    double *y = malloc(gm_flow_size(flow) * sizeof *y), *steady = malloc(gm_flow_size(flow) * sizeof *steady);
+    assert_true(side_of && y && steady);
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double x = complex->point[2 * complex->boundary_vertex[b]],
+                     next = complex->point[2 * complex->boundary_vertex[gm_complex_next(complex, b)]];
+        side_of[b] = x == 0 && next == 0 ? 1 : x == 1 && next == 1 ? 2 : 0;
+    }
+    struct gm_side sides[3] = {{.theta_free = true, .temperature_free = true},
+                               {.theta_free = true, .temperature_free = true, .heats = true, .heat = 1},
+                               {.theta_free = true, .temperature = 0}};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    for (int k = 0; k < 2; k++) { /* large steps come to rest, too */
+        const double given = nusselt(flow, k ? "semi-implicit" : "steady", 1e3, 12, NULL, y);
+        assert_true(fabs(given - 1) < 1e-12);
+        for (size_t v = 0; v < complex->vertices; v++) {
+            const double *temperature = gm_flow_block(flow, y, GM_FLOW_TEMPERATURE);
+            assert_true(fabs(temperature[v] - (1 - complex->point[2 * v])) < 1e-11);
+        }
+    }
+    sides[1].varying = warmth;
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    flow->buoyancy = 0.71e4;
+    flow->reynolds = sqrt(1e4 / 0.71);
+    const double given = nusselt(flow, "crank-nicolson", 0.002, 1, NULL, NULL),
+                 balanced = nusselt(flow, "steady", 1, 14, NULL, steady);
+    nusselt(flow, "semi-implicit", 0.02, 400, NULL, y);
+    assert_true(fabs(given - 1.5) < 1e-11 && fabs(balanced - 1.5) < 1e-11);
+    assert_true(fabs(gm_flow_heat(flow, steady, 2) + 1.5) < 1e-9);
+    const double *here = gm_flow_block(flow, y, GM_FLOW_TEMPERATURE),
+                 *there = gm_flow_block(flow, steady, GM_FLOW_TEMPERATURE);
+    double warmest = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        warmest = fmax(warmest, there[v]);
+        assert_true(fabs(here[v] - there[v]) < 1e-6);
+    }
+    /* rising air takes heat away: conduction alone would make it 1.5 or more */
+    assert_true(warmest < 1.2 && gm_flow_heated(flow) > warmest / 2 && gm_flow_heated(flow) < 2 * warmest);
+    free(side_of);
+    free(y);
+    free(steady);
+    gm_flow_close(flow);
+}
+
 /* A fluid in layers, warm above, rests on any mesh: its buoyancy is a gradient, and the pressure alone bears
    it. */
 static void layers_rest(void **unused)
@@ -1054,17 +1112,12 @@ int main(int count, char *words[])
 {
     const struct CMUnitTest published[] = {cmocka_unit_test(natural_convection)};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders),
-        cmocka_unit_test(circulation_is_found),
-        cmocka_unit_test(flows_are_shared),
-        cmocka_unit_test(halves_make_a_whole),
-        cmocka_unit_test(budget_closes),
-        cmocka_unit_test(pressure_is_single_valued),
-        cmocka_unit_test(kelvin),
-        cmocka_unit_test(air_rises_at_a_hot_wall),
-        cmocka_unit_test(smoke_comes_in),
-        cmocka_unit_test(layers_rest),
-        cmocka_unit_test(pieces_follow_each_other),
+        cmocka_unit_test(orders),           cmocka_unit_test(circulation_is_found),
+        cmocka_unit_test(flows_are_shared), cmocka_unit_test(halves_make_a_whole),
+        cmocka_unit_test(budget_closes),    cmocka_unit_test(pressure_is_single_valued),
+        cmocka_unit_test(kelvin),           cmocka_unit_test(air_rises_at_a_hot_wall),
+        cmocka_unit_test(smoke_comes_in),   cmocka_unit_test(walls_give_heat),
+        cmocka_unit_test(layers_rest),      cmocka_unit_test(pieces_follow_each_other),
         cmocka_unit_test(walls_vary),
     };
     return count > 1 && strcmp(words[1], "numbers") == 0 ? cmocka_run_group_tests(published, NULL, NULL)

@@ -255,7 +255,7 @@ static bool advance_temperature(struct gm_flow_solver *solver, double dt, double
     }
     progress->solves++;
     return advance_carried(solver, &solver->transport, solver->rate, dt, block(flow, y, GM_FLOW_TEMPERATURE),
-                           flow->temperature_fixed, NULL, &progress->iterations);
+                           flow->temperature_fixed, flow->heating, &progress->iterations);
 }
 
 /* The scalar's part of a step, which needs of the flow's nothing but the fluxes before. */
