@@ -1059,7 +1059,7 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
 }
 
 /* Registers that lie on the stack; of longer code they are allocated. */
-enum { ON_STACK = 2048, LARGEST_BLOCK = 192, IN_CACHE = 4096 };
+enum { ON_STACK = 2048, LARGEST_BLOCK = 192, IN_CACHE = 4096, LINE = 64 };
 
 /* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
 static inline void copy_each(double *to, const double *from, size_t count)
@@ -1103,10 +1103,11 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
                  between = tape->registers - fixed;
     size_t block = between > 0 ? IN_CACHE / between / 8 * 8 : LARGEST_BLOCK;
     block = block < 8 ? 8 : block > LARGEST_BLOCK ? LARGEST_BLOCK : block;
-    double few[IN_CACHE], *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
+    _Alignas(LINE) double few[IN_CACHE];
+    double *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
     double *room = few, **at = few_rows;
     if (between * block > IN_CACHE || tape->registers > ON_STACK) {
-        room = many = malloc((between * block + 1) * sizeof *many);
+        room = many = aligned_alloc(LINE, (between + 1) * block * sizeof *many);
         at = many_rows = malloc(tape->registers * sizeof *many_rows);
     }
     const bool short_of_memory = !room || !at;
