@@ -836,8 +836,10 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
     bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
     for (size_t i = 0; values && good && i < system->n; i++) {
+        const gm_node_id given = system->variables[i].start;
         good = isfinite(start[i]) ||
-               gm_fail(fault, 0, "%.60s is not finite at the start", system->variables[i].name);
+               gm_fail(fault, given != GM_NO_NODE ? first_not_finite(system, given, values) : 0,
+                       "%.60s is not finite at the start", system->variables[i].name);
     }
     if (values && good && has(system, GM_WORD_CONSTRAINT)) {
         good = check_constraints(system, start, fault);
