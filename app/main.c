@@ -162,6 +162,8 @@ int main(int argc, char *argv[])
     if (!gm_memory_was_short() || status == GM_EXIT_INTERRUPTED || status == GM_EXIT_PIPE) {
         return status;
     }
-    gm_complain("there was not enough memory for all that was asked for");
+    if (!gm_complained_of_memory()) {
+        gm_complain("there was not enough memory for all that was asked for");
+    }
     return GM_EXIT_MEMORY;
 }

@@ -883,37 +883,79 @@ bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct g
     return true;
 }
 
-/* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
-   number. Not inlined: there compilers forget that rows do not overlap. */
-GM_CLONES static void compute_row(uint32_t operation, double *restrict to, const double *restrict x,
-                                  bool one_x, const double *restrict y, bool one_y, size_t count)
-{
-    switch ((enum gm_operation)operation) {
+/* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one number. */
 #define GM_ROW(value_, x_, y_)                                                                               \
     for (size_t i = 0; i < count; i++) {                                                                     \
         const double a = x_, b = y_;                                                                         \
         (void)b;                                                                                             \
         to[i] = value_;                                                                                      \
     }
+#define GM_ROWS(value_)                                                                                      \
+    if (one_x) {                                                                                             \
+        GM_ROW(value_, *x, y[i])                                                                             \
+    } else if (one_y) {                                                                                      \
+        GM_ROW(value_, x[i], *y)                                                                             \
+    } else {                                                                                                 \
+        GM_ROW(value_, x[i], y[i])                                                                           \
+    }
+
+/* What is one instruction of the processor: copies, arithmetic and the root. */
+static inline bool is_instruction(uint32_t operation)
+{
+    return operation <= GM_OPERATION_NEGATE || operation == GM_OPERATION_SQRT;
+}
+
+/* Two functions, since one that calls others has to save registers, at every row; neither is inlined, where compilers
+   would forget that rows do not overlap. */
+GM_CLONES static void compute_by_instruction(uint32_t operation, double *restrict to,
+                                             const double *restrict x, bool one_x, const double *restrict y,
+                                             bool one_y, size_t count)
+{
+    switch ((enum gm_operation)operation) {
 #define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
     case GM_OPERATION_##constant:                                                                            \
-        if (one_x) {                                                                                         \
-            GM_ROW(value_, *x, y[i])                                                                         \
-        } else if (one_y) {                                                                                  \
-            GM_ROW(value_, x[i], *y)                                                                         \
-        } else {                                                                                             \
-            GM_ROW(value_, x[i], y[i])                                                                       \
+        if (!is_instruction(GM_OPERATION_##constant)) {                                                      \
+            __builtin_unreachable();                                                                         \
         }                                                                                                    \
+        GM_ROWS(value_)                                                                                      \
         break;
 #include "core/formula/operations.def"
 #undef GM_OPERATION
     case GM_CONSTANT:
     case GM_VARIABLE:
     case GM_OPERATIONS:
-        for (size_t i = 0; i < count; i++) {
-            to[i] = one_x ? *x : x[i];
-        }
+        GM_ROWS(a)
         break;
+    }
+}
+
+GM_CLONES static void compute_by_call(uint32_t operation, double *restrict to, const double *restrict x,
+                                      bool one_x, const double *restrict y, bool one_y, size_t count)
+{
+    switch ((enum gm_operation)operation) {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
+    case GM_OPERATION_##constant:                                                                            \
+        if (is_instruction(GM_OPERATION_##constant)) {                                                       \
+            __builtin_unreachable();                                                                         \
+        }                                                                                                    \
+        GM_ROWS(value_)                                                                                      \
+        break;
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+    case GM_CONSTANT:
+    case GM_VARIABLE:
+    case GM_OPERATIONS:
+        __builtin_unreachable();
+    }
+}
+
+static inline void compute_row(uint32_t operation, double *to, const double *x, bool one_x, const double *y,
+                               bool one_y, size_t count)
+{
+    if (is_instruction(operation)) {
+        compute_by_instruction(operation, to, x, one_x, y, one_y, count);
+    } else {
+        compute_by_call(operation, to, x, one_x, y, one_y, count);
     }
 }
 
@@ -1058,8 +1100,9 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
     }
 }
 
-/* Registers that lie on the stack; of longer code they are allocated. */
-enum { ON_STACK = 2048, LARGEST_BLOCK = 192, IN_CACHE = 4096 };
+/* Registers that lie on the stack; of longer code they are allocated. A block is as many members as a tile has
+   (core/ode/kernel/tiles.c). */
+enum { ON_STACK = 2048, LARGEST_BLOCK = 248, IN_CACHE = 4096, LINE = 64 };
 
 /* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
 static inline void copy_each(double *to, const double *from, size_t count)
@@ -1103,10 +1146,11 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
                  between = tape->registers - fixed;
     size_t block = between > 0 ? IN_CACHE / between / 8 * 8 : LARGEST_BLOCK;
     block = block < 8 ? 8 : block > LARGEST_BLOCK ? LARGEST_BLOCK : block;
-    double few[IN_CACHE], *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
+    _Alignas(LINE) double few[IN_CACHE];
+    double *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
     double *room = few, **at = few_rows;
     if (between * block > IN_CACHE || tape->registers > ON_STACK) {
-        room = many = malloc((between * block + 1) * sizeof *many);
+        room = many = aligned_alloc(LINE, (between + 1) * block * sizeof *many);
         at = many_rows = malloc(tape->registers * sizeof *many_rows);
     }
     const bool short_of_memory = !room || !at;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint figures: published figures made again by as many processes as there are processors, on one page
-   with what the documents say and whether it holds. */
+   with what the documents say and whether it holds; beside them, or alone, systems of somebody's own. */
 #include <errno.h>
 #include <math.h>
 #include <signal.h>
@@ -21,6 +21,7 @@
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
 #include "render/clock.h"
+#include "render/message.h"
 
 enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };
 
@@ -32,6 +33,7 @@ struct worker {
 struct series {
     const struct gm_options *options;
     struct gm_figure_output output;
+    struct gm_figure *own; /* of systems of somebody's own, as many as there are words */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes; /* shared with the workers */
     size_t count, next, made, printed;
@@ -65,42 +67,74 @@ static int by_name(const void *one, const void *other)
                       ((const struct gm_figure_job *)other)->figure->name);
 }
 
-static size_t all_figures(void)
+/* As many as there may be. */
+static size_t all_figures(const struct gm_options *options)
 {
-    size_t count = 0;
+    size_t count = (size_t)options->arguments.count;
     for (size_t s = 0; s < gm_scene_count(); s++) {
         count += gm_scene_at(s)->figure_count;
     }
     return count;
 }
 
-static bool words_are_known(const struct gm_options *options)
+static bool is_published(const char *word)
 {
-    for (int i = 0; i < options->arguments.count; i++) {
-        bool known = false;
-        for (size_t s = 0; s < gm_scene_count(); s++) {
-            for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
-                known |= named(gm_scene_at(s)->figures[f].name, options->arguments.words[i]);
-            }
-        }
-        if (!known) {
-            gm_complain("there is no figure \"%.60s\"; geomint list figures names them",
-                        options->arguments.words[i]);
-            return false;
+    bool known = false;
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
+            known |= named(gm_scene_at(s)->figures[f].name, word);
         }
     }
-    return true;
+    return known;
+}
+
+/* The system of somebody's own that a word names; NULL with a sentence and an exit status. */
+static const struct gm_scene *own_scene(char *word, int *status, char *message)
+{
+    const struct gm_scene *scene = gm_request_scene(1, &word, status, message);
+    if (scene ? !scene->words : *status == GM_EXIT_USAGE && !strpbrk(word, "/.")) {
+        *status = GM_EXIT_USAGE;
+        gm_refuse(message, "there is no figure \"%.60s\"; geomint list figures names them", word);
+        return NULL;
+    }
+    return scene;
+}
+
+static int words_are_known(const struct gm_options *options)
+{
+    const struct gm_arguments *words = &options->arguments;
+    char message[GM_MESSAGE];
+    int status = GM_EXIT_OK;
+    for (int i = 0; i < words->count; i++) {
+        const struct gm_scene *scene =
+            is_published(words->words[i]) ? NULL : own_scene(words->words[i], &status, message);
+        for (int k = 0; scene && k < i; k++) { /* they are found already */
+            const struct gm_scene *other =
+                is_published(words->words[k]) ? NULL : own_scene(words->words[k], &status, message);
+            if (other && strcmp(other->name, scene->name) == 0) {
+                gm_complain("the pictures of %.200s and %.200s would have one name", words->words[k],
+                            words->words[i]);
+                return GM_EXIT_USAGE;
+            }
+        }
+        if (!scene && !is_published(words->words[i])) {
+            gm_complain("%s", message);
+            return status;
+        }
+    }
+    return GM_EXIT_OK;
 }
 
 static bool open_series(struct series *series, const struct gm_options *options)
 {
-    const size_t most = all_figures();
+    const size_t most = all_figures(options);
     const bool small = options->quick && !options->sized;
     *series = (struct series){.options = options,
                               .output = {.folder = options->out ? options->out : ".",
                                          .look = options->look,
                                          .format = options->format,
                                          .quick = options->quick},
+                              .own = calloc((size_t)options->arguments.count + 1, sizeof *series->own),
                               .jobs = calloc(most, sizeof *series->jobs)};
     if (small) {
         series->output.look.width = QUICK_WIDTH;
@@ -109,7 +143,7 @@ static bool open_series(struct series *series, const struct gm_options *options)
     void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     series->outcomes = shared == MAP_FAILED ? NULL : shared;
-    if (!series->jobs || !series->outcomes) {
+    if (!series->own || !series->jobs || !series->outcomes) {
         gm_complain("not enough memory");
         return false;
     }
@@ -119,6 +153,17 @@ static bool open_series(struct series *series, const struct gm_options *options)
             if (wanted(options, scene->figures[f].name)) {
                 gm_figure_plan(&series->jobs[series->count++], scene, &scene->figures[f], options->quick);
             }
+        }
+    }
+    for (int i = 0; i < options->arguments.count; i++) {
+        char message[GM_MESSAGE];
+        int status;
+        char *word = options->arguments.words[i];
+        const struct gm_scene *scene = is_published(word) ? NULL : own_scene(word, &status, message);
+        if (scene) {
+            series->own[i] =
+                (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
+            gm_figure_plan(&series->jobs[series->count++], scene, &series->own[i], false);
         }
     }
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
@@ -132,8 +177,9 @@ static bool open_series(struct series *series, const struct gm_options *options)
 static void close_series(struct series *series)
 {
     if (series->outcomes) {
-        munmap(series->outcomes, all_figures() * sizeof *series->outcomes);
+        munmap(series->outcomes, all_figures(series->options) * sizeof *series->outcomes);
     }
+    free(series->own);
     free(series->jobs);
 }
 
@@ -160,13 +206,13 @@ static void show_progress(const struct series *series)
 static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
     printf("  %-44s %10s", "", "t");
-    for (size_t i = 0; i < job->scene->observable_count; i++) {
+    for (size_t i = 0; i < gm_figure_observables(job); i++) {
         printf(" %14s", job->scene->observables[i].key);
     }
     printf("\n");
     for (size_t i = 0; i < outcome->lane_count; i++) {
         printf("  %-44s %10.4g", outcome->lanes[i].label, outcome->lanes[i].t);
-        for (size_t k = 0; k < job->scene->observable_count; k++) {
+        for (size_t k = 0; k < gm_figure_observables(job); k++) {
             printf(" %14.6g", outcome->lanes[i].observables[k]);
         }
         printf("%s%s\n", outcome->lanes[i].failure[0] ? "  " : "", outcome->lanes[i].failure);
@@ -178,7 +224,7 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
     printf("{");
     gm_json_pair("figure", job->figure->name);
     printf(",");
-    gm_json_pair("scene", job->scene->name);
+    gm_json_pair("scene", gm_figure_word(job));
     printf(",");
     gm_json_pair("arguments", job->arguments);
     printf(",");
@@ -213,7 +259,7 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
         printf(",");
         gm_json_pair("message", outcome->lanes[i].failure);
         printf(",\"observables\":{");
-        for (size_t k = 0; k < job->scene->observable_count; k++) {
+        for (size_t k = 0; k < gm_figure_observables(job); k++) {
             printf("%s", k ? "," : "");
             gm_json_number_pair(job->scene->observables[k].key, outcome->lanes[i].observables[k]);
         }
@@ -224,7 +270,7 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
 
 static void print_text(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
-    printf("%s: %s\n  geomint render %s %s\n", job->figure->name, job->figure->statement, job->scene->name,
+    printf("%s: %s\n  geomint render %s %s\n", job->figure->name, job->figure->statement, gm_figure_word(job),
            job->arguments);
     if (outcome->progress == GM_NOT_MADE) {
         printf("  not made: %s\n", outcome->message);
@@ -393,15 +439,15 @@ static int command_figures(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct series series;
-    if (!words_are_known(options)) {
-        return GM_EXIT_USAGE;
+    int status = words_are_known(options);
+    if (status != GM_EXIT_OK) {
+        return status;
     }
     if (!gm_folder_make(options->out, message)) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
     gm_catch_interrupts();
-    int status = GM_EXIT_OK;
     if (open_series(&series, options)) {
         run(&series, &status);
         /* finished ones behind one that was interrupted */
@@ -431,8 +477,8 @@ static int command_figures(const struct gm_options *options)
 
 const struct gm_command_row gm_command_figures = {
     .name = "figures",
-    .synopsis = "[NAME ...]",
-    .help = "published figures, made again",
+    .synopsis = "[NAME|SYSTEM ...]",
+    .help = "published figures, made again; and systems of your own",
     .bit = GM_FIGURES,
     .function = command_figures,
 };

@@ -40,7 +40,7 @@ static bool parse(struct gm_request *request, const struct gm_figure_job *job, c
 {
     char sentence[GM_MESSAGE] = "not enough memory";
     struct gm_arguments words = {0};
-    const bool good = gm_arguments_add(&words, job->scene->name) &&
+    const bool good = gm_arguments_add(&words, gm_figure_word(job)) &&
                       gm_arguments_split(&words, job->arguments) &&
                       gm_request_parse(request, words.count, words.words, FEW_SCHEMES, sentence);
     gm_arguments_close(&words);
@@ -329,7 +329,7 @@ static void take_numbers(const struct gm_figure_job *job, const struct gm_reques
         label(job, &request->lanes[i], outcome->lanes[i].label, sizeof outcome->lanes[i].label);
         gm_failure_sentence(lanes[i], outcome->lanes[i].failure, sizeof outcome->lanes[i].failure);
         outcome->lanes[i].t = lanes[i]->run->t;
-        for (size_t k = 0; k < job->scene->observable_count && k < GM_FIGURE_OBSERVABLES; k++) {
+        for (size_t k = 0; k < gm_figure_observables(job); k++) {
             outcome->lanes[i].observables[k] = gm_lane_observe(lanes[i], k);
         }
     }

@@ -6,7 +6,7 @@
 #include "app/request/request.h"
 #include "scenes/frame/published.h"
 
-/* One published figure: run, painted in both themes, and held against what its document says of it. */
+/* One figure: run, painted in both themes, and, if it is a published one, held against what its document says of it. */
 
 enum { GM_FIGURE_LANES = 32, GM_FIGURE_OBSERVABLES = 16, GM_FIGURE_STATEMENTS = 12, GM_FIGURE_LABEL = 96 };
 
@@ -48,6 +48,25 @@ struct gm_figure_job {
     char arguments[512];                  /* those that are run */
     bool shortened;                       /* in work, by --quick: nothing is judged */
 };
+
+/* Whether it is of a system of somebody's own. */
+static inline bool gm_figure_is_own(const struct gm_figure_job *job)
+{
+    return job->scene->words;
+}
+
+/* What `geomint render` calls the scene. */
+static inline const char *gm_figure_word(const struct gm_figure_job *job)
+{
+    return gm_figure_is_own(job) ? job->scene->words[0] : job->scene->name;
+}
+
+/* How many of the scene's observables are among the numbers of a lane. */
+static inline size_t gm_figure_observables(const struct gm_figure_job *job)
+{
+    const size_t count = job->scene->observable_count;
+    return count < GM_FIGURE_OBSERVABLES ? count : GM_FIGURE_OBSERVABLES;
+}
 
 /* Settles which arguments are run. */
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of published figures: one file of HTML with everything in it. */
+/* The page of figures: one file of HTML with everything in it. */
 #include "app/figures/page.h"
 
 #include <ctype.h>
@@ -184,7 +184,7 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
     fputs("<details><summary>All numbers at the end</summary><div class=\"wide\"><table class=\"all\">"
           "<thead><tr><th>lane<th>t",
           page);
-    for (size_t k = 0; k < job->scene->observable_count; k++) {
+    for (size_t k = 0; k < gm_figure_observables(job); k++) {
         fputs("<th>", page);
         put_text(page, job->scene->observables[k].key);
     }
@@ -193,7 +193,7 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
         fputs("<tr><td>", page);
         put_text(page, outcome->lanes[i].label);
         fprintf(page, "<td>%.6g", outcome->lanes[i].t);
-        for (size_t k = 0; k < job->scene->observable_count; k++) {
+        for (size_t k = 0; k < gm_figure_observables(job); k++) {
             const double value = outcome->lanes[i].observables[k];
             fputs("<td>", page);
             if (isfinite(value)) {
@@ -221,8 +221,13 @@ static void put_failures(FILE *page, const struct gm_outcome *outcome)
 }
 
 /* "razafindralandy-34-couette" is "Figure 34, couette". */
-static void put_title(FILE *page, const char *name)
+static void put_title(FILE *page, const struct gm_figure_job *job)
 {
+    const char *name = job->figure->name;
+    if (gm_figure_is_own(job)) {
+        put_text(page, job->figure->statement);
+        return;
+    }
     const char *number = strchr(name, '-') + 1;
     const int digits = (int)strspn(number, "0123456789");
     fprintf(page, "Figure %.*s", digits, number);
@@ -236,10 +241,17 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
                        const struct gm_outcome *outcome)
 {
     fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
-    put_title(page, job->figure->name);
-    fprintf(page, "</a> <span class=\"soft\">%s</span></h3>\n<p>", job->scene->name);
-    put_sentence(page, job->figure->statement);
-    fputs(".</p>\n", page);
+    put_title(page, job);
+    fputs("</a> <span class=\"soft\">", page);
+    put_text(page, gm_figure_word(job));
+    fputs("</span></h3>\n<p>", page);
+    if (gm_figure_is_own(job)) {
+        put_text(page, job->scene->blurb);
+    } else {
+        put_sentence(page, job->figure->statement);
+        fputs(".", page);
+    }
+    fputs("</p>\n", page);
     bool good = true;
     if (outcome->progress == GM_MADE) {
         good = put_picture(page, output, job);
@@ -258,7 +270,9 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
         }
         fputs(".</p>\n", page);
     }
-    fprintf(page, "<pre>geomint render %s ", job->scene->name);
+    fputs("<pre>geomint render ", page);
+    put_text(page, gm_figure_word(job));
+    fputs(" ", page);
     put_text(page, job->arguments);
     fputs("</pre>\n", page);
     if (outcome->progress == GM_MADE) {
@@ -285,8 +299,14 @@ static struct sum sum_of(const struct gm_figure_job *jobs, const struct gm_outco
     return sum;
 }
 
+/* What systems of somebody's own stand under. */
+static const struct gm_document own_systems = {.prefix = "own", .citation = "Systems of your own"};
+
 static bool is_of(const struct gm_document *document, const struct gm_figure_job *job)
 {
+    if (document == &own_systems || gm_figure_is_own(job)) {
+        return document == &own_systems && gm_figure_is_own(job);
+    }
     const size_t length = strlen(document->prefix);
     return strncmp(job->figure->name, document->prefix, length) == 0 && job->figure->name[length] == '-';
 }
@@ -302,11 +322,13 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
         }
         const struct sum sum = sum_of(&jobs[i], &outcomes[i], 1);
         fprintf(page, "<li><a href=\"#%s\">", jobs[i].figure->name);
-        put_title(page, jobs[i].figure->name);
+        put_title(page, &jobs[i]);
         const char *scene = jobs[i].scene->name;
         fprintf(page, "</a><span class=\"soft scene\">%s</span>",
                 strstr(jobs[i].figure->name, scene) ? "" : scene);
-        if (!sum.made) {
+        if (sum.made && gm_figure_is_own(&jobs[i])) {
+            fputs("<span>made</span>", page);
+        } else if (!sum.made) {
             fputs("<span class=\"bad\">✗ not made</span>", page);
         } else if (sum.hold + sum.fail == 0) {
             fputs("<span class=\"none\">– not judged</span>", page);
@@ -364,7 +386,10 @@ static bool put_document(FILE *page, const struct gm_figure_output *output,
     }
     fprintf(page, "<section id=\"%s\">\n<h2>", document->prefix);
     put_text(page, document->citation);
-    fprintf(page, "</h2>\n<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
+    fputs("</h2>\n", page);
+    if (document->link) {
+        fprintf(page, "<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
+    }
     put_contents(page, document, jobs, outcomes, count);
     for (size_t i = 0; i < count; i++) {
         if (is_of(document, &jobs[i])) {
@@ -393,6 +418,7 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
         for (size_t i = 0; i < gm_document_count(); i++) {
             good &= put_document(page, output, gm_document_at(i), jobs, outcomes, count);
         }
+        good &= put_document(page, output, &own_systems, jobs, outcomes, count);
         fprintf(page,
                 "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n"
                 "</html>\n",

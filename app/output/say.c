@@ -4,16 +4,22 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "render/cells/text.h"
+
+static atomic_bool complained_of_memory;
 
 __attribute__((format(printf, 3, 0))) static void put_line(FILE *stream, const char *front,
                                                            const char *format, va_list arguments)
 {
     char text[8192]; /* a path may have 4096 bytes */
     vsnprintf(text, sizeof text, format, arguments);
+    if (stream == stderr && strstr(text, "not enough memory")) {
+        atomic_store(&complained_of_memory, true);
+    }
     char *rest = text; /* a place in a text is shown on lines of its own */
     for (char *line; (line = strsep(&rest, "\n")); front = "") {
         fprintf(stream, "%s%s\n", front, gm_text_tame(line));
@@ -26,6 +32,11 @@ void gm_complain(const char *format, ...)
     va_start(arguments, format);
     put_line(stderr, "geomint: ", format, arguments);
     va_end(arguments);
+}
+
+bool gm_complained_of_memory(void)
+{
+    return atomic_load(&complained_of_memory);
 }
 
 void gm_say(const char *format, ...)

@@ -2,6 +2,8 @@
 #ifndef GM_APP_OUTPUT_SAY_H
 #define GM_APP_OUTPUT_SAY_H
 
+#include <stdbool.h>
+
 #include "app/ground/exit.h"
 
 /* What commands say, line by line. */
@@ -9,6 +11,8 @@
 /* Prints "geomint: sentence" to standard error. What a terminal would obey instead of showing it is replaced:
    sentences quote files and arguments. */
 __attribute__((format(printf, 1, 2))) void gm_complain(const char *format, ...);
+/* Whether such a sentence has spoken of memory that there was not. */
+bool gm_complained_of_memory(void);
 /* The same for a line of standard output, without a front. */
 __attribute__((format(printf, 1, 2))) void gm_say(const char *format, ...);
 

@@ -9,6 +9,7 @@
 
 #include "app/ground/arguments.h"
 #include "app/ground/exit.h"
+#include "app/ground/place.h"
 #include "app/own/found.h"
 #include "app/own/lines.h"
 #include "app/own/replacing.h"
@@ -225,6 +226,66 @@ static bool choose_mesh(const struct gm_own_system *system, int count, char *con
                      "kind of them");
 }
 
+/* The largest of the numbers that lists and sums are as long as, and where the text says it; name "": there is
+   none. */
+struct largest {
+    char name[64];
+    double value;
+    size_t place;
+};
+
+/* Where the text gives a parameter its value; 0: nowhere. */
+static size_t place_of_parameter(const char *text, const char *name)
+{
+    static const char word[] = "parameter:";
+    for (const char *line = text; line; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        const char *value = line + strlen(word);
+        if (strncmp(line, word, strlen(word)) == 0) {
+            value += strspn(value, " \t");
+            const size_t length = strlen(name);
+            if (strncmp(value, name, length) == 0 && strchr(" \t=", value[length])) {
+                return (size_t)(value - text);
+            }
+        }
+    }
+    return 0;
+}
+
+static struct largest find_largest(const struct gm_own_system *system, const char *text,
+                                   const struct gm_system_value *values, size_t count)
+{
+    struct largest largest = {.value = 0};
+    for (size_t k = system->parameters; system->variables && k < system->velocities; k++) {
+        const struct gm_system_variable *variable = &system->variables[k];
+        double value = variable->value;
+        for (size_t i = 0; i < count; i++) {
+            value = strcmp(values[i].name, variable->name) == 0 ? strtod(values[i].text, NULL) : value;
+        }
+        if (variable->fixed && value > largest.value) {
+            largest.value = value;
+            largest.place = place_of_parameter(text, variable->name);
+            snprintf(largest.name, sizeof largest.name, "%s", variable->name);
+        }
+    }
+    return largest;
+}
+
+/* Says what there is not enough memory for. */
+static void tell_memory(const struct gm_system_lines *written, const struct largest *largest, char *message)
+{
+    if (!largest->name[0] || !written->path) {
+        gm_refuse(message, "not enough memory%s",
+                  largest->name[0] ? " for lists and sums of this length" : "");
+        return;
+    }
+    size_t line, column;
+    gm_text_place(written->text, largest->place, &line, &column);
+    gm_refuse(message, "%.150s:%zu:%zu: not enough memory for %.60s = %.6g", written->path, line, column,
+              largest->name, largest->value);
+    gm_place_show(written->text, written->length, largest->place, message);
+}
+
 /* Makes a scene of the lines, or finds the one that was kept. */
 static bool make(struct gm_made_system *made, const struct gm_system_lines *written, int count,
                  char *const words[], struct gm_system_trial *trial, char *message)
@@ -240,11 +301,14 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
         trial->status = GM_EXIT_MEMORY;
         return gm_refuse(message, "not enough memory");
     }
-    if (!gm_system_read(&first, written->text, written->length, NULL, 0, &fault)) {
+    const bool read = gm_system_read(&first, written->text, written->length, NULL, 0, &fault);
+    struct largest largest = find_largest(&first, written->text, NULL, 0);
+    if (!read) {
         trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
     } else if (choose_mesh(&first, count, words, &moves, message) &&
                choose_words(made, &first, typed, count, words, values, &value_count, &trial->place,
                             message)) {
+        largest = find_largest(&first, written->text, values, value_count);
         char *all = gm_arguments_join("", &made->words);
         if (!all || asprintf(&made->key, "%d %s\n%s", moves, all, written->text) < 0) {
             made->key = NULL;
@@ -285,7 +349,7 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
         }
         trial->scene = made->scene = NULL;
         trial->status = GM_EXIT_MEMORY;
-        gm_refuse(message, "not enough memory");
+        tell_memory(written, &largest, message);
     }
     return trial->scene != NULL;
 }

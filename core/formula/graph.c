@@ -409,6 +409,14 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
     return intern(graph, (struct gm_node){.operation = operation, .a = a, .b = b});
 }
 
+gm_node_id gm_simplified(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    graph->simplifies = true;
+    const gm_node_id node = gm_formula_apply(graph, operation, a, b);
+    graph->simplifies = false;
+    return node;
+}
+
 void gm_formula_evaluate_parts(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
                                const double *variables, double *values)
 {

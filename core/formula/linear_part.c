@@ -8,14 +8,6 @@ struct parts {
     gm_node_id line, rest;
 };
 
-static gm_node_id combine(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
-{
-    graph->simplifies = true;
-    const gm_node_id made = gm_formula_apply(graph, operation, a, b);
-    graph->simplifies = false;
-    return made;
-}
-
 static struct parts split(struct gm_formula *graph, gm_node_id node, const struct parts *of,
                           const bool *fields, const bool *constant)
 {
@@ -33,18 +25,18 @@ static struct parts split(struct gm_formula *graph, gm_node_id node, const struc
         return (struct parts){node, zero};
     }
     if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT) {
-        return (struct parts){combine(graph, operation, a.line, b.line),
-                              combine(graph, operation, a.rest, b.rest)};
+        return (struct parts){gm_simplified(graph, operation, a.line, b.line),
+                              gm_simplified(graph, operation, a.rest, b.rest)};
     }
     if (operation == GM_OPERATION_NEGATE) {
-        return (struct parts){combine(graph, operation, a.line, a.line),
-                              combine(graph, operation, a.rest, a.rest)};
+        return (struct parts){gm_simplified(graph, operation, a.line, a.line),
+                              gm_simplified(graph, operation, a.rest, a.rest)};
     }
     if (operation > GM_VARIABLE && !constant[node] && (by_left || by_right)) {
-        return by_left ? (struct parts){combine(graph, operation, a.line, made.b),
-                                        combine(graph, operation, a.rest, made.b)}
-                       : (struct parts){combine(graph, operation, made.a, b.line),
-                                        combine(graph, operation, made.a, b.rest)};
+        return by_left ? (struct parts){gm_simplified(graph, operation, a.line, made.b),
+                                        gm_simplified(graph, operation, a.rest, made.b)}
+                       : (struct parts){gm_simplified(graph, operation, made.a, b.line),
+                                        gm_simplified(graph, operation, made.a, b.rest)};
     }
     return (struct parts){zero, node};
 }

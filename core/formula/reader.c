@@ -2,6 +2,7 @@
 /* The reader of formulas: one table of priorities and one recursive function, of bounded depth. */
 #include "core/formula/reader.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -269,6 +270,10 @@ static gm_node_id read_number(struct reader *reader)
     if (copy != brief) {
         free(copy);
     }
+    if (isinf(value)) {
+        return fail(reader, begin, "%.*s is beyond the largest number, %.2g",
+                    (int)(at - begin < 30 ? at - begin : 30), text + begin, DBL_MAX);
+    }
     reader->at = at;
     const char next = at < reader->end ? text[at] : '\0';
     if (gm_is_letter(next)) {
@@ -504,6 +509,9 @@ static gm_node_id read_operand(struct reader *reader)
             return expected(reader, ")");
         }
         return node;
+    }
+    if (next == '*' && reader->at > 0 && reader->text[reader->at - 1] == '*') {
+        return fail(reader, reader->at - 1, "a power is written with ^, not with **");
     }
     return expected(reader, "a number, a name or (");
 }

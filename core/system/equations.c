@@ -12,17 +12,9 @@
 #include "core/system/legendre.h"
 #include "core/system/said.h"
 
-static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
-{
-    system->graph.simplifies = true;
-    const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
-    system->graph.simplifies = false;
-    return node;
-}
-
 static gm_node_id add_force(struct gm_own_system *system, gm_node_id rate, gm_node_id force)
 {
-    return force == GM_NO_NODE ? rate : apply(system, GM_OPERATION_ADD, rate, force);
+    return force == GM_NO_NODE ? rate : gm_simplified(&system->graph, GM_OPERATION_ADD, rate, force);
 }
 
 /* the gradient of a node over all variables; malloc'ed */
@@ -48,9 +40,9 @@ static void derive_poisson(struct gm_own_system *system, const gm_node_id *gradi
         for (size_t k = 0; k < n; k++) {
             const gm_node_id entry = system->bracket[i * n + k];
             system->graph.origin = gm_formula_origin(&system->graph, entry);
-            const gm_node_id term = apply(system, GM_OPERATION_MULTIPLY, entry, gradient[k]);
+            const gm_node_id term = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, entry, gradient[k]);
             system->graph.origin = GM_NO_PLACE;
-            system->rates[i] = apply(system, GM_OPERATION_ADD, system->rates[i], term);
+            system->rates[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, system->rates[i], term);
         }
     }
 }
@@ -85,8 +77,9 @@ static bool derive(struct gm_own_system *system)
     if (system->kind == GM_CANONICAL && !system->graph.failed) {
         for (size_t i = 0; i < half; i++) {
             system->rates[i] = gradient[half + i];
-            system->rates[half + i] = add_force(system, apply(system, GM_OPERATION_NEGATE, gradient[i], 0),
-                                                system->variables[i].force);
+            system->rates[half + i] =
+                add_force(system, gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0),
+                          system->variables[i].force);
         }
     } else if (system->kind == GM_LAGRANGIAN && !system->graph.failed) {
         derive_lagrangian(system, gradient);
@@ -96,7 +89,7 @@ static bool derive(struct gm_own_system *system)
         memcpy(system->rates, gradient, system->n * sizeof *gradient);
     } else if (system->kind == GM_FIELD && !system->graph.failed) {
         system->rates[0] = gm_formula_variable(&system->graph, 1);
-        system->rates[1] = apply(system, GM_OPERATION_NEGATE, gradient[0], 0);
+        system->rates[1] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[0], 0);
     }
     free(gradient);
     bool *marked = calloc(system->variable_count, sizeof *marked);
@@ -216,7 +209,8 @@ static gm_node_id jacobi_sum(struct gm_own_system *system, const size_t triple[3
         memcpy(direction, &system->bracket[a * n], n * sizeof *direction);
         direction[n] = gm_formula_constant(&system->graph, 0);
         if (varies(system, b, c)) {
-            sum = apply(system, GM_OPERATION_ADD, sum, along(system, system->bracket[b * n + c], direction));
+            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum,
+                                along(system, system->bracket[b * n + c], direction));
         }
     }
     return sum;
@@ -305,8 +299,9 @@ static enum gm_identity check_work(struct gm_own_system *system, const struct gm
     for (size_t i = 0; i < system->n / 2 && !system->graph.failed; i++) {
         const gm_node_id force = system->variables[i].force;
         if (force != GM_NO_NODE) {
-            work = apply(system, GM_OPERATION_ADD, work,
-                         apply(system, GM_OPERATION_MULTIPLY, force, symmetry->nodes[i]));
+            work = gm_simplified(
+                &system->graph, GM_OPERATION_ADD, work,
+                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force, symmetry->nodes[i]));
         }
     }
     return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
@@ -329,7 +324,8 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
             memcpy(direction, system->rates, n * sizeof *direction);
             direction[n] = gm_formula_constant(&system->graph, 1);
             const gm_node_id other = along(system, item->nodes[i], direction);
-            *broken = (struct broken){"the motion", apply(system, GM_OPERATION_SUBTRACT, one, other)};
+            *broken = (struct broken){"the motion",
+                                      gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, one, other)};
             const enum gm_identity found = gm_equations_vanishes(system, broken->node);
             all = found == GM_ZERO_PROVED ? all : found;
         }
@@ -340,23 +336,27 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
     gm_node_id *gradient = gradient_of(system, system->energy);
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
         const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
-        map = apply(system, GM_OPERATION_ADD, map,
-                    apply(system, GM_OPERATION_MULTIPLY, momentum, item->nodes[i]));
-        change = apply(system, GM_OPERATION_ADD, change,
-                       apply(system, GM_OPERATION_MULTIPLY, gradient[i], item->nodes[i]));
+        map = gm_simplified(&system->graph, GM_OPERATION_ADD, map,
+                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, momentum, item->nodes[i]));
+        change =
+            gm_simplified(&system->graph, GM_OPERATION_ADD, change,
+                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[i], item->nodes[i]));
     }
     /* of H by the lift to momenta, -p dX/dq; of L by that to velocities, dX/dq v */
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
         gm_node_id *slopes = gradient_of(system, system->kind == GM_CANONICAL ? map : item->nodes[i]);
         for (size_t k = 0; k < half && !system->graph.failed; k++) {
             if (system->kind == GM_CANONICAL && i == 0) {
-                change = apply(system, GM_OPERATION_SUBTRACT, change,
-                               apply(system, GM_OPERATION_MULTIPLY, gradient[half + k], slopes[k]));
+                change = gm_simplified(
+                    &system->graph, GM_OPERATION_SUBTRACT, change,
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[half + k], slopes[k]));
             } else if (system->kind == GM_LAGRANGIAN) {
-                const gm_node_id moved = apply(system, GM_OPERATION_MULTIPLY, slopes[k],
-                                               gm_formula_variable(&system->graph, system->velocities + k));
-                change = apply(system, GM_OPERATION_ADD, change,
-                               apply(system, GM_OPERATION_MULTIPLY, gradient[system->velocities + i], moved));
+                const gm_node_id moved =
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, slopes[k],
+                                  gm_formula_variable(&system->graph, system->velocities + k));
+                change = gm_simplified(&system->graph, GM_OPERATION_ADD, change,
+                                       gm_simplified(&system->graph, GM_OPERATION_MULTIPLY,
+                                                     gradient[system->velocities + i], moved));
             }
         }
         free(slopes);
@@ -836,8 +836,10 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
     bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
     for (size_t i = 0; values && good && i < system->n; i++) {
+        const gm_node_id given = system->variables[i].start;
         good = isfinite(start[i]) ||
-               gm_fail(fault, 0, "%.60s is not finite at the start", system->variables[i].name);
+               gm_fail(fault, given != GM_NO_NODE ? first_not_finite(system, given, values) : 0,
+                       "%.60s is not finite at the start", system->variables[i].name);
     }
     if (values && good && has(system, GM_WORD_CONSTRAINT)) {
         good = check_constraints(system, start, fault);
@@ -1044,7 +1046,8 @@ static bool is_skew(struct gm_own_system *system, size_t which, struct gm_fault 
                     return gm_fail(fault, places[at], "an entry of %s is no finite number", names[which]);
                 }
             }
-            const gm_node_id sum = apply(system, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
+            const gm_node_id sum =
+                gm_simplified(&system->graph, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
             if (system->graph.failed) {
                 return false;
             }

@@ -46,14 +46,6 @@ static bool depends(struct gm_own_system *system, gm_node_id node, const bool *m
     return gm_formula_holds(&system->graph, node, marked, system->variable_count);
 }
 
-static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
-{
-    system->graph.simplifies = true;
-    const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
-    system->graph.simplifies = false;
-    return node;
-}
-
 /* Whether the node holds a kink, or a root that may be one, that depends on each of the sets: there derivatives
    vanish on both sides, and say nothing. */
 static bool has_kink(struct gm_own_system *system, gm_node_id node, const bool *const *sets, size_t depth)
@@ -125,25 +117,26 @@ static struct term *terms_of(struct gm_own_system *system, gm_node_id root, cons
         switch (is_last ? GM_CONSTANT : here.operation) {
         case GM_OPERATION_ADD:
         case GM_OPERATION_SUBTRACT:
-            stack[depth++] =
-                (struct term){here.b, here.operation == GM_OPERATION_ADD
-                                          ? top.coefficient
-                                          : apply(system, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] = (struct term){
+                here.b, here.operation == GM_OPERATION_ADD
+                            ? top.coefficient
+                            : gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
             stack[depth++] = (struct term){here.a, top.coefficient};
             continue;
         case GM_OPERATION_NEGATE:
-            stack[depth++] = (struct term){here.a, apply(system, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] =
+                (struct term){here.a, gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
             continue;
         case GM_OPERATION_MULTIPLY:
         case GM_OPERATION_DIVIDE:
             if (!dependent[here.b]) {
-                stack[depth++] =
-                    (struct term){here.a, apply(system, here.operation, top.coefficient, here.b)};
+                stack[depth++] = (struct term){
+                    here.a, gm_simplified(&system->graph, here.operation, top.coefficient, here.b)};
                 continue;
             }
             if (here.operation == GM_OPERATION_MULTIPLY && !dependent[here.a]) {
-                stack[depth++] =
-                    (struct term){here.b, apply(system, GM_OPERATION_MULTIPLY, top.coefficient, here.a)};
+                stack[depth++] = (struct term){
+                    here.b, gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, top.coefficient, here.a)};
                 continue;
             }
             break;
@@ -261,16 +254,18 @@ static bool is_of_unit_mass(struct gm_own_system *system, const struct gm_findin
     for (size_t i = 0; i < half && finding->holds && !system->graph.failed; i++) {
         const gm_node_id p = gm_formula_variable(&system->graph, first + i);
         const gm_node_id slope = lagrangian ? system->momenta[i] : system->rates[i];
-        conclude(finding, gm_equations_vanishes(system, apply(system, GM_OPERATION_SUBTRACT, slope, p)));
+        conclude(finding, gm_equations_vanishes(
+                              system, gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, slope, p)));
         size_t count = 0;
         struct term *terms = finding->holds ? NULL : terms_of(system, system->energy, all, &count);
         own[first + i] = true;
         finding->why = lagrangian ? "is not of |v|^2/2" : "is not of |p|^2/2";
         for (size_t k = 0; k < count && k < MOST_TRIED && finding->term == GM_NO_NODE; k++) {
             if (depends(system, terms[k].node, own)) {
-                const gm_node_id part = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient,
-                                              slope_of(system, terms[k].node, own, first + i));
-                const gm_node_id rest = apply(system, GM_OPERATION_SUBTRACT, part, p);
+                const gm_node_id part =
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                                  slope_of(system, terms[k].node, own, first + i));
+                const gm_node_id rest = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, part, p);
                 finding->term =
                     gm_equations_vanishes(system, rest) == GM_NOT_ZERO ? terms[k].node : GM_NO_NODE;
             }
@@ -302,8 +297,8 @@ static gm_node_id at_zero(struct gm_own_system *system, gm_node_id node, size_t 
 static gm_node_id potential_of(struct gm_own_system *system)
 {
     return system->kind == GM_LAGRANGIAN
-               ? apply(system, GM_OPERATION_NEGATE,
-                       at_zero(system, system->energy, system->velocities, system->n / 2), 0)
+               ? gm_simplified(&system->graph, GM_OPERATION_NEGATE,
+                               at_zero(system, system->energy, system->velocities, system->n / 2), 0)
                : at_zero(system, system->energy, system->n / 2, system->n / 2);
 }
 
@@ -327,7 +322,7 @@ static void forces_of(struct gm_own_system *system, gm_node_id node, const bool 
     gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
     if (gradient && gm_gradient(&system->graph, node, q, system->variable_count, gradient)) {
         for (size_t i = 0; i < system->n / 2; i++) {
-            forces[i] = apply(system, GM_OPERATION_NEGATE, gradient[i], 0);
+            forces[i] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0);
         }
     }
     system->graph.failed |= !gradient;
@@ -366,8 +361,8 @@ static struct well *wells_of(struct gm_own_system *system, const struct term *te
         }
         const size_t i = well->coordinate;
         own[i] = true;
-        well->slope = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient,
-                            slope_of(system, terms[k].node, own, i));
+        well->slope = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                                    slope_of(system, terms[k].node, own, i));
         well->stiffness = slope_of(system, well->slope, own, i);
         own[i] = false;
         well->coordinate = depends(system, well->stiffness, all) ? SIZE_MAX : i;
@@ -395,12 +390,14 @@ static void find_fast_linear(struct gm_own_system *system, struct gm_finding *fi
     for (size_t k = 0; k < count && !graph->failed; k++) {
         const size_t i = wells[k].coordinate;
         if (i == SIZE_MAX || !(values[wells[k].stiffness] > 0)) {
-            slow = apply(system, GM_OPERATION_ADD, slow,
-                         apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node));
+            slow = gm_simplified(
+                &system->graph, GM_OPERATION_ADD, slow,
+                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node));
             continue;
         }
-        squares[i] = apply(system, GM_OPERATION_ADD, squares[i], wells[k].stiffness);
-        rest[i] = apply(system, GM_OPERATION_ADD, rest[i], at_zero(system, wells[k].slope, i, 1));
+        squares[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, squares[i], wells[k].stiffness);
+        rest[i] =
+            gm_simplified(&system->graph, GM_OPERATION_ADD, rest[i], at_zero(system, wells[k].slope, i, 1));
         frequencies++;
     }
     if (frequencies == 0 && !graph->failed) {
@@ -412,8 +409,9 @@ static void find_fast_linear(struct gm_own_system *system, struct gm_finding *fi
     } else if (!graph->failed) {
         forces_of(system, slow, q, nodes + half);
         for (size_t i = 0; i < half; i++) {
-            nodes[i] = squares[i] == zero ? zero : apply(system, GM_OPERATION_SQRT, squares[i], 0);
-            nodes[half + i] = apply(system, GM_OPERATION_SUBTRACT, nodes[half + i], rest[i]);
+            nodes[i] =
+                squares[i] == zero ? zero : gm_simplified(&system->graph, GM_OPERATION_SQRT, squares[i], 0);
+            nodes[half + i] = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, nodes[half + i], rest[i]);
         }
         finding->nodes = nodes;
     }
@@ -430,24 +428,28 @@ static void find_kepler_split(struct gm_own_system *system, struct gm_finding *f
     size_t count = 0;
     struct term *terms = terms_of(system, potential, all, &count);
     const gm_node_id x = gm_formula_variable(&system->graph, 0), y = gm_formula_variable(&system->graph, 1);
-    const gm_node_id square = apply(system, GM_OPERATION_ADD, apply(system, GM_OPERATION_MULTIPLY, x, x),
-                                    apply(system, GM_OPERATION_MULTIPLY, y, y));
-    const gm_node_id inverse = apply(system, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
-                                     apply(system, GM_OPERATION_SQRT, square, 0));
+    const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_ADD,
+                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, x, x),
+                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, y, y));
+    const gm_node_id inverse =
+        gm_simplified(&system->graph, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
+                      gm_simplified(&system->graph, GM_OPERATION_SQRT, square, 0));
     gm_node_id perturbation = gm_formula_constant(&system->graph, 0), other = GM_NO_NODE;
     bool found = false;
     for (size_t k = 0; k < count && !system->graph.failed; k++) {
-        const gm_node_id term = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node);
+        const gm_node_id term =
+            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node);
         const bool held = depends(system, terms[k].node, q);
         const enum gm_identity is_kepler =
             found || !held || k >= MOST_TRIED
                 ? GM_NOT_ZERO
-                : gm_equations_vanishes(system, apply(system, GM_OPERATION_ADD, term, inverse));
+                : gm_equations_vanishes(system,
+                                        gm_simplified(&system->graph, GM_OPERATION_ADD, term, inverse));
         if (is_kepler == GM_ZERO_PROVED || is_kepler == GM_ZERO_TESTED) {
             conclude(finding, is_kepler);
             found = true;
         } else {
-            perturbation = apply(system, GM_OPERATION_ADD, perturbation, term);
+            perturbation = gm_simplified(&system->graph, GM_OPERATION_ADD, perturbation, term);
             other = held && other == GM_NO_NODE ? terms[k].node : other;
         }
     }
@@ -499,14 +501,16 @@ static void find_conformal(struct gm_own_system *system, struct gm_finding *find
         }
         if (i == 0) {
             own[first] = true;
-            nodes[0] = apply(system, GM_OPERATION_NEGATE,
-                             apply(system, GM_OPERATION_DIVIDE, slope_of(system, force, own, first),
-                                   slope_of(system, p, own, first)),
-                             0);
+            nodes[0] = gm_simplified(&system->graph, GM_OPERATION_NEGATE,
+                                     gm_simplified(&system->graph, GM_OPERATION_DIVIDE,
+                                                   slope_of(system, force, own, first),
+                                                   slope_of(system, p, own, first)),
+                                     0);
             own[first] = false;
         }
         const gm_node_id rest =
-            apply(system, GM_OPERATION_ADD, force, apply(system, GM_OPERATION_MULTIPLY, nodes[0], p));
+            gm_simplified(&system->graph, GM_OPERATION_ADD, force,
+                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, nodes[0], p));
         conclude(finding, gm_equations_vanishes(system, rest));
         own[system->n] = true;
         const bool varies = depends(system, nodes[0], all) || depends(system, nodes[0], own);
@@ -583,9 +587,7 @@ static void find_of_rates(struct gm_own_system *system, struct gm_finding *findi
             volume->term = volume->holds ? GM_NO_NODE : culprit(system, rate, components, once, 1);
         }
         if (gm_gradient(&system->graph, rate, own, system->variable_count, gradient)) {
-            system->graph.simplifies = true;
-            sum = gm_formula_apply(&system->graph, GM_OPERATION_ADD, sum, gradient[i]);
-            system->graph.simplifies = false;
+            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum, gradient[i]);
         }
         own[i] = false;
     }

@@ -64,14 +64,6 @@ static gm_node_id over(struct gm_own_system *system, gm_node_id node, size_t var
     return result;
 }
 
-static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
-{
-    system->graph.simplifies = true;
-    const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
-    system->graph.simplifies = false;
-    return node;
-}
-
 /* With u at the start, f = V'(u), f' = V'', f'' = V''':
        u_tt   = u_xx - f
        u_ttt  = (u_t)_xx - f' u_t
@@ -92,14 +84,15 @@ static void derive_start(struct gm_own_wave *wave, struct gm_own_system *system)
         const gm_node_id bend = over(system, over(system, at[k - 2], x), x);
         gm_node_id rate = force[F];
         if (k > 2) {
-            rate = apply(system, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
+            rate = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
         }
         if (k == 4) {
-            const gm_node_id square = apply(system, GM_OPERATION_MULTIPLY, at[1], at[1]);
-            rate = apply(system, GM_OPERATION_ADD, rate,
-                         apply(system, GM_OPERATION_MULTIPLY, force[F2], square));
+            const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, at[1], at[1]);
+            rate = gm_simplified(&system->graph, GM_OPERATION_ADD, rate,
+                                 gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F2], square));
         }
-        at[k] = system->graph.failed ? GM_NO_NODE : apply(system, GM_OPERATION_SUBTRACT, bend, rate);
+        at[k] = system->graph.failed ? GM_NO_NODE
+                                     : gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, bend, rate);
     }
 }
 

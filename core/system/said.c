@@ -140,9 +140,7 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
     }
     *entry = node;
     system->bracket_place = piece.begin;
-    system->graph.simplifies = true;
-    *opposite = gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, node, node);
-    system->graph.simplifies = false;
+    *opposite = gm_simplified(&system->graph, GM_OPERATION_NEGATE, node, node);
     return true;
 }
 

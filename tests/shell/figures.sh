@@ -40,6 +40,21 @@ for one in figures:
             assert inside == (statement["verdict"] == "holds"), statement
 END
 
+# a system of one's own among them: nothing says what has to come out, its numbers are there
+printf 'title: Two & one\nabout: A spring.\ncoordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\n' >spring.system
+timeout 600 "$geomint" figures ./spring.system razafindralandy-5 --quick --out own >out 2>err || fail "figures of a system: $(cat err)"
+for wanted in 'id="spring"' 'Two &amp; one</a> <span class="soft">./spring.system' 'geomint render ./spring.system' 'id="razafindralandy-5"' \
+    '<td>verlet<td>'; do
+    grep -q -- "$wanted" own/figures.html || fail "the page of a system lacks $wanted"
+done
+[ -s own/spring.png ] && [ -s own/spring-dark.png ] || fail 'a system has no picture'
+"$geomint" again own/spring.png -o again.png 2>err && cmp -s again.png own/spring.png || fail "a system's figure again: $(cat err)"
+mkdir -p other
+cp spring.system other
+refused 1 'would have one name' figures ./spring.system other/spring.system
+refused 3 'nosuch.system could not be read' figures ./nosuch.system
+refused 1 'there is no figure "kepler"' figures kepler
+
 # a name up to a hyphen names several
 timeout 600 "$geomint" figures razafindralandy-34 --quick --out two >out 2>err || fail "razafindralandy-34: $(cat err)"
 [ "$(grep -c '^razafindralandy-34-' out)" = 2 ] || fail 'razafindralandy-34 are two figures'

@@ -125,6 +125,30 @@ grep -q 'the step after t = 1.0[0-9]* was not found: the monitor, how dense step
     fail "no word of the monitor: $(cat out)"
 
 refused 1 'there is no scheme "verlett"; did you mean verlet$' run kepler scheme=verlett
+# a lane freezes with what was not finite, also where a step bends there and the slope does not lead, of any member
+bends() { # SCHEME MEMBERS
+    printf 'coordinates: q\nH: p_q^2/2 + sqrt(1 - q)\nstart: q = 0, p_q = 1\n' >bends.system
+    "$geomint" run ./bends.system scheme="$1" members="$2" dt=0.2 >out 2>err
+    [ $? = 2 ] || fail "$1: a root of what is negative is no failure"
+    grep -q 'led to no number: sqrt(1 - q) is not finite where 1 - q = -0\.' out || fail "$1 of $2: $(cat out)"
+}
+bends verlet 1
+bends verlet 5
+bends rk4 1
+bends gauss4 1
+printf 'rate: x = 1/sqrt(2 - t)\nstart: x = 2\n' >late.system
+"$geomint" run ./late.system scheme=rk4 dt=0.15 >out 2>err
+grep -q 'sqrt(2 - t) is not finite where 2 - t = -0.00625' out || fail "the time of a stage: $(cat out)"
+misplaced '3:21: p_x is not finite at the start' '' 'x = 1, p_x = 0/0'
+# where memory is short one sentence says for what
+(
+    ulimit -v 200000
+    "$geomint" --help >/dev/null 2>&1 || exit 0 # a sanitizer wants more
+    failures=0
+    refused 5 'lennard-jones.system:[0-9]*:12: not enough memory for N = 300' run lennard-jones N=300
+    exit "$failures"
+) || failures=$((failures + 1))
+
 printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.system
 "$geomint" list bbm --latex | grep -qF '\partial_t\left(u - u_{xx}\right) &= -u_{x} - u\,u_{x}' || fail "list bbm --latex: no mass"
 "$geomint" list kink.system --latex | grep -qF '2\,\left[x < 0\right]' || fail "the derivative of |x| in LaTeX"

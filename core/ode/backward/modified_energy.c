@@ -163,10 +163,8 @@ static bool open_formula(struct gm_modified_energy *energy, const struct gm_prob
     }
     if (good) {
         energy->weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
-        graph.simplifies = true;
-        node = gm_formula_apply(&graph, GM_OPERATION_MULTIPLY, gm_formula_constant(&graph, energy->weight),
-                                node);
-        graph.simplifies = false;
+        node =
+            gm_simplified(&graph, GM_OPERATION_MULTIPLY, gm_formula_constant(&graph, energy->weight), node);
         good = !graph.failed && field_of(&graph, node, n, field);
     }
     int most = 0;

@@ -10,12 +10,14 @@
 #include "core/clones.h"
 #include "core/ode/kernel/loops.h"
 
-enum { MOST_MEMBERS = 192, IN_CACHE = 4096 };
+/* The most members are 31 lines of the cache: rows that are a power of two apart would be in each other's way. */
+enum { MOST_MEMBERS = 248, IN_CACHE = 4096, LINE = 64 };
 
+/* The rows of a tile begin where lines of the cache do: else every register that is loaded lies in two of them. */
 struct tiles {
     size_t members; /* of a tile */
     double *y, *carry, *scratch, *shared;
-    double room[];
+    _Alignas(LINE) double room[];
 };
 
 static size_t members_of(const struct gm_problem *problem)
@@ -29,8 +31,8 @@ void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t sha
 {
     const size_t members = members_of(problem);
     const size_t gathered = members < problem->m ? problem->n * members : 0;
-    struct tiles *tiles =
-        malloc(sizeof *tiles + (2 * gathered + scratch * members + shared) * sizeof(double));
+    const size_t size = sizeof(struct tiles) + (2 * gathered + scratch * members + shared) * sizeof(double);
+    struct tiles *tiles = aligned_alloc(LINE, (size + LINE - 1) / LINE * LINE);
     if (tiles) {
         tiles->members = members;
         tiles->y = tiles->room;

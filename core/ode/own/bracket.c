@@ -174,19 +174,17 @@ static void open_piece(struct gm_own_piece *piece, struct gm_own_system *system,
     bool *moving = calloc(system->variable_count, sizeof *moving), *dependent = NULL;
     piece->rates = malloc((n + 1) * sizeof *piece->rates);
     graph->failed |= !moving || !piece->rates;
-    graph->simplifies = true;
     for (size_t i = 0; !graph->failed && i < n; i++) {
         moving[i] = group[i] != which;
         piece->rates[i] = gm_formula_constant(graph, 0);
         for (size_t k = 0; k < n; k++) {
             if (group[k] == which) {
-                piece->rates[i] = gm_formula_apply(
-                    graph, GM_OPERATION_ADD, piece->rates[i],
-                    gm_formula_apply(graph, GM_OPERATION_MULTIPLY, system->bracket[i * n + k], gradient[k]));
+                const gm_node_id term =
+                    gm_simplified(graph, GM_OPERATION_MULTIPLY, system->bracket[i * n + k], gradient[k]);
+                piece->rates[i] = gm_simplified(graph, GM_OPERATION_ADD, piece->rates[i], term);
             }
         }
     }
-    graph->simplifies = false;
     if (!graph->failed &&
         gm_sparse_jacobian(graph, piece->rates, n, moving, system->variable_count, &piece->slopes)) {
         dependent = gm_formula_dependent(graph, moving, system->variable_count);

@@ -29,9 +29,9 @@ static void tell_node(const struct gm_own_system *system, gm_node_id node, const
     free(inside);
 }
 
-/* The first part of H, else of a rate, that is no number in a state; false if there is none. */
+/* The first part of H, else of a rate, that is no number in a member's state; false if there is none. */
 static bool tell_part(const struct gm_system_scene *own, const struct gm_view *view, const double *state,
-                      char *text, size_t size)
+                      size_t member, char *text, size_t size)
 {
     const struct gm_own_system *system = &own->system;
     const struct gm_formula *graph = &system->graph;
@@ -41,7 +41,8 @@ static bool tell_part(const struct gm_system_scene *own, const struct gm_view *v
     double *values = malloc((graph->count + (size_t)1) * sizeof *values);
     bool told = false;
     for (size_t i = 0; variables && i < system->variable_count; i++) {
-        variables[i] = i < system->n ? state[i * m + m - 1] : i == system->n ? view->t : NAN;
+        const bool is_time = i == system->n && !system->timed;
+        variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
     }
     for (size_t row = GM_SYSTEM_ROWS; variables && row < own->first_start; row++) {
         variables[own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
@@ -69,16 +70,16 @@ static bool tell_part(const struct gm_system_scene *own, const struct gm_view *v
     return told;
 }
 
-/* A state of a Lagrangian system, of its last member, from which it does not move on: its momenta have no
-   velocities, or no rates. */
+/* A state of a member of a Lagrangian system from which it does not move on: its momenta have no velocities, or no
+   rates. */
 static bool tell_velocities(const struct gm_system_scene *own, const struct gm_view *view,
-                            const double *state, const double *slope, char *text, size_t size)
+                            const double *state, const double *slope, size_t member, char *text, size_t size)
 {
     const size_t m = view->problem->m, half = own->system.n / 2;
     bool placed = true, moves = true, turns = true;
     for (size_t i = 0; i < 2 * half; i++) {
-        const bool finite = isfinite(slope[i * m + m - 1]);
-        placed = placed && isfinite(state[i * m + m - 1]);
+        const bool finite = isfinite(slope[i * m + member]);
+        placed = placed && isfinite(state[i * m + member]);
         moves = moves && (i >= half || finite);
         turns = turns && (i < half || finite);
     }
@@ -92,7 +93,7 @@ static bool tell_velocities(const struct gm_system_scene *own, const struct gm_v
                                  "singular)");
     for (size_t i = 0; i < half && length + 60 < size; i++) {
         length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
-                                   own->system.variables[i].name, state[i * m + m - 1]);
+                                   own->system.variables[i].name, state[i * m + member]);
     }
     return true;
 }
@@ -155,32 +156,52 @@ static void tell_rest(const struct gm_view *view, const double *slope, double *a
     }
 }
 
-void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
+/* What is no number in these states, whose slopes are `slope`; false if nothing is. */
+static bool tell_states(const struct gm_view *view, const double *states, const double *slope, char *text,
+                        size_t size)
 {
     const struct gm_system_scene *own = gm_system_scene_of(view);
-    const size_t total = view->problem->n * view->problem->m;
     const bool lagrangian = own->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
+    const size_t n = view->problem->n, m = view->problem->m;
+    for (size_t member = 0; member < m; member++) {
+        bool finite = true;
+        for (size_t i = 0; i < n; i++) {
+            finite = finite && isfinite(slope[i * m + member]);
+        }
+        if (!finite && (lagrangian ? tell_velocities(own, view, states, slope, member, text, size)
+                                   : tell_part(own, view, states, member, text, size))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Looks ahead, as stages do: along the slope, and then along the motion, which may bend to where that does not lead;
+   there over two steps, since stages overshoot. */
+void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
+{
+    enum { PARTS = 8 };
+    const struct gm_problem *problem = view->problem;
+    const size_t total = problem->n * problem->m;
     double *slope = malloc(3 * total * sizeof *slope);
     text[0] = '\0';
     if (!slope) {
         return;
     }
     double *const ahead = slope + total, *const there = ahead + total;
+    gm_field(problem, view->state, slope, problem->m);
     memcpy(ahead, view->state, total * sizeof *ahead);
-    gm_field(view->problem, view->state, slope, view->problem->m);
-    for (int part = 0; part <= 4; part++) { /* stages look ahead */
-        for (size_t i = 0; i < total && part > 0; i++) {
-            ahead[i] = view->state[i] + view->dt * part / 4 * slope[i];
+    bool told = tell_states(view, ahead, slope, text, size);
+    for (int part = 1; part <= 3 * PARTS && !told; part++) {
+        const bool from_here = part <= PARTS + 1;
+        const double h = view->dt * (part <= PARTS ? part : 1) / PARTS;
+        for (size_t i = 0; i < total; i++) {
+            ahead[i] = from_here ? view->state[i] + h * slope[i] : ahead[i] + h * there[i];
         }
-        if (lagrangian) {
-            gm_field(view->problem, ahead, there, view->problem->m);
-        }
-        if (lagrangian ? tell_velocities(own, view, ahead, there, text, size)
-                       : tell_part(own, view, ahead, text, size)) {
-            break;
-        }
+        gm_field(problem, ahead, there, problem->m);
+        told = tell_states(view, ahead, there, text, size);
     }
-    if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
+    if (!told && (view->scheme->needs & GM_NEEDS_MONITOR)) {
         tell_monitor(view, slope, ahead, text, size);
     }
     if (!text[0] && (view->scheme->needs & GM_NEEDS_ATTRACTION)) {
