@@ -2,7 +2,8 @@
 /* Both engines side by side: the same bits of every state and of every count, by all schemes that have a loop
    over kernels, alone and in ensembles, on the systems that the program brings and on random formulas; and
    what becomes of a cache, a compiler and an entry that are not as they should be. Usage: unit_native KERNELS
-   SYSTEMS [all] [COMPILER]; with a compiler of that name as the system's, the engines alone are compared. */
+   SYSTEMS [all] [baseline] [COMPILER]; with a compiler of that name as the system's, or as if the processor had
+   no other instructions than the baseline's, the engines alone are compared. */
 #include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
@@ -35,12 +36,20 @@
 enum { MEMBERS = 13, STEPS = 37 };
 
 static const char *kernels, *systems, *compiler;
-static bool all;
+static bool all, baseline;
 static char heard[GM_MESSAGE], folder[4096];
 
 static void hear(const char *sentence)
 {
     snprintf(heard, sizeof heard, "%s", sentence);
+}
+
+/* The linker puts it in the place of the program's. */
+enum gm_isa __real_gm_isa_best(void);
+enum gm_isa __wrap_gm_isa_best(void);
+enum gm_isa __wrap_gm_isa_best(void)
+{
+    return baseline ? GM_ISA_BASELINE : __real_gm_isa_best();
 }
 
 /* A compiler that is a script. */
@@ -676,8 +685,12 @@ int main(int argc, char *argv[])
     kernels = argc > 1 ? argv[1] : ".";
     systems = argc > 2 ? argv[2] : "share/systems";
     setenv("GEOMINT_SYSTEMS", systems, 1);
-    all = argc > 3 && strcmp(argv[3], "all") == 0;
-    compiler = argc > 3 + all ? argv[3 + all] : NULL;
+    for (int i = 3; i < argc; i++) {
+        const bool is_all = strcmp(argv[i], "all") == 0, is_baseline = strcmp(argv[i], "baseline") == 0;
+        all |= is_all;
+        baseline |= is_baseline;
+        compiler = is_all || is_baseline ? compiler : argv[i];
+    }
     if (compiler && !gm_program_find(compiler, path, &about)) {
         printf("there is no %s here\n", compiler);
         return 77;
@@ -698,6 +711,6 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
         cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
     };
-    const int failed = compiler ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
+    const int failed = compiler || baseline ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }
