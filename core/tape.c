@@ -15,6 +15,7 @@ enum {
     LEAST_BATCH = 16,
     LEAST_RUN = 12,     /* operands in a row: fewer are gathered with what stands beside them */
     LEAST_SUM = 8,      /* terms: fewer are added one by one */
+    LEAST_ROWS = 100,   /* operations: of shorter code there is none in rows for one state */
     LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
 };
 
@@ -65,6 +66,7 @@ struct writing {
     size_t number_count;                /* of values as they were found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
+    size_t least_rolled; /* values: fewer stay in the order of the formula */
     bool rolled;
     /* of values: register, last group that needs it, and, of those that are computed, stretch */
     uint32_t *place, *last, *home;
@@ -158,7 +160,7 @@ static void find_constants(struct writing *writing, const gm_node_id *nodes, siz
     }
     writing->one = inverts ? constant(writing, 1) : NONE;
     writing->zero = NONE;
-    if (writing->part_count >= LEAST_ROLLED) {
+    if (writing->part_count >= writing->least_rolled) {
         writing->zero = constant(writing, 0.0);
         constant(writing, -0.0);
     }
@@ -845,11 +847,12 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
     put_copies(writing, nodes, count);
 }
 
-bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
-                  size_t inputs, const double *values)
+/* In rows where there are `least` values or more, and most of them share a group. */
+static bool open_code(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes,
+                      size_t count, size_t inputs, const double *values, size_t least)
 {
     *tape = (struct gm_tape){.inputs = inputs, .outputs = count, .first_used = inputs};
-    struct writing writing = {.tape = tape, .graph = graph};
+    struct writing writing = {.tape = tape, .graph = graph, .least_rolled = least};
     writing.parts = gm_formula_parts_of(graph, nodes, count, &writing.part_count);
     const size_t room =
         writing.parts && writing.part_count > 0 ? writing.parts[writing.part_count - 1] + (size_t)1 : 1;
@@ -865,7 +868,7 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     writing.number_count = writing.value_count;
     writing.groups = malloc((writing.value_count + 1) * sizeof *writing.groups);
     writing.failed |= !writing.groups;
-    if (!writing.failed && writing.value_count < LEAST_ROLLED) {
+    if (!writing.failed && (writing.value_count < least || writing.zero == NONE)) {
         find_groups(&writing);
     } else if (!writing.failed && roll(&writing, nodes, count)) {
         order_by_need(&writing);
@@ -896,7 +899,24 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     free(writing.stretches);
     free(writing.free[0]);
     free(writing.free[1]);
+    tape->rolled = writing.rolled;
     return !writing.failed;
+}
+
+bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
+                  size_t inputs, const double *values)
+{
+    bool good = open_code(tape, graph, nodes, count, inputs, values, LEAST_ROLLED);
+    if (good && !tape->rolled && tape->length >= LEAST_ROWS) {
+        tape->rows = calloc(1, sizeof *tape->rows);
+        good = tape->rows && open_code(tape->rows, graph, nodes, count, inputs, values, LEAST_ROWS);
+        if (good && !tape->rows->rolled) {
+            gm_tape_close(tape->rows);
+            free(tape->rows);
+            tape->rows = NULL;
+        }
+    }
+    return good;
 }
 
 void gm_tape_close(struct gm_tape *tape)
@@ -906,6 +926,10 @@ void gm_tape_close(struct gm_tape *tape)
     free(tape->sums);
     free(tape->lists);
     free(tape->constants);
+    if (tape->rows) {
+        gm_tape_close(tape->rows);
+        free(tape->rows);
+    }
     *tape = (struct gm_tape){0};
 }
 
@@ -1138,20 +1162,21 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
 enum { ON_STACK = 2048, LARGEST_BLOCK = 192, IN_CACHE = 4096 };
 
 /* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
-static inline void copy_each(double *to, const double *from, size_t count)
+static inline void copy_each(double *to, size_t to_apart, const double *from, size_t from_apart, size_t count)
 {
     enum { FEW = 64 };
-    if (count > FEW) {
+    if (count > FEW && to_apart == 1 && from_apart == 1) {
         memcpy(to, from, count * sizeof *to);
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        to[i] = from[i];
+        to[i * to_apart] = from[i * from_apart];
         __asm__ volatile("");
     }
 }
 
-static void one_state(const struct gm_tape *tape, const double *inputs, double *outputs)
+static void one_state(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
+                      size_t outputs_apart)
 {
     double few[ON_STACK], *many = NULL, *r = few;
     if (tape->registers > ON_STACK) {
@@ -1159,22 +1184,29 @@ static void one_state(const struct gm_tape *tape, const double *inputs, double *
     }
     if (!r) {
         for (size_t k = 0; k < tape->outputs; k++) {
-            outputs[k] = NAN;
+            outputs[k * outputs_apart] = NAN;
         }
         return;
     }
     double *const constants = r + tape->inputs, *const results = constants + tape->constant_count;
-    copy_each(r + tape->first_used, inputs + tape->first_used,
+    copy_each(r + tape->first_used, 1, inputs + tape->first_used * inputs_apart, inputs_apart,
               tape->last_used > tape->first_used ? tape->last_used - tape->first_used : 0);
-    copy_each(constants, tape->constants, tape->constant_count);
+    copy_each(constants, 1, tape->constants, 1, tape->constant_count);
     compute(tape, r);
-    copy_each(outputs, results, tape->outputs);
+    copy_each(outputs, outputs_apart, results, 1, tape->outputs);
     free(many);
 }
 
 void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
                    size_t outputs_apart, size_t m)
 {
+    if (tape->rolled &&
+        !tape->sines) { /* its rows are as long as a block's; those of members would leave the cache */
+        for (size_t i = 0; i < m; i++) {
+            one_state(tape, inputs + i, inputs_apart, outputs + i, outputs_apart);
+        }
+        return;
+    }
     const size_t fixed = tape->inputs + tape->constant_count + tape->outputs,
                  between = tape->registers - fixed;
     size_t block = between > 0 ? IN_CACHE / between / 8 * 8 : LARGEST_BLOCK;
@@ -1214,7 +1246,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m)
 {
     if (m == 1 && !tape->sines) {
-        one_state(tape, inputs, outputs);
+        one_state(tape->rows ? tape->rows : tape, inputs, 1, outputs, 1);
     } else {
         gm_tape_block(tape, inputs, m, outputs, m, m);
     }
