@@ -15,6 +15,7 @@ enum {
     LEAST_BATCH = 16,
     LEAST_RUN = 12,     /* operands in a row: fewer are gathered with what stands beside them */
     LEAST_SUM = 8,      /* terms: fewer are added one by one */
+    LEAST_ROWS = 100,   /* operations: of shorter code there is none in rows for one state */
     LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
 };
 
@@ -23,6 +24,7 @@ enum {
 struct value {
     uint32_t operation, number, a, b;
     uint32_t level; /* one more than that of what it is made of: no two of one level need each other */
+    uint32_t shape; /* the same for those that are made in the same way, of whichever inputs and constants */
     uint32_t a_rank, b_rank;    /* of its operands, in the order of the code */
     uint32_t first_term, terms; /* of a long sum, which has no a and b; 0: it is none */
 };
@@ -57,10 +59,14 @@ struct writing {
     uint32_t zero;     /* of long code the constants 0 and, behind it, -0 */
     struct value *values;
     struct term *terms;
-    struct group *groups; /* in the order of the code */
-    size_t number_count;  /* of values as they were found: numbers are below it */
+    uint32_t
+        *products; /* the numbers of those that powers are made of, by what they are of; 0: a free place */
+    size_t product_count, product_room; /* a power of two, above twice as many */
+    struct group *groups;               /* in the order of the code */
+    size_t number_count;                /* of values as they were found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
+    size_t least_rolled; /* values: fewer stay in the order of the formula */
     bool rolled;
     /* of values: register, last group that needs it, and, of those that are computed, stretch */
     uint32_t *place, *last, *home;
@@ -154,7 +160,7 @@ static void find_constants(struct writing *writing, const gm_node_id *nodes, siz
     }
     writing->one = inverts ? constant(writing, 1) : NONE;
     writing->zero = NONE;
-    if (writing->part_count >= LEAST_ROLLED) {
+    if (writing->part_count >= writing->least_rolled) {
         writing->zero = constant(writing, 0.0);
         constant(writing, -0.0);
     }
@@ -173,6 +179,48 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
     return number;
 }
 
+/* The place in a table of products for that of a and b: its own, or a free one. */
+static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32_t b)
+{
+    const size_t first = writing->tape->inputs + writing->tape->constant_count,
+                 mask = writing->product_room - 1;
+    size_t at = ((size_t)a * 0x9e3779b1 ^ (size_t)b * 0x85ebca6b) & mask;
+    while (writing->products[at] > 0 && (writing->values[writing->products[at] - first].a != a ||
+                                         writing->values[writing->products[at] - first].b != b)) {
+        at = (at + 1) & mask;
+    }
+    return &writing->products[at];
+}
+
+/* A product within a power: powers of one number share theirs. */
+static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
+{
+    if (2 * (writing->product_count + 1) > writing->product_room) {
+        const size_t room = writing->product_room;
+        uint32_t *before = writing->products;
+        writing->product_room = room > 0 ? 2 * room : 64;
+        writing->products = calloc(writing->product_room, sizeof *writing->products);
+        writing->failed |= !writing->products;
+        for (size_t i = 0; !writing->failed && i < room; i++) {
+            if (before[i] > 0) {
+                const struct value *value =
+                    &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
+                *product_place(writing, value->a, value->b) = before[i];
+            }
+        }
+        free(before);
+    }
+    if (writing->failed) {
+        return 0;
+    }
+    uint32_t *place = product_place(writing, a, b);
+    if (*place == 0) {
+        *place = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
+        writing->product_count++;
+    }
+    return *place;
+}
+
 /* x^n as gm_whole_power computes it, without its questions */
 static uint32_t power_of(struct writing *writing, uint32_t x, double n)
 {
@@ -186,8 +234,8 @@ static uint32_t power_of(struct writing *writing, uint32_t x, double n)
     }
     uint32_t power = x;
     for (bit /= 2; bit > 0; bit /= 2) {
-        power = compute_value(writing, GM_OPERATION_MULTIPLY, power, power);
-        power = whole & bit ? compute_value(writing, GM_OPERATION_MULTIPLY, power, x) : power;
+        power = product_of(writing, power, power);
+        power = whole & bit ? product_of(writing, power, x) : power;
     }
     return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, power) : power;
 }
@@ -313,31 +361,37 @@ static int compare(uint32_t a, uint32_t b)
     return (a > b) - (a < b);
 }
 
-/* Orders of the values of a level, one of which may leave rows whole. */
-static int order(const struct value *x, const struct value *y, const uint32_t keys[2][2])
+/* Orders of the values of a level that have one shape, one of which may leave rows whole. */
+static int order(const uint32_t keys[2][2])
 {
+    return keys[0][0] != keys[1][0] ? compare(keys[0][0], keys[1][0]) : compare(keys[0][1], keys[1][1]);
+}
+
+static int by_shape(const void *a, const void *b)
+{
+    const struct value *x = a, *y = b;
     return x->operation != y->operation ? compare(x->operation, y->operation)
-           : keys[0][0] != keys[1][0]   ? compare(keys[0][0], keys[1][0])
-                                        : compare(keys[0][1], keys[1][1]);
+           : x->shape != y->shape       ? compare(x->shape, y->shape)
+                                        : compare(x->number, y->number);
 }
 
 static int by_first(const void *a, const void *b)
 {
     const struct value *x = a, *y = b;
-    return order(x, y, (const uint32_t[2][2]){{x->a_rank, x->b_rank}, {y->a_rank, y->b_rank}});
+    return order((const uint32_t[2][2]){{x->a_rank, x->b_rank}, {y->a_rank, y->b_rank}});
 }
 
 static int by_second(const void *a, const void *b)
 {
     const struct value *x = a, *y = b;
-    return order(x, y, (const uint32_t[2][2]){{x->b_rank, x->a_rank}, {y->b_rank, y->a_rank}});
+    return order((const uint32_t[2][2]){{x->b_rank, x->a_rank}, {y->b_rank, y->a_rank}});
 }
 
 static int by_distance(const void *a, const void *b)
 {
     const struct value *x = a, *y = b;
     return order(
-        x, y, (const uint32_t[2][2]){{x->b_rank - x->a_rank, x->a_rank}, {y->b_rank - y->a_rank, y->a_rank}});
+        (const uint32_t[2][2]){{x->b_rank - x->a_rank, x->a_rank}, {y->b_rank - y->a_rank, y->a_rank}});
 }
 
 /* How often operands neither stay nor go on by one. */
@@ -350,7 +404,7 @@ static size_t breaks_of(const struct value *values, size_t count)
     return breaks;
 }
 
-static void sort_level(struct value *values, size_t count)
+static void sort_alike(struct value *values, size_t count)
 {
     static int (*const orders[])(const void *, const void *) = {by_first, by_second, by_distance};
     enum { ORDERS = GM_COUNT(orders), FEW = 16 };
@@ -368,13 +422,27 @@ static void sort_level(struct value *values, size_t count)
     }
 }
 
+/* What plays one part in every term of a sum comes to lie in a row, and so does what is made of it. */
+static void sort_level(struct value *values, size_t count)
+{
+    qsort(values, count, sizeof *values, by_shape);
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin + 1; end < count && values[end].operation == values[begin].operation &&
+                              values[end].shape == values[begin].shape;
+             end++) {
+        }
+        sort_alike(values + begin, end - begin);
+    }
+}
+
 /* Behind the values of the group that begins at `begin`. */
 static size_t end_of(const struct writing *writing, size_t begin)
 {
     const struct value *values = writing->values;
     size_t end = begin + 1;
     while (writing->rolled && end < writing->value_count && end - begin < LARGEST_BATCH &&
-           values[end].level == values[begin].level && values[end].operation == values[begin].operation) {
+           values[end].level == values[begin].level && values[end].operation == values[begin].operation &&
+           (values[end].shape == values[begin].shape || end - begin < LEAST_BATCH)) {
         end++;
     }
     return end - begin < LEAST_BATCH && values[begin].operation != GM_SUMMED ? begin + 1 : end;
@@ -399,13 +467,20 @@ static void sort(struct writing *writing, struct value *straight, uint32_t *rank
         if (straight[i].level == NONE) {
             continue;
         }
-        uint32_t level = 0;
+        uint32_t level = 0, shape = straight[i].operation;
         for (size_t k = 0; k < operand_count(&straight[i]); k++) {
             const uint32_t number = operand(writing, &straight[i], k),
                            below = number < fixed ? 0 : straight[number - fixed].level;
             level = below > level ? below : level;
+            if (straight[i].terms == 0) {
+                shape = shape * 0x85ebca6b + (number < writing->tape->inputs ? 1
+                                              : number < fixed               ? 2
+                                                               : straight[number - fixed].shape);
+                shape ^= shape >> 15;
+            }
         }
         straight[i].level = level + 1;
+        straight[i].shape = shape;
         counts[level + 1]++;
     }
     for (size_t level = 1; level <= all; level++) {
@@ -637,9 +712,11 @@ static size_t run_of(const struct writing *writing, const struct value *values, 
 static void put_group(struct writing *writing, const struct value *values, size_t count, uint32_t to)
 {
     for (size_t begin = 0, end; begin < count; begin = end) {
+        bool gathers = false;
         end = begin + run_of(writing, values + begin, count - begin);
-        while (end - begin < LEAST_RUN && end < count &&
+        while ((end - begin < LEAST_RUN || gathers) && end < count &&
                run_of(writing, values + end, count - end) < LEAST_RUN) {
+            gathers = true;
             end++;
         }
         put_batch(writing, values + begin, end - begin, to + (uint32_t)begin);
@@ -770,11 +847,12 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
     put_copies(writing, nodes, count);
 }
 
-bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
-                  size_t inputs, const double *values)
+/* In rows where there are `least` values or more, and most of them share a group. */
+static bool open_code(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes,
+                      size_t count, size_t inputs, const double *values, size_t least)
 {
     *tape = (struct gm_tape){.inputs = inputs, .outputs = count, .first_used = inputs};
-    struct writing writing = {.tape = tape, .graph = graph};
+    struct writing writing = {.tape = tape, .graph = graph, .least_rolled = least};
     writing.parts = gm_formula_parts_of(graph, nodes, count, &writing.part_count);
     const size_t room =
         writing.parts && writing.part_count > 0 ? writing.parts[writing.part_count - 1] + (size_t)1 : 1;
@@ -790,7 +868,7 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     writing.number_count = writing.value_count;
     writing.groups = malloc((writing.value_count + 1) * sizeof *writing.groups);
     writing.failed |= !writing.groups;
-    if (!writing.failed && writing.value_count < LEAST_ROLLED) {
+    if (!writing.failed && (writing.value_count < least || writing.zero == NONE)) {
         find_groups(&writing);
     } else if (!writing.failed && roll(&writing, nodes, count)) {
         order_by_need(&writing);
@@ -812,6 +890,7 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     free(writing.folded);
     free(writing.dependent);
     free(writing.values);
+    free(writing.products);
     free(writing.terms);
     free(writing.groups);
     free(writing.place);
@@ -820,7 +899,24 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     free(writing.stretches);
     free(writing.free[0]);
     free(writing.free[1]);
+    tape->rolled = writing.rolled;
     return !writing.failed;
+}
+
+bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
+                  size_t inputs, const double *values)
+{
+    bool good = open_code(tape, graph, nodes, count, inputs, values, LEAST_ROLLED);
+    if (good && !tape->rolled && tape->length >= LEAST_ROWS) {
+        tape->rows = calloc(1, sizeof *tape->rows);
+        good = tape->rows && open_code(tape->rows, graph, nodes, count, inputs, values, LEAST_ROWS);
+        if (good && !tape->rows->rolled) {
+            gm_tape_close(tape->rows);
+            free(tape->rows);
+            tape->rows = NULL;
+        }
+    }
+    return good;
 }
 
 void gm_tape_close(struct gm_tape *tape)
@@ -830,6 +926,10 @@ void gm_tape_close(struct gm_tape *tape)
     free(tape->sums);
     free(tape->lists);
     free(tape->constants);
+    if (tape->rows) {
+        gm_tape_close(tape->rows);
+        free(tape->rows);
+    }
     *tape = (struct gm_tape){0};
 }
 
@@ -1105,20 +1205,21 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
 enum { ON_STACK = 2048, LARGEST_BLOCK = 248, IN_CACHE = 4096, LINE = 64 };
 
 /* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
-static inline void copy_each(double *to, const double *from, size_t count)
+static inline void copy_each(double *to, size_t to_apart, const double *from, size_t from_apart, size_t count)
 {
     enum { FEW = 64 };
-    if (count > FEW) {
+    if (count > FEW && to_apart == 1 && from_apart == 1) {
         memcpy(to, from, count * sizeof *to);
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        to[i] = from[i];
+        to[i * to_apart] = from[i * from_apart];
         __asm__ volatile("");
     }
 }
 
-static void one_state(const struct gm_tape *tape, const double *inputs, double *outputs)
+static void one_state(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
+                      size_t outputs_apart)
 {
     double few[ON_STACK], *many = NULL, *r = few;
     if (tape->registers > ON_STACK) {
@@ -1126,22 +1227,29 @@ static void one_state(const struct gm_tape *tape, const double *inputs, double *
     }
     if (!r) {
         for (size_t k = 0; k < tape->outputs; k++) {
-            outputs[k] = NAN;
+            outputs[k * outputs_apart] = NAN;
         }
         return;
     }
     double *const constants = r + tape->inputs, *const results = constants + tape->constant_count;
-    copy_each(r + tape->first_used, inputs + tape->first_used,
+    copy_each(r + tape->first_used, 1, inputs + tape->first_used * inputs_apart, inputs_apart,
               tape->last_used > tape->first_used ? tape->last_used - tape->first_used : 0);
-    copy_each(constants, tape->constants, tape->constant_count);
+    copy_each(constants, 1, tape->constants, 1, tape->constant_count);
     compute(tape, r);
-    copy_each(outputs, results, tape->outputs);
+    copy_each(outputs, outputs_apart, results, 1, tape->outputs);
     free(many);
 }
 
 void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
                    size_t outputs_apart, size_t m)
 {
+    if (tape->rolled &&
+        !tape->sines) { /* its rows are as long as a block's; those of members would leave the cache */
+        for (size_t i = 0; i < m; i++) {
+            one_state(tape, inputs + i, inputs_apart, outputs + i, outputs_apart);
+        }
+        return;
+    }
     const size_t fixed = tape->inputs + tape->constant_count + tape->outputs,
                  between = tape->registers - fixed;
     size_t block = between > 0 ? IN_CACHE / between / 8 * 8 : LARGEST_BLOCK;
@@ -1182,7 +1290,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m)
 {
     if (m == 1 && !tape->sines) {
-        one_state(tape, inputs, outputs);
+        one_state(tape->rows ? tape->rows : tape, inputs, 1, outputs, 1);
     } else {
         gm_tape_block(tape, inputs, m, outputs, m, m);
     }

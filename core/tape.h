@@ -47,6 +47,9 @@ struct gm_tape {
     double *constants;
     size_t inputs, constant_count, outputs, registers;
     size_t first_used, last_used; /* the inputs that occur are among [first, last) */
+    bool rolled;                  /* it has batches and sums */
+    /* The same for one state alone, where that is faster in batches, and blocks of members are not; else NULL. */
+    struct gm_tape *rows;
     /* In the place of libm's sine where |x| <= GM_SINES_TO: set behind gm_tape_open where no other engine computes the
        same; else NULL. */
     void (*sines)(const double *x, double *sine, size_t count);

@@ -174,7 +174,7 @@ static void put_surroundings(void)
         {"GEOMINT_SYSTEMS", "a folder with systems, in place of the installed ones"},
         {"GEOMINT_ROOMS", "a folder with rooms, in place of the installed ones"},
         {"GEOMINT_KERNEL", "a folder with the sources of loops, in place of the installed one"},
-        {"GEOMINT_COMPILER_SECONDS", "how long the compiler of loops may take (10)"},
+        {"GEOMINT_COMPILER_SECONDS", "seconds of a processor that the compiler of loops may take (10)"},
         {"XDG_CACHE_HOME", "where the folder geomint with compiled loops is, in place of ~/.cache"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };

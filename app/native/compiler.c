@@ -2,6 +2,8 @@
 /* The compiler's process: found, started, watched, ended. */
 #include "app/native/compiler.h"
 
+#include <ctype.h>
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -18,9 +20,9 @@
 #include "render/clock.h"
 #include "render/message.h"
 
-enum { MOST_BYTES = 1 << 24, COULD_NOT_START = 127 };
+enum { MOST_BYTES = 1 << 24, COULD_NOT_START = 127, LONGEST = 12 };
 
-/* on the clock, and of a processor */
+/* Of a processor in all, and by the clock in which none is used; LONGEST times as many by the clock in all. */
 static double most_seconds(void)
 {
     const char *own = getenv("GEOMINT_COMPILER_SECONDS");
@@ -129,10 +131,69 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
         return gm_refuse(sentence, "the compiler could not be started: %s", strerror(error));
     }
     setpgid(child, child); /* whoever of the two is first */
-    compilation->process = child;
-    compilation->complaints = complaints;
-    compilation->deadline = gm_clock_seconds() + most_seconds();
+    *compilation = (struct gm_compilation){
+        .process = child, .complaints = complaints, .begin = gm_clock_seconds(), .seen = gm_clock_seconds()};
     return true;
+}
+
+/* Of a line of /proc/PID/stat: its group, and the processor's time that it and what it has waited for have taken, in
+   ticks. False: it is none. */
+static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
+{
+    enum { GROUP = 2, FIRST_TIME = 11, LAST_TIME = 14 };
+    const char *at = strrchr(text, ')'); /* a name may hold anything */
+    char *end = NULL;
+    *ticks = 0;
+    if (!at || at[1] != ' ' || !at[2]) {
+        return false;
+    }
+    at += 3; /* behind the letter of its state, which is number 0 */
+    for (int k = 1; k <= LAST_TIME; k++, at = end) {
+        const long number = strtol(at, &end, 10);
+        if (end == at) {
+            return false;
+        }
+        *group = k == GROUP ? (pid_t)number : *group;
+        *ticks += k >= FIRST_TIME ? (unsigned long)number : 0;
+    }
+    return true;
+}
+
+/* What all processes of a group have taken of a processor, in ticks: 0 where nothing tells. */
+static unsigned long ticks_of(pid_t group)
+{
+    unsigned long all = 0, ticks;
+    DIR *processes = opendir("/proc");
+    for (const struct dirent *process; processes && (process = readdir(processes));) {
+        char path[300], text[1024];
+        pid_t its = 0;
+        snprintf(path, sizeof path, "/proc/%s/stat", process->d_name);
+        const int file = isdigit((unsigned char)process->d_name[0]) ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+        if (file < 0) {
+            continue;
+        }
+        const ssize_t length = read(file, text, sizeof text - 1);
+        close(file);
+        text[length > 0 ? length : 0] = '\0';
+        all += read_stat(text, &its, &ticks) && its == group ? ticks : 0;
+    }
+    if (processes) {
+        closedir(processes);
+    }
+    return all;
+}
+
+/* Whether it hangs. One that has to wait for a processor, since the machine has much else to do, does not. */
+static bool hangs(struct gm_compilation *compilation)
+{
+    const double now = gm_clock_seconds();
+    if (now < compilation->seen + most_seconds()) {
+        return false;
+    }
+    const unsigned long ticks = ticks_of(compilation->process), before = compilation->ticks;
+    compilation->seen = now;
+    compilation->ticks = ticks;
+    return ticks == before || now > compilation->begin + LONGEST * most_seconds();
 }
 
 /* The first line that it complained with. */
@@ -144,16 +205,23 @@ static void first_line(const struct gm_compilation *compilation, char *line, siz
     gm_text_tame(line);
 }
 
+static double seconds_of(const struct rusage *used)
+{
+    return (double)(used->ru_utime.tv_sec + used->ru_stime.tv_sec) +
+           1e-6 * (double)(used->ru_utime.tv_usec + used->ru_stime.tv_usec);
+}
+
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence)
 {
     int status = 0;
-    const pid_t ended = waitpid(compilation->process, &status, WNOHANG);
+    struct rusage used = {0};
+    const pid_t ended = wait4(compilation->process, &status, WNOHANG, &used);
     if (ended == 0 || (ended < 0 && errno == EINTR)) {
-        if (gm_clock_seconds() < compilation->deadline) {
+        if (!hangs(compilation)) {
             return GM_COMPILES;
         }
         gm_compilation_stop(compilation);
-        gm_refuse(sentence, "the compiler took longer than %.0f seconds", most_seconds());
+        gm_refuse(sentence, "the compiler hung for %.0f seconds", most_seconds());
         return GM_COMPILES_NOT;
     }
     compilation->process = 0;
@@ -163,7 +231,11 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return GM_COMPILED;
     }
-    gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
+    if (ended > 0 && seconds_of(&used) >= most_seconds()) {
+        gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
+    } else {
+        gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
+    }
     return GM_COMPILES_NOT;
 }
 

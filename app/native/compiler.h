@@ -9,8 +9,8 @@
 
 #include "app/native/cache.h"
 
-/* The system's C compiler, as a process beside this one: no shell, fixed arguments, ten seconds or those of
-   GEOMINT_COMPILER_SECONDS. */
+/* The system's C compiler, as a process beside this one: no shell, fixed arguments. It may take ten seconds of a
+   processor, or those of GEOMINT_COMPILER_SECONDS, and hangs where it takes nothing of one for as long by the clock. */
 
 /* A program of that name in the absolute folders of PATH; false: there is none. */
 bool gm_program_find(const char *name, char path[GM_CACHE_PATH], struct stat *about);
@@ -22,7 +22,8 @@ bool gm_compiler_find(char path[GM_CACHE_PATH], struct gm_digest *digest);
 /* One compilation. */
 struct gm_compilation {
     pid_t process; /* 0: none runs */
-    double deadline;
+    double begin, seen;  /* by the clock: since when, and when it was last looked whether it hangs */
+    unsigned long ticks; /* of a processor that it had taken then */
     int complaints; /* a file in memory, which a full disk does not lose */
 };
 enum gm_compiled { GM_COMPILED, GM_COMPILES, GM_COMPILES_NOT };

@@ -2,7 +2,8 @@
 /* Both engines side by side: the same bits of every state and of every count, by all schemes that have a loop
    over kernels, alone and in ensembles, on the systems that the program brings and on random formulas; and
    what becomes of a cache, a compiler and an entry that are not as they should be. Usage: unit_native KERNELS
-   SYSTEMS [all] [COMPILER]; with a compiler of that name as the system's, the engines alone are compared. */
+   SYSTEMS [all] [baseline] [COMPILER]; with a compiler of that name as the system's, or as if the processor had
+   no other instructions than the baseline's, the engines alone are compared. */
 #include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
@@ -35,12 +36,20 @@
 enum { MEMBERS = 13, STEPS = 37 };
 
 static const char *kernels, *systems, *compiler;
-static bool all;
+static bool all, baseline;
 static char heard[GM_MESSAGE], folder[4096];
 
 static void hear(const char *sentence)
 {
     snprintf(heard, sizeof heard, "%s", sentence);
+}
+
+/* The linker puts it in the place of the program's. */
+enum gm_isa __real_gm_isa_best(void);
+enum gm_isa __wrap_gm_isa_best(void);
+enum gm_isa __wrap_gm_isa_best(void)
+{
+    return baseline ? GM_ISA_BASELINE : __real_gm_isa_best();
 }
 
 /* A compiler that is a script. */
@@ -534,7 +543,26 @@ static void compilers_hang(void **state)
     (void)state;
     with_compiler("#!/bin/sh\n/bin/sleep 1000\n");
     setenv("GEOMINT_COMPILER_SECONDS", "1", 1);
-    refused("longer than 1 second");
+    refused("hung for 1 second");
+    with_compiler("#!/bin/sh\nwhile :; do :; done\n");
+    refused("more than 1 second");
+}
+
+/* One that is slow by the clock, since a processor seldom has time for it, is no hanging one. */
+static void compilers_are_slow(void **state)
+{
+    (void)state;
+    with_compiler("#!/bin/sh\n"
+                  "for round in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18; do\n"
+                  "  i=0; while [ $i -lt 20000 ]; do i=$((i+1)); done; /bin/sleep 0.2\n"
+                  "done\n"
+                  "PATH=/usr/bin:/bin; exec cc \"$@\"\n");
+    setenv("GEOMINT_COMPILER_SECONDS", "3", 1);
+    struct gm_lane *lane = lane_of(fresh(), "rk4", GM_ENGINE_NATIVE);
+    if (strcmp(gm_engine_of(lane), "native") != 0) {
+        fail_msg("%s", heard);
+    }
+    gm_lane_close(lane);
 }
 
 static void caches_fail(void **state)
@@ -676,8 +704,12 @@ int main(int argc, char *argv[])
     kernels = argc > 1 ? argv[1] : ".";
     systems = argc > 2 ? argv[2] : "share/systems";
     setenv("GEOMINT_SYSTEMS", systems, 1);
-    all = argc > 3 && strcmp(argv[3], "all") == 0;
-    compiler = argc > 3 + all ? argv[3 + all] : NULL;
+    for (int i = 3; i < argc; i++) {
+        const bool is_all = strcmp(argv[i], "all") == 0, is_baseline = strcmp(argv[i], "baseline") == 0;
+        all |= is_all;
+        baseline |= is_baseline;
+        compiler = is_all || is_baseline ? compiler : argv[i];
+    }
     if (compiler && !gm_program_find(compiler, path, &about)) {
         printf("there is no %s here\n", compiler);
         return 77;
@@ -695,9 +727,10 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(entries_lack_symbols, begin, end),
         cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
         cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
+        cmocka_unit_test_setup_teardown(compilers_are_slow, begin, end),
         cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
         cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
     };
-    const int failed = compiler ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
+    const int failed = compiler || baseline ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }
