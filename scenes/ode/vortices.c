@@ -36,7 +36,7 @@ static const struct gm_parameter parameters[] = {
         struct gm_vortices, configuration, "configuration", "reduced", configurations,
         "start: reduced (two-turned with its symmetry built in), square, two-turned, one-turned, random, "
         "collision (with strength 2*pi and dt .5/800, unless given), "
-        "patches (two round ones of random vortices, with count 3000, strength .003 and dt .02)"),
+        "patches (two round ones, with count 3000, strength .003 and dt .02)"),
     {
         .key = "angle",
         .unit = "rad",
@@ -53,7 +53,8 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(
         struct gm_vortices, multipole, "multipole", "0", 0, 0.01,
         "the most that a velocity errs by, of the sum of the speeds that the others give it one by one: cells "
-        "of vortices then act by their moments, which is faster from 2000 to 4000 on; 0: pair by pair"),
+        "of vortices then act by their moments, which is faster from 2000 to 4000 on; 1e-9 and less for implicit "
+        "schemes, whose equations a larger error that jumps leaves unsolved; 0: pair by pair"),
     GM_REAL_ROW(struct gm_vortices, strength, "strength", "150", -1e6, 1e6,
                 "of every vortex: its circulation"),
     GM_REAL_ROW(struct gm_vortices, distance, "distance", "0.05", 0, 1, "of the close pair, for collision"),
@@ -122,7 +123,7 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
                          configurations[own->configuration]);
     }
     if (own->multipole == 0 && own->count > BY_PAIRS) {
-        return gm_refuse(sentence, "count=%ld without multipole: more than %d are for multipole=1e-6",
+        return gm_refuse(sentence, "count=%ld without multipole: more than %d are for multipole=1e-9",
                          own->count, BY_PAIRS);
     }
     if (gm_vortices_coincide(own)) {

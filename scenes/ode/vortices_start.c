@@ -15,6 +15,8 @@ static double next_random(uint64_t *state)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
+static const double golden_angle = 2.3999632297286533; /* fills a disc evenly */
+
 static void place(const struct gm_vortices *own, size_t count, double *x, double *y)
 {
     uint64_t random = (uint64_t)own->seed;
@@ -33,18 +35,21 @@ static void place(const struct gm_vortices *own, size_t count, double *x, double
             turn += i == 1 ? own->angle : 0;
             break;
         case GM_RANDOM:
-        case GM_PATCHES:
             radius = sqrt(next_random(&random));
             turn = 2 * M_PI * next_random(&random);
+            break;
+        case GM_PATCHES:
+            radius = patch * sqrt(((double)(i / 2) + 0.5) / (double)((count + 1) / 2));
+            turn = golden_angle * (double)(i / 2);
             break;
         default:
             break;
         }
         x[i] = radius * cos(turn);
         y[i] = radius * sin(turn);
-        if (own->configuration == GM_PATCHES) {
-            x[i] *= patch;
-            y[i] = patch * y[i] + (i % 2 == 0 ? 1 - patch : patch - 1);
+        if (own->configuration == GM_PATCHES) { /* the one turned into the other */
+            x[i] *= i % 2 == 0 ? 1 : -1;
+            y[i] = (i % 2 == 0 ? 1 : -1) * (y[i] + 1 - patch);
         }
         if (own->configuration == GM_VORTEX_COLLISION) {
             x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
@@ -83,7 +88,7 @@ bool gm_vortices_coincide(const struct gm_vortices *own)
     return close;
 }
 
-/* Tracers fill a disc evenly: the golden angle. */
+/* Tracers fill a disc evenly. */
 void gm_vortices_start(const void *parameters_, const struct gm_problem *problem, double *y)
 {
     const struct gm_vortices *own = parameters_;
@@ -91,7 +96,7 @@ void gm_vortices_start(const void *parameters_, const struct gm_problem *problem
     place(own, carried, y, y + carried);
     for (size_t k = 0; k < tracers; k++) {
         const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
-                     turn = 2.3999632297286533 * (double)k;
+                     turn = golden_angle * (double)k;
         y[2 * carried + k] = radius * cos(turn);
         y[2 * carried + tracers + k] = radius * sin(turn);
     }
