@@ -722,7 +722,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         gm_refuse(message, "scene %s has no profiles", request->scene->name);
         return GM_EXIT_USAGE;
     }
-    if (options->save && !gm_save_knows(options->save, message)) {
+    if (options->save && !gm_save_fits(options->save, request, message)) {
         return GM_EXIT_USAGE;
     }
     if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {

@@ -63,8 +63,8 @@ struct gm_data_format {
     /* ... and gives back the room of the last rows of a lane that has ended; false: of all but the first. */
     bool (*drop)(const struct gm_saving *saving, struct gm_saved *lane);
     bool (*finish)(const struct gm_saving *saving, size_t lanes, int file);
-    /* A sentence why these lanes cannot be in one file of this format; NULL: they can, always. */
-    const char *(*refuse)(const struct gm_saving *saving);
+    /* A sentence why these two lanes cannot be in one file of this format, or NULL; NULL: all can, always. */
+    const char *(*refuse)(const struct gm_run *one, const struct gm_run *other);
 };
 
 extern const struct gm_data_format gm_data_format_npz, gm_data_format_csv, gm_data_format_pvd;

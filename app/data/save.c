@@ -42,12 +42,22 @@ static const struct gm_data_format *format_of(const char *path)
     return NULL;
 }
 
-bool gm_save_knows(const char *path, char *message)
+bool gm_save_fits(const char *path, const struct gm_request *request, char *message)
 {
-    if (format_of(path)) {
-        return true;
+    const struct gm_data_format *format = format_of(path);
+    if (!format) {
+        return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
     }
-    return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
+    const bool compares = format->refuse && request->count > 1;
+    struct gm_lane *first = compares ? gm_request_open_lane(request, 0, message) : NULL;
+    const char *reason = NULL;
+    for (size_t i = 1; first && i < request->count && !reason; i++) {
+        struct gm_lane *lane = gm_request_open_lane(request, i, message);
+        reason = lane ? format->refuse(first->run, lane->run) : NULL; /* one that cannot be says why later */
+        gm_lane_close(lane);
+    }
+    gm_lane_close(first);
+    return !reason || gm_refuse(message, "%.240s cannot be saved: %s", path, reason);
 }
 
 static bool complain(const struct gm_save *save, char *message)
@@ -142,10 +152,6 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
         longest = lane->quantities[i].derive && lane->sizes[i] > longest ? lane->sizes[i] : longest;
     }
     lane->scratch = malloc(longest * sizeof *lane->scratch);
-    const char *reason = save->format->refuse ? save->format->refuse(&save->saving) : NULL;
-    if (reason) {
-        return gm_refuse(message, "%.240s cannot be saved: %s", save->path, reason);
-    }
     errno = ENOMEM;
     return (lane->scratch && save->format->begin(&save->saving, lane, run, expected)) ||
            leave_out(save, message);

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "app/request/request.h"
 #include "core/run.h"
 
 /* The states of lanes, one lane after the other, as a file that other programs read: .npz, .csv, .pvd with
@@ -11,9 +12,9 @@
 
 struct gm_save;
 
-/* Whether there is a format of this file's ending; false with a sentence (GM_MESSAGE bytes) that names
-   them. */
-bool gm_save_knows(const char *path, char *message);
+/* Whether there is a format of this file's ending, and these lanes go into one file of it; false with a
+   sentence (GM_MESSAGE bytes). */
+bool gm_save_fits(const char *path, const struct gm_request *request, char *message);
 
 /* Begins a file of `lanes` lanes or, with go_on, one that was interrupted; resumable: it can be gone on with
    later from what it is made of. NULL with a sentence. */

@@ -64,14 +64,14 @@ static void cut(const struct gm_saving *saving, struct gm_saved *lane)
     lane->rows = lines > lane->heads ? lines - lane->heads : 0;
 }
 
-static const char *refuse(const struct gm_saving *saving)
+static const char *refuse(const struct gm_run *one, const struct gm_run *other)
 {
-    const struct gm_saved *first = &saving->lanes[0], *last = &saving->lanes[saving->begun - 1];
-    bool same = first->count == last->count && first->members == last->members;
-    for (size_t i = 0; i < first->count && same; i++) {
-        const struct gm_quantity *one = &first->quantities[i], *other = &last->quantities[i];
-        same =
-            strcmp(one->name, other->name) == 0 && one->count == other->count && one->fixed == other->fixed;
+    struct gm_quantity of_one[GM_QUANTITIES], of_other[GM_QUANTITIES];
+    const size_t count = gm_quantities_beside_time(one, of_one);
+    bool same = count == gm_quantities_beside_time(other, of_other) && one->problem->m == other->problem->m;
+    for (size_t i = 0; i < count && same; i++) {
+        same = strcmp(of_one[i].name, of_other[i].name) == 0 && of_one[i].count == of_other[i].count &&
+               of_one[i].fixed == of_other[i].fixed;
     }
     return same ? NULL
                 : "the lanes' states differ in their columns, which one table does not hold; .npz does";
