@@ -21,6 +21,7 @@
 #include "core/system/equations.h"
 #include "scenes/frame/written.h"
 #include "scenes/ode/asked.h"
+#include "scenes/ode/system/aim.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/failure.h"
 #include "scenes/ode/system/observed.h"
@@ -398,7 +399,13 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
             }
         }
     }
-    return count == 2 ? 2 : 0;
+    if (count == 2) {
+        return 2;
+    }
+    double *start = gm_system_start_values(lane, NULL);
+    count = start ? gm_system_aim(lane, start, x, y, choices) : 0;
+    free(start);
+    return count;
 }
 
 /* ---- the scene is made ---- */

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a point of the picture to a start: what a body's line of the file says is solved for the coordinates. */
+#include "scenes/ode/system/aim.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is known while the coordinates are sought. */
+struct aim {
+    const struct gm_sight *sight;
+    size_t body, places;
+    double target[2];
+    double *variables, *numbers; /* of the system, and what the sight tells of them */
+    double *slopes, *step;       /* of the body's two numbers over each coordinate; how far that goes */
+};
+
+/* How far the body is from the point, squared; the way there. */
+static double distance(const struct aim *aim, size_t body, double way[2])
+{
+    way[0] = aim->target[0] - aim->numbers[2 * body];
+    way[1] = aim->target[1] - aim->numbers[2 * body + 1];
+    return way[0] * way[0] + way[1] * way[1];
+}
+
+static void look(const struct aim *aim)
+{
+    gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
+}
+
+/* The nearest body that moves; false if there is none. */
+static bool choose_body(struct aim *aim)
+{
+    double nearest = INFINITY, way[2];
+    for (size_t i = 0; i < aim->sight->bodies; i++) {
+        const double apart = distance(aim, i, way);
+        if (!aim->sight->fixed[i] && apart < nearest) {
+            nearest = apart;
+            aim->body = i;
+        }
+    }
+    return nearest < INFINITY;
+}
+
+static void find_slopes(struct aim *aim)
+{
+    for (size_t c = 0; c < aim->places; c++) {
+        const double here = aim->variables[c], reach = 1e-6 * fmax(1, fabs(here));
+        for (int side = -1; side <= 1; side += 2) {
+            aim->variables[c] = here + side * reach;
+            look(aim);
+            for (size_t k = 0; k < 2; k++) {
+                double *slope = &aim->slopes[2 * c + k];
+                *slope = (side > 0 ? *slope : 0) + side * aim->numbers[2 * aim->body + k] / (2 * reach);
+            }
+        }
+        aim->variables[c] = here;
+    }
+}
+
+/* The step of the coordinates that leads there as far as it is linear: J' (J J' + m)^-1 r, the shortest one but for m,
+   with which it is shorter, and in the end straight towards the point. K. Levenberg, Q. Appl. Math. 2 (1944) 164. */
+static void find_step(struct aim *aim, const double way[2], double m)
+{
+    double xx = 0, xy = 0, yy = 0;
+    for (size_t c = 0; c < aim->places; c++) {
+        const double *slope = &aim->slopes[2 * c];
+        xx += slope[0] * slope[0];
+        xy += slope[0] * slope[1];
+        yy += slope[1] * slope[1];
+    }
+    m *= xx + yy;
+    xx += m;
+    yy += m;
+    const double determinant = xx * yy - xy * xy;
+    const double along[2] = {(yy * way[0] - xy * way[1]) / determinant,
+                             (xx * way[1] - xy * way[0]) / determinant};
+    for (size_t c = 0; c < aim->places; c++) {
+        const double *slope = &aim->slopes[2 * c];
+        aim->step[c] = slope[0] * along[0] + slope[1] * along[1];
+    }
+}
+
+/* How far from the point the step leads, squared; the coordinates stay. */
+static double try_step(struct aim *aim, double way[2])
+{
+    for (size_t c = 0; c < aim->places; c++) {
+        aim->variables[c] += aim->step[c];
+    }
+    look(aim);
+    for (size_t c = 0; c < aim->places; c++) {
+        aim->variables[c] -= aim->step[c];
+    }
+    return distance(aim, aim->body, way);
+}
+
+/* Goes that of these steps which leads nearest; false if none leads nearer. */
+static bool go(struct aim *aim, double *apart, double way[2])
+{
+    double best = -1, nearest = *apart, next[2];
+    for (double m = 1e-9; m < 1e9; m *= 3) {
+        find_step(aim, way, m);
+        const double now = try_step(aim, next);
+        best = now < nearest ? m : best;
+        nearest = fmin(nearest, now);
+    }
+    if (best < 0) {
+        return false;
+    }
+    find_step(aim, way, best);
+    *apart = try_step(aim, way);
+    for (size_t c = 0; c < aim->places; c++) {
+        aim->variables[c] += aim->step[c];
+    }
+    return true;
+}
+
+/* What became of the coordinates, as values of the start's rows. */
+static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, const double *start,
+                   struct gm_choice *choices)
+{
+    const struct gm_system_scene *own = lane->own;
+    size_t count = 0;
+    for (size_t row = own->first_start; row < own->row_count; row++) {
+        const size_t c = own->variables[row];
+        if (c >= aim->places || fabs(aim->variables[c] - start[c]) <= 1e-9 * fmax(1, fabs(start[c]))) {
+            continue;
+        }
+        if (count == GM_CHOICES || !isfinite(aim->variables[c])) {
+            return 0;
+        }
+        const bool angle = own->system.variables[c].angle;
+        gm_choose(&choices[count++], own->rows[row].key,
+                  angle ? remainder(aim->variables[c], 2 * acos(-1)) : aim->variables[c]);
+    }
+    return count;
+}
+
+size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, double x, double y,
+                     struct gm_choice *choices)
+{
+    enum { MOST_STEPS = 100 };
+    const struct gm_own_system *system = &lane->own->system;
+    const struct gm_sight *sight = gm_system_sight(lane);
+    struct aim aim = {.sight = sight,
+                      .places = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n,
+                      .target = {x, y}};
+    if (sight == &lane->own->section || sight->dimensions != 2 || sight->bodies == 0 ||
+        lane->own->model.constraints.count > 0) {
+        return 0;
+    }
+    aim.variables =
+        calloc(system->variable_count + gm_sight_numbers(sight) + 3 * aim.places + 1, sizeof *aim.variables);
+    if (!aim.variables) {
+        return 0;
+    }
+    aim.numbers = aim.variables + system->variable_count;
+    aim.slopes = aim.numbers + gm_sight_numbers(sight);
+    aim.step = aim.slopes + 2 * aim.places;
+    memcpy(aim.variables, start, system->n * sizeof *start);
+    memcpy(aim.variables + system->initial, start, system->n * sizeof *start);
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->own->first_start; row++) {
+        aim.variables[lane->own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    }
+    look(&aim);
+    size_t count = 0;
+    if (choose_body(&aim)) {
+        double way[2], apart = distance(&aim, aim.body, way);
+        for (int i = 0; i < MOST_STEPS && apart > 0; i++) {
+            find_slopes(&aim);
+            if (!go(&aim, &apart, way)) {
+                break;
+            }
+        }
+        count = tell(&aim, lane, start, choices);
+    }
+    free(aim.variables);
+    return count;
+}
