@@ -7,6 +7,25 @@
 #include "core/kind.h"
 #include "core/run.h"
 
+static void nodes(const struct gm_run *run, double *values)
+{
+    const struct gm_line *line = &run->problem->line;
+    for (size_t i = 0; i < gm_line_seen(line); i++) {
+        values[i] = gm_line_node(line, i);
+    }
+}
+
+struct gm_quantity gm_quantity_grid(const struct gm_run *run)
+{
+    return (struct gm_quantity){.name = "grid",
+                                .support = GM_ON_NODES,
+                                .count = gm_line_seen(&run->problem->line),
+                                .width = 1,
+                                .axis = 1,
+                                .fixed = true,
+                                .derive = nodes};
+}
+
 size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     return run->problem->kind->quantities(run, quantities);

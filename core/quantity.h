@@ -33,6 +33,9 @@ struct gm_quantity {
     void (*derive)(const struct gm_run *run, double *values);
 };
 
+/* The nodes of the problem's line, as far as they are seen, as a quantity that is first and the same at all times. */
+struct gm_quantity gm_quantity_grid(const struct gm_run *run);
+
 enum { GM_QUANTITIES = 16 /* most of a kind */, GM_QUANTITY_AXES = 3 };
 
 /* The quantities of a run's states, into GM_QUANTITIES places; their number. They stay valid with the run. */

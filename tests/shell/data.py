@@ -94,6 +94,15 @@ def shapes():
     geomint("run sine-gordon points=101 steps=2 --save s.npz")
     with numpy.load("s.npz", allow_pickle=False) as saved:
         check(saved["grid"].shape == (101,) and saved["u"].shape == (3, 101), "a grid, and u over it")
+    # fields of one's own that evolve by rates have their grid; between walls what is seen of it
+    with open("wall.system", "w") as file:
+        file.write("field: u v\nrate: u = u_xx\nrate: v = -v_x*u + v_xx\nstart: u = exp(-x^2), v = exp(-x^2)\n"
+                   "half_length: 5\npoints: 41\ndt: 0.01\nuntil: 0.02\n")
+    for walls, points in (("", 41), ("boundary=walls", 41)):
+        geomint(f"run wall.system scheme=rk4 {walls} --save wall.npz")
+        with numpy.load("wall.npz") as saved:
+            check(saved["grid"].shape == (points,) and saved["u"].shape == (3, points) and saved["v"].shape == (3, points)
+                  and abs(saved["u"][0] - numpy.exp(-saved["grid"]**2)).max() < 1e-12, f"the grid of rates {walls}")
     geomint("run soliton points=21 steps=2 --save s.npz")
     with numpy.load("s.npz", allow_pickle=False) as saved:
         check(saved["x"].shape == saved["u"].shape == (3, 21), "x(t, i) of a moving mesh")

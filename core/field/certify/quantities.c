@@ -10,14 +10,6 @@
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
-static void grid(const struct gm_run *run, double *values)
-{
-    const struct gm_line *line = &run->problem->line;
-    for (size_t i = 0; i < gm_line_seen(line); i++) {
-        values[i] = gm_line_node(line, i);
-    }
-}
-
 /* The velocity of the frame that an equation is seen from, and since when; false where there is none. */
 static bool find_frame(const struct gm_problem *problem, double *lambda, double *t0)
 {
@@ -60,7 +52,7 @@ static void places(const struct gm_run *run, double *values)
 {
     double lambda = 0, t0 = 0;
     find_frame(run->problem, &lambda, &t0);
-    grid(run, values);
+    gm_quantity_grid(run).derive(run, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
         values[i] += lambda * (run->t - t0);
     }
@@ -82,10 +74,13 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
     const bool moving = moves(run);
-    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, seen, 0);
-    quantities->axis = 1;
-    quantities->fixed = !moving;
-    quantities->derive = moving ? places : grid;
+    struct gm_quantity *end = quantities + 1;
+    *quantities = gm_quantity_grid(run);
+    if (moving) {
+        snprintf(quantities->name, sizeof quantities->name, "x");
+        quantities->fixed = false;
+        quantities->derive = places;
+    }
     if (field->form && field->form->hessians) {
         for (size_t c = 0; c < field->form->dimension; c++) {
             end = add(end, field->form->names[c], GM_ON_NODES, points, c * points);

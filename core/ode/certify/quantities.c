@@ -48,6 +48,16 @@ size_t gm_ode_quantities(const struct gm_run *run, struct gm_quantity *quantitie
     const char *names = gm_ode_of(problem)->components;
     const size_t active = problem->n - 2 * problem->passive;
     size_t lists = 0, first = 0;
+    if (problem->line.points > 0) { /* fields on a line, which evolve by rates */
+        quantities[0] = gm_quantity_grid(run);
+        const size_t fields = read_names(names, quantities + 1, &lists);
+        for (size_t i = 1; i <= fields; i++) {
+            quantities[i].support = GM_ON_NODES;
+            quantities[i].count = quantities[0].count;
+            quantities[i].first = (i - 1) * problem->line.points;
+        }
+        return fields + 1;
+    }
     size_t count = read_names(names ? names : "y[]", quantities, &lists);
     mark_axes(problem, quantities, count);
     for (size_t i = 0; i < count; i++) {
