@@ -23,9 +23,9 @@
 #include "core/ode/own/own.h"
 #include "render/message.h"
 
-/* As the build compiles the loops of the problems that it knows, but for a search for what is computed twice, which takes
-   a fifth of the time and finds nothing in them: no operation is fused or exchanged. The
-   functions of formulas are those of the library, in each case; what is one instruction is one. */
+/* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. (Without the search
+   for what is computed twice it takes four fifths of the time; nothing is found by it.) The functions of formulas are
+   those of the library, in each case; what is one instruction is one. */
 static const char *const flags[] = {
     "-std=c17",
     "-O3",

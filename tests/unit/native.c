@@ -550,6 +550,35 @@ static void compilers_hang(void **state)
     refused("more than 1 second");
 }
 
+/* What it has written aside it removes when it is asked to end. */
+static void compilers_clear_up(void **state)
+{
+    (void)state;
+    char cache[4200];
+    with_compiler("#!/bin/sh\ntrap '/bin/rm -f \"$TMPDIR/aside\"; exit 1' TERM\n: >\"$TMPDIR/aside\"\n"
+                  "/bin/sleep 1000 & wait\n");
+    setenv("GEOMINT_COMPILER_SECONDS", "1", 1);
+    refused("hung for 1 second");
+    snprintf(cache, sizeof cache, "%s/geomint", folder);
+    assert_int_equal(rmdir(cache), 0);
+}
+
+/* Streams that whoever started the program has closed. */
+static void streams_are_closed(void **state)
+{
+    (void)state;
+    const char *words = fresh();
+    int how = 0;
+    const pid_t process = fork();
+    if (process == 0) {
+        close(STDIN_FILENO);
+        close(STDERR_FILENO);
+        _exit(!is_stepped_elsewhere(words, NULL));
+    }
+    assert_true(process > 0 && waitpid(process, &how, 0) == process);
+    assert_int_equal(how, 0);
+}
+
 /* One that is slow by the clock, since a processor seldom has time for it, is no hanging one. */
 static void compilers_are_slow(void **state)
 {
@@ -731,6 +760,8 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
         cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
         cmocka_unit_test_setup_teardown(compilers_are_slow, begin, end),
+        cmocka_unit_test_setup_teardown(compilers_clear_up, begin, end),
+        cmocka_unit_test_setup_teardown(streams_are_closed, begin, end),
         cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
         cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
     };
