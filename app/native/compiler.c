@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "render/cells/text.h"
@@ -103,6 +104,17 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     _exit(COULD_NOT_START);
 }
 
+/* A file by a number that is no standard stream's, which the child replaces: where those are closed it may have one. */
+static int above_streams(int file)
+{
+    if (file < 0 || file > STDERR_FILENO) {
+        return file;
+    }
+    const int other = fcntl(file, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    close(file);
+    return other;
+}
+
 bool gm_compilation_start(struct gm_compilation *compilation, const char *folder,
                           const char *const *arguments, char *sentence)
 {
@@ -110,8 +122,8 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
     put_search_path(path, sizeof path);
     snprintf(aside, sizeof aside, "TMPDIR=%s", folder);
     char language[] = "LC_ALL=C", *const environment[] = {path, aside, language, NULL};
-    const int where = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const int complaints = memfd_create("complaints", MFD_CLOEXEC);
+    const int where = above_streams(open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    const int complaints = above_streams(memfd_create("complaints", MFD_CLOEXEC));
     const rlim_t seconds = (rlim_t)most_seconds();
     pid_t child = -1;
     if (where >= 0 && complaints >= 0) {
@@ -242,6 +254,14 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
 void gm_compilation_stop(struct gm_compilation *compilation)
 {
     if (compilation->process > 0) {
+        /* it is asked first, since compilers then remove what they have written aside */
+        enum { LOOKS = 100 };
+        siginfo_t ended = {0};
+        kill(-compilation->process, SIGTERM);
+        for (int look = 0; look < LOOKS && ended.si_pid == 0; look++) {
+            nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+            waitid(P_PID, (id_t)compilation->process, &ended, WEXITED | WNOHANG | WNOWAIT);
+        }
         kill(-compilation->process, SIGKILL);
         kill(compilation->process, SIGKILL);
         while (waitpid(compilation->process, NULL, 0) < 0 && errno == EINTR) {

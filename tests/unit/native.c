@@ -2,8 +2,8 @@
 /* Both engines side by side: the same bits of every state and of every count, by all schemes that have a loop
    over kernels, alone and in ensembles, on the systems that the program brings and on random formulas; and
    what becomes of a cache, a compiler and an entry that are not as they should be. Usage: unit_native KERNELS
-   SYSTEMS [all] [baseline] [COMPILER]; with a compiler of that name as the system's, or as if the processor had
-   no other instructions than the baseline's, the engines alone are compared. */
+   SYSTEMS [all] [baseline|avx2] [COMPILER]; with a compiler of that name as the system's, or as if the processor had
+   no other instructions than those, the engines alone are compared. */
 #include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
@@ -36,7 +36,8 @@
 enum { MEMBERS = 13, STEPS = 37 };
 
 static const char *kernels, *systems, *compiler;
-static bool all, baseline;
+static bool all;
+static enum gm_isa most = GM_ISA_COUNT;
 static char heard[GM_MESSAGE], folder[4096];
 
 static void hear(const char *sentence)
@@ -49,7 +50,8 @@ enum gm_isa __real_gm_isa_best(void);
 enum gm_isa __wrap_gm_isa_best(void);
 enum gm_isa __wrap_gm_isa_best(void)
 {
-    return baseline ? GM_ISA_BASELINE : __real_gm_isa_best();
+    const enum gm_isa best = __real_gm_isa_best();
+    return most < best ? most : best;
 }
 
 /* A compiler that is a script. */
@@ -548,6 +550,35 @@ static void compilers_hang(void **state)
     refused("more than 1 second");
 }
 
+/* What it has written aside it removes when it is asked to end. */
+static void compilers_clear_up(void **state)
+{
+    (void)state;
+    char cache[4200];
+    with_compiler("#!/bin/sh\ntrap '/bin/rm -f \"$TMPDIR/aside\"; exit 1' TERM\n: >\"$TMPDIR/aside\"\n"
+                  "/bin/sleep 1000 & wait\n");
+    setenv("GEOMINT_COMPILER_SECONDS", "1", 1);
+    refused("hung for 1 second");
+    snprintf(cache, sizeof cache, "%s/geomint", folder);
+    assert_int_equal(rmdir(cache), 0);
+}
+
+/* Streams that whoever started the program has closed. */
+static void streams_are_closed(void **state)
+{
+    (void)state;
+    const char *words = fresh();
+    int how = 0;
+    const pid_t process = fork();
+    if (process == 0) {
+        close(STDIN_FILENO);
+        close(STDERR_FILENO);
+        _exit(!is_stepped_elsewhere(words, NULL));
+    }
+    assert_true(process > 0 && waitpid(process, &how, 0) == process);
+    assert_int_equal(how, 0);
+}
+
 /* One that is slow by the clock, since a processor seldom has time for it, is no hanging one. */
 static void compilers_are_slow(void **state)
 {
@@ -705,10 +736,11 @@ int main(int argc, char *argv[])
     systems = argc > 2 ? argv[2] : "share/systems";
     setenv("GEOMINT_SYSTEMS", systems, 1);
     for (int i = 3; i < argc; i++) {
-        const bool is_all = strcmp(argv[i], "all") == 0, is_baseline = strcmp(argv[i], "baseline") == 0;
+        const bool is_all = strcmp(argv[i], "all") == 0, is_baseline = strcmp(argv[i], "baseline") == 0,
+                   is_avx2 = strcmp(argv[i], "avx2") == 0;
         all |= is_all;
-        baseline |= is_baseline;
-        compiler = is_all || is_baseline ? compiler : argv[i];
+        most = is_baseline ? GM_ISA_BASELINE : is_avx2 ? GM_ISA_AVX2 : most;
+        compiler = is_all || is_baseline || is_avx2 ? compiler : argv[i];
     }
     if (compiler && !gm_program_find(compiler, path, &about)) {
         printf("there is no %s here\n", compiler);
@@ -728,9 +760,11 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
         cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
         cmocka_unit_test_setup_teardown(compilers_are_slow, begin, end),
+        cmocka_unit_test_setup_teardown(compilers_clear_up, begin, end),
+        cmocka_unit_test_setup_teardown(streams_are_closed, begin, end),
         cmocka_unit_test_setup_teardown(auto_takes_over, begin, end),
         cmocka_unit_test_setup_teardown(parameters_need_no_compiler, begin, end),
     };
-    const int failed = compiler || baseline ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
+    const int failed = compiler || most < GM_ISA_COUNT ? 0 : cmocka_run_group_tests(with_faults, NULL, NULL);
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

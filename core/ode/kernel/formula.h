@@ -4,8 +4,15 @@
    those that registers have are one operation. Included for each pass. */
 #include "core/formula/arithmetic.h"
 
+/* Of registers they are functions: lane by lane in each place they are most of a compiler's time. */
+#undef GM_OF_LIBRARY
+#ifdef GM_PASS_SCALAR
+#define GM_OF_LIBRARY GM_INLINE
+#else
+#define GM_OF_LIBRARY static __attribute__((noinline, unused))
+#endif
 #define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
-    GM_INLINE real K(value_##constant)(real x, real y)                                                       \
+    GM_OF_LIBRARY real K(value_##constant)(real x, real y)                                                   \
     {                                                                                                        \
         for (int l = 0; l < GM_LANES; l++) {                                                                 \
             const double a = K(lane)(x, l), b = K(lane)(y, l);                                               \
