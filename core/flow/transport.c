@@ -102,19 +102,29 @@ void gm_transport_precondition(const struct gm_transport *transport, const doubl
 {
     const struct gm_complex *complex = transport->complex;
     const int *start = complex->ring_start, *vertex = complex->ring_vertex;
-    for (size_t v = 0; v < complex->vertices; v++) {
+    /* each row waits for the one before, whose x is taken before it is in memory */
+    double last = 0;
+    for (int v = 0; v < (int)complex->vertices; v++) {
         double sum = r[v];
-        for (int k = start[v]; k < start[v + 1] && vertex[k] < (int)v; k++) {
+        int k = start[v];
+        for (; k < start[v + 1] && vertex[k] < v - 1; k++) {
             sum -= transport->ring[k] * x[vertex[k]];
         }
-        x[v] = transport->pivot[v] * sum;
+        if (k < start[v + 1] && vertex[k] == v - 1) {
+            sum -= transport->ring[k] * last;
+        }
+        x[v] = last = transport->pivot[v] * sum;
     }
-    for (size_t v = complex->vertices; v-- > 0;) {
+    for (int v = (int)complex->vertices - 1; v >= 0; v--) {
         double sum = 0;
-        for (int k = start[v + 1] - 1; k >= start[v] && vertex[k] > (int)v; k--) {
+        int k = start[v + 1] - 1;
+        for (; k >= start[v] && vertex[k] > v + 1; k--) {
             sum += transport->ring[k] * x[vertex[k]];
         }
-        x[v] -= transport->pivot[v] * sum;
+        if (k >= start[v] && vertex[k] == v + 1) {
+            sum += transport->ring[k] * last;
+        }
+        x[v] = last = x[v] - transport->pivot[v] * sum;
     }
 }
 
