@@ -48,6 +48,23 @@ static inline void subtract(double *restrict y, const double *restrict x, double
     }
 }
 
+/* y -= factor x after `other` has taken the place of y[pivot - 1]; nothing takes one where the pivot is 0. Written there
+   before, a single number would be waited for by the registers that are read next. */
+static inline void subtract_swapped(double *restrict y, const double *restrict x, double factor, size_t count,
+                                    double other, size_t pivot)
+{
+    if (pivot == 0) {
+        subtract(y, x, factor, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        y[i] = (i == pivot - 1 ? other : y[i]) - factor * x[i];
+    }
+    if (pivot > count) {
+        y[pivot - 1] = other;
+    }
+}
+
 /* How many of the entries values[0], values[step], ... are left when zeros at the end are not counted. */
 static inline size_t without_zeros(const double *values, ptrdiff_t step, size_t count)
 {
@@ -76,14 +93,9 @@ GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
         }
         const size_t reach = least(j + pivot + band, n - 1);
         last = reach > last ? reach : last;
-        if (pivot > 0) {
-            /* along a row, one column on is `step` on */
-            for (size_t k = 0; k <= last - j; k++) {
-                const double held = diagonal[k * step];
-                diagonal[k * step] = diagonal[k * step + pivot];
-                diagonal[k * step + pivot] = held;
-            }
-        }
+        const double held = diagonal[0];
+        diagonal[0] = diagonal[pivot];
+        diagonal[pivot] = held;
         const double inverse = 1 / diagonal[0];
         const size_t filled = without_zeros(diagonal + 1, 1, below);
         for (size_t i = 1; i <= filled; i++) {
@@ -91,30 +103,60 @@ GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
         }
         matrix->above[j] = without_zeros(diagonal - 1, -1, least(2 * band, j));
         matrix->below[j] = filled;
+        /* along a row, one column on is `step` on */
         for (size_t k = 1; k <= last - j; k++) {
             double *column = diagonal + k * step;
+            const double other = column[0];
+            column[0] = column[pivot];
             if (column[0] != 0) {
-                subtract(column + 1, diagonal + 1, column[0], filled);
+                subtract_swapped(column + 1, diagonal + 1, column[0], filled, other, pivot);
+            } else {
+                column[pivot] = other;
             }
         }
     }
     return true;
 }
 
+/* Numbers next to the diagonal that are held beside x, so that no column waits for what the one before has written. */
+enum { HELD = 3 };
+
 GM_CLONES void gm_banded_solve(const struct gm_banded *matrix, double *x)
 {
     const size_t n = matrix->n, band = matrix->band;
     for (size_t j = 0; j < n; j++) {
-        const size_t pivot = matrix->pivots[j];
-        const double value = x[pivot];
-        x[pivot] = x[j];
+        const size_t pivot = matrix->pivots[j], below = matrix->below[j];
+        const double *column = matrix->values + j * matrix->stride + 2 * band + 1;
+        const double value = x[pivot], other = x[j];
         x[j] = value;
-        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value, matrix->below[j]);
+        subtract_swapped(x + j + 1, column, value, below, other, pivot - j);
     }
     for (size_t j = n; j-- > 0;) {
         const double *diagonal = matrix->values + j * matrix->stride + 2 * band;
-        const size_t above = matrix->above[j];
         x[j] /= diagonal[0];
-        subtract(x + j - above, diagonal - above, x[j], above);
+        if (matrix->above[j] < HELD) {
+            subtract(x + j - matrix->above[j], diagonal - matrix->above[j], x[j], matrix->above[j]);
+            continue;
+        }
+        double known = x[j], first = x[j - 1], second = x[j - 2], third = x[j - 3];
+        for (;;) {
+            const size_t above = matrix->above[j];
+            first -= known * diagonal[-1];
+            second -= known * diagonal[-2];
+            third -= known * diagonal[-3];
+            subtract(x + j - above, diagonal - above, known, above - HELD);
+            diagonal -= matrix->stride;
+            if (matrix->above[--j] < HELD) {
+                break;
+            }
+            x[j] = known = first / diagonal[0];
+            first = second;
+            second = third;
+            third = x[j - HELD];
+        }
+        x[j] = first;
+        x[j - 1] = second;
+        x[j - 2] = third;
+        j++;
     }
 }

@@ -12,8 +12,7 @@
 struct gm_rasteriser {
     int width, height;
     enum gm_theme theme;
-    uint32_t
-        *groups; /* of each pixel: which group of GM_STENCIL_ONCE painted it last, and whether it is inside */
+    uint32_t *groups;  /* which group of GM_STENCIL_ONCE painted a pixel last, and whether it is inside */
     uint32_t *colours; /* of both maps, finely; made when one is first wanted */
 };
 

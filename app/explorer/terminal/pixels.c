@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "app/explorer/background/job.h"
-#include "render/pixels/canvas.h"
 #include "render/message.h"
+#include "render/pixels/canvas.h"
 
 struct gm_pixels {
     struct gm_job painting;

@@ -16,8 +16,8 @@
 #include "app/output/say.h"
 #include "core/count.h"
 #include "core/memory.h"
-#include "render/pixels/canvas.h"
 #include "render/message.h"
+#include "render/pixels/canvas.h"
 
 #undef columns /* term.h defines these short names as macros */
 #undef lines

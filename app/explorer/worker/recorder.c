@@ -10,8 +10,8 @@
 #include "app/explorer/background/job.h"
 #include "app/request/interrupt.h"
 #include "render/files/sink.h"
-#include "render/pixels/canvas.h"
 #include "render/message.h"
+#include "render/pixels/canvas.h"
 
 enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };
 
