@@ -176,8 +176,18 @@ static bool tell_states(const struct gm_view *view, const double *states, const 
     return false;
 }
 
+/* Whether a run goes on with such states. */
+static bool goes_on(const struct gm_view *view, const double *states)
+{
+    bool within = true;
+    for (size_t i = 0; i < view->problem->n * view->problem->m; i++) {
+        within = within && fabs(states[i]) <= view->run->limit;
+    }
+    return within;
+}
+
 /* Looks ahead, as stages do: along the slope, and then along the motion, which may bend to where that does not lead;
-   there over two steps, since stages overshoot. */
+   there over two steps, since stages overshoot. What lies beyond the run's limit ends it by itself. */
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     enum { PARTS = 8 };
@@ -192,14 +202,16 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     gm_field(problem, view->state, slope, problem->m);
     memcpy(ahead, view->state, total * sizeof *ahead);
     bool told = tell_states(view, ahead, slope, text, size);
-    for (int part = 1; part <= 3 * PARTS && !told; part++) {
+    bool within = true;
+    for (int part = 1; part <= 3 * PARTS && !told && within; part++) {
         const bool from_here = part <= PARTS + 1;
         const double h = view->dt * (part <= PARTS ? part : 1) / PARTS;
         for (size_t i = 0; i < total; i++) {
             ahead[i] = from_here ? view->state[i] + h * slope[i] : ahead[i] + h * there[i];
         }
+        within = goes_on(view, ahead);
         gm_field(problem, ahead, there, problem->m);
-        told = tell_states(view, ahead, there, text, size);
+        told = within && tell_states(view, ahead, there, text, size);
     }
     if (!told && (view->scheme->needs & GM_NEEDS_MONITOR)) {
         tell_monitor(view, slope, ahead, text, size);
