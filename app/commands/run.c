@@ -523,12 +523,13 @@ static bool save_tracks(const struct outcome *outcome, char *message)
    even where there is no memory to say more of it. */
 static void end_cut(struct outcome *outcome)
 {
-    char message[GM_MESSAGE];
-    outcome->interrupted = true;
+    char message[GM_MESSAGE], sentence[GM_MESSAGE];
+    struct gm_run *run = outcome->drive.lane->run;
+    outcome->interrupted = !gm_memory_was_short();
+    run->status = outcome->interrupted ? run->status : GM_OUT_OF_MEMORY;
     snprintf(message, sizeof message,
-             "no more rows could be written: the run came to t = %.6g, those of the file end before",
-             outcome->drive.lane->run->t);
-    char *meta = gm_meta_text(outcome->drive.lane, "interrupted", message);
+             "no more rows could be written: the run came to t = %.6g, those of the file end before", run->t);
+    char *meta = gm_meta_text(outcome->drive.lane, tell_end(outcome, sentence, sizeof sentence), message);
     gm_save_end(outcome->outputs->save, meta ? meta : "{}", message);
     free(meta);
 }

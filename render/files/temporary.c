@@ -38,6 +38,7 @@ char *gm_temporary_name(const char *path, const char *ending)
     /* a leading "./" keeps other programs from seeing an option in "-a" or a protocol in "a:b" */
     if (asprintf(&temporary, "%s%.*s.%.*s.%ld.%u%s", path[0] == '/' ? "" : "./", folder, path, NAME_SHOWN,
                  name, (long)getpid(), atomic_fetch_add(&counter, 1), ending) < 0) {
+        errno = ENOMEM;
         return NULL;
     }
     return temporary;
