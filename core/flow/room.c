@@ -56,8 +56,12 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
 {
     const struct reading *reading = data;
     for (size_t i = 0; i < VARIABLES; i++) {
-        if (name->length != 1 || name->text[0] != variables[i][0] || name->indexed || name->initial) {
+        if (name->length != 1 || name->text[0] != variables[i][0] || name->initial) {
             continue;
+        }
+        if (name->indexed) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%s is one number, and has no index", variables[i]);
+            return GM_REFUSED;
         }
         if (!(reading->may >> i & 1)) {
             snprintf(sentence, GM_FAULT_SENTENCE, "%s",
@@ -109,16 +113,18 @@ void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, 
     point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0, scratch);
 }
 
-/* Where the next "key =" begins in a span, or its end. */
+/* Where the next "key =" begins in a span, or its end; in parentheses stands the index of a sum. */
 static size_t next_key(const char *text, struct gm_span span)
 {
+    int depth = 0;
     for (size_t at = span.begin; at < span.end; at++) {
+        depth += (text[at] == '(') - (text[at] == ')');
         const size_t length = gm_name_length(text + at, span.end - at);
         size_t behind = at + length;
         while (behind < span.end && (text[behind] == ' ' || text[behind] == '\t')) {
             behind++;
         }
-        if (length > 0 && behind < span.end && text[behind] == '=') {
+        if (length > 0 && depth <= 0 && behind < span.end && text[behind] == '=') {
             return at;
         }
         at += length > 0 ? length - 1 : 0;

@@ -159,6 +159,14 @@ for line in lines:
     assert errors[0] < 0.5 and errors[1] < 0.55 * errors[0] and errors[2] < 0.55 * errors[1], errors
 END
 
+# sums have their index in parentheses, where no key begins
+{ sed '/^wall/d; s/scalar = 1/scalar = sum(k = 1 .. 3, k*y)/' "$rooms/office.room"; } >sums.room
+sed 's/sum(k = 1 .. 3, k\*y)/y + 2*y + 3*y/' sums.room >terms.room
+status 0 run ./sums.room steps=5 --json
+summed=$(grep -o '"scalar_total":[^,]*' out)
+status 0 run ./terms.room steps=5 --json
+[ "$summed" = "$(grep -o '"scalar_total":[^,]*' out)" ] || fail "a sum over an index in a room"
+
 # neither a checkpoint nor `again` goes on with another room, or another mesh
 cp "$rooms/office.room" "$rooms/office.msh" .
 status 0 run ./office.room steps=1 --checkpoint kept.checkpoint
@@ -256,6 +264,8 @@ wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' '
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
 wrong 'the speed is not finite at (0, ' 'inlet: vent speed = 1/(x*y)'
 wrong 'wrong.room:5:21: .*did you mean' 'inlet: vent speed = sinn(s)'
+wrong 'wrong.room:5:21: y is one number, and has no index' 'inlet: vent speed = y[1]'
+wrong 'wrong.room:5:24: ) was expected, not "s"' 'inlet: vent speed = (s scalar = 1'
 wrong 'wrong.room:5:36: what .* may change in time: no start, no source' 'source: printer x = 1 y = 1 rate = t'
 wrong 'wrong.room:5:17: what .* may change in time: no start' 'start: scalar = t'
 wrong 'door is named twice' 'inlet: door flow = 1'
