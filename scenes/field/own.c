@@ -309,7 +309,7 @@ static bool begins_exactly(const void *parameters, const struct gm_problem *prob
 static bool has_levels(const struct own_field *own, const struct gm_problem *problem, const double *y,
                        char *sentence)
 {
-    const double most = 1e6;
+    const double most = 1e10; /* as a run takes for a blow-up */
     const size_t points = problem->line.points;
     size_t wrong;
     const double start = largest_of(y, points, &wrong), further = largest_of(y + points, points, &wrong);
