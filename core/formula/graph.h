@@ -119,7 +119,8 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 /* The first operation of a formula that is not smooth and holds one of the marked variables; GM_NO_NODE: none does.
    Where memory was refused graph->failed is set. */
-gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const bool *marked, size_t variables);
+gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const bool *marked,
+                           size_t variables);
 /* For each node whether it depends on one of the variables that are marked; there are `variables` of these.
    malloc'ed, NULL if memory is short. */
 bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables);

@@ -309,7 +309,7 @@ static bool begins_exactly(const void *parameters, const struct gm_problem *prob
 static bool has_levels(const struct own_field *own, const struct gm_problem *problem, const double *y,
                        char *sentence)
 {
-    const double most = 1e6;
+    const double most = 1e10; /* as a run takes for a blow-up */
     const size_t points = problem->line.points;
     size_t wrong;
     const double start = largest_of(y, points, &wrong), further = largest_of(y + points, points, &wrong);
@@ -828,8 +828,9 @@ static bool make_schemes(struct own_field *own, const struct gm_problem *problem
     return true;
 }
 
-/* With an exact solution the grid is refined with the step; without one the distance from a reference run on
-   the same grid is measured. */
+/* With an exact solution the grid is refined with the step, and on a moving mesh, where each strategy has a motion of
+   its own on given nodes, so that the same is measured against a run on more of them; else the distance from a reference
+   run on the same grid is measured. */
 static void make_work(struct own_field *own)
 {
     own->work = (struct gm_work){.arguments = "",
@@ -837,6 +838,12 @@ static void make_work(struct own_field *own)
                                  .halvings = 5};
     if (own->solved) {
         own->work.measure = "solution_error";
+    } else if (own->moves) {
+        own->work.reference = "multiplier-lobatto4";
+        own->work.distance = gm_mesh_distance;
+        own->work.distance_title = "distance from a finer run";
+    }
+    if (own->solved || own->moves) {
         own->work.resolution = "points";
         own->work.resolutions = own->resolutions;
         own->work.resolution_count = GM_COUNT(own->resolutions);
@@ -845,7 +852,7 @@ static void make_work(struct own_field *own)
             own->resolutions[i] = ldexp((double)own->initial->points, (int)i - 1);
             own->errors[i] = pow(10, -1 - (double)i);
         }
-        own->resolutions[0] = fmax(3, floor(own->resolutions[0]));
+        own->resolutions[0] = fmax(own->moves ? 1 : 3, floor(own->resolutions[0]));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/larger.h"
+#include "scenes/frame/lane.h"
 
 enum { PATHS = 255 /* most nodes whose paths are recorded */ };
 
@@ -17,6 +18,26 @@ struct gm_mesh gm_mesh_of(const struct gm_view *view)
 double gm_mesh_exact(const struct gm_view *view, double x, double t)
 {
     return gm_moving_mesh_of(view->problem)->exact(view->problem->parameters, x, t);
+}
+
+double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer)
+{
+    const struct gm_view view = gm_lane_view(lane), other = gm_lane_view(finer);
+    const struct gm_mesh mesh = gm_mesh_of(&other);
+    const size_t points = lane->problem.n / 4, finest = mesh.points;
+    double largest = 0;
+    for (size_t k = 0, right = 0; k < points; k++) {
+        const double x = view.state[points + k];
+        while (right < finest && other.state[finest + right] < x) {
+            right++;
+        }
+        const double u0 = right > 0 ? other.state[right - 1] : mesh.left,
+                     u1 = right < finest ? other.state[right] : mesh.right,
+                     x0 = right > 0 ? other.state[finest + right - 1] : mesh.first,
+                     x1 = right < finest ? other.state[finest + right] : mesh.first + mesh.length;
+        largest = gm_larger(largest, fabs(view.state[k] - u0 - (u1 - u0) * (x - x0) / (x1 - x0)));
+    }
+    return largest;
 }
 
 static bool moves(const struct gm_view *view)

@@ -10,6 +10,8 @@
 struct gm_mesh gm_mesh_of(const struct gm_view *view);
 /* The solution; NaN where none is known. */
 double gm_mesh_exact(const struct gm_view *view, double x, double t);
+/* The largest difference of a lane's field at its nodes from that of another lane of more nodes, linear between them. */
+double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer);
 
 double gm_view_mesh_error(const struct gm_view *view);
 double gm_view_lead(const struct gm_view *view);

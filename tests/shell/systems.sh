@@ -251,6 +251,11 @@ grep -q 'the law is measured on 3 nodes' out || fail "phi4 on 7 nodes, certified
 refused 1 'on takes systems of at most 28 components' certify multiplier-lobatto4 --on phi4 points=8
 refused 1 'equations and waves on moving meshes; phi4 is none' certify leapfrog --on phi4
 
+# what schemes of moving meshes cost is measured against more nodes: each strategy has a motion of its own on given ones
+status 0 work-precision phi4 scheme=multiplier-lobatto4,control-gauss4,uniform-gauss4 until=2
+[ "$(awk '/^(multiplier|control|uniform)/ && $NF < 0.01' out | wc -l)" = 3 ] || fail "phi4, work-precision: $(cat out)"
+rm -f phi4-work-precision.*
+
 # an exact solution that begins elsewhere, or a step that leads nowhere, is no run: it was one of nonsense
 bump='start: u = exp(-x^2), u_t = 0\nhalf_length: 10\npoints: 100\ndt: 0.05\nuntil: 1\n'
 # a_field LINES: with that start

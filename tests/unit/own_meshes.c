@@ -142,6 +142,20 @@ static void typed_again_the_soliton_is_the_same(void **unused)
     }
 }
 
+/* The multipliers of Lobatto's method of order 4, whose coefficients have one. */
+static struct gm_scheme with_a_wrong_digit(void)
+{
+    static struct gm_tableau tableau;
+    static struct gm_multiplier digit;
+    tableau = gm_tableau_lobatto4;
+    tableau.abar[2][1] += 1e-3;
+    digit = gm_multiplier_lobatto4;
+    digit.tableau = &tableau;
+    struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
+    wrong.coefficients = &digit;
+    return wrong;
+}
+
 /* The order in the step of differences between runs, on 7 nodes. */
 static double order_of(const struct typed *typed, const struct gm_scheme *scheme)
 {
@@ -177,13 +191,7 @@ static void orders_are_claimed_ones(void **unused)
                 fail_msg("%s: order %.3f", names[i], order);
             }
         }
-        /* a wrong digit among the coefficients */
-        struct gm_tableau tableau = gm_tableau_lobatto4;
-        tableau.abar[2][1] += 1e-3;
-        struct gm_multiplier digit = gm_multiplier_lobatto4;
-        digit.tableau = &tableau;
-        struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
-        wrong.coefficients = &digit;
+        const struct gm_scheme wrong = with_a_wrong_digit();
         assert_false(fabs(order_of(&typed, &wrong) - 4) < 0.15);
         close_typed(&typed);
     }
@@ -240,12 +248,7 @@ static void schemes_are_certified_on_somebodys_potential(void **unused)
                 fail_msg("%s: order %.3f", names[i], certificate.order);
             }
         }
-        struct gm_tableau tableau = gm_tableau_lobatto4;
-        tableau.abar[2][1] += 1e-3;
-        struct gm_multiplier digit = gm_multiplier_lobatto4;
-        digit.tableau = &tableau;
-        struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
-        wrong.coefficients = &digit;
+        struct gm_scheme wrong = with_a_wrong_digit();
         assert_false(certificate_of(&typed, &wrong).holds);
         wrong = *gm_scheme_find("control-gauss4");
         assert_true(certificate_of(&typed, &wrong).holds);

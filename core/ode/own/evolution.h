@@ -23,8 +23,9 @@ struct gm_own_evolution {
     gm_node_id starts[GM_MOST_FIELDS], exact[GM_MOST_FIELDS]; /* exact[0] GM_NO_NODE: none is told */
     gm_node_id *densities; /* of the items that are invariants or observed, in their order */
     size_t density_count;
-    gm_node_id kink; /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
-    size_t kinked;   /* in which */
+    gm_node_id
+        kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
+    size_t kinked; /* in which */
 };
 
 /* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */
