@@ -73,7 +73,7 @@ static void read_picture(struct gm_explorer *explorer)
         return;
     }
     explorer->dirty = true;
-    if (explorer->display.failed) { /* there is no GL: blocks do not need it */
+    if (explorer->display.failed) { /* there is no font: blocks do not need one */
         explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
             false;
         explorer->face.pixels = GM_INLINE_NONE;

@@ -7,7 +7,7 @@
 #include "render/layout/surface.h"
 #include "render/layout/theme.h"
 
-/* What draws: the few operations that a picture is made of. OpenGL, SVG and PDF each have them. Places and
+/* What draws: the few operations that a picture is made of. Triangles, SVG and PDF each have them. Places and
    lengths are in pixels of the picture, y downwards; what is drawn later lies over what was drawn before. */
 
 struct gm_ink {

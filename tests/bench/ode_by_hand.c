@@ -3,7 +3,6 @@
 #include "tests/bench/ode_by_hand.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 #include "core/clones.h"
@@ -79,18 +78,20 @@ RK4(gm_hand_vortices_rk4, 8, vortices)
 
 /* Four vortices in a register: the next one and the one opposite give four pairs and twice two. */
 typedef double four __attribute__((vector_size(4 * sizeof(double))));
-typedef int64_t places __attribute__((vector_size(4 * sizeof(int64_t))));
 
-static inline __attribute__((always_inline)) void velocities(four x, four y, four *fx, four *fy)
+static inline __attribute__((always_inline)) void velocities(const four *at_x, const four *at_y, four *fx,
+                                                             four *fy)
 {
-    const places next = {1, 2, 3, 0}, opposite = {2, 3, 0, 1}, before = {3, 0, 1, 2};
-    const four dx = x - __builtin_shuffle(x, next), dy = y - __builtin_shuffle(y, next);
-    const four far_dx = x - __builtin_shuffle(x, opposite), far_dy = y - __builtin_shuffle(y, opposite);
+    const four x = *at_x, y = *at_y;
+    const four dx = x - __builtin_shufflevector(x, x, 1, 2, 3, 0),
+               dy = y - __builtin_shufflevector(y, y, 1, 2, 3, 0);
+    const four far_dx = x - __builtin_shufflevector(x, x, 2, 3, 0, 1);
+    const four far_dy = y - __builtin_shufflevector(y, y, 2, 3, 0, 1);
     const four turn = GM_HAND_STRENGTH / (2 * M_PI) / (dx * dx + dy * dy);
     const four far = GM_HAND_STRENGTH / (2 * M_PI) / (far_dx * far_dx + far_dy * far_dy);
     const four pull_x = dx * turn, pull_y = dy * turn;
-    *fx = __builtin_shuffle(pull_y, before) - pull_y - far_dy * far;
-    *fy = pull_x - __builtin_shuffle(pull_x, before) + far_dx * far;
+    *fx = __builtin_shufflevector(pull_y, pull_y, 3, 0, 1, 2) - pull_y - far_dy * far;
+    *fy = pull_x - __builtin_shufflevector(pull_x, pull_x, 3, 0, 1, 2) + far_dx * far;
 }
 
 GM_CLONES void gm_hand_vortices_rk4_simd(double *state, double h, long steps)
@@ -100,10 +101,13 @@ GM_CLONES void gm_hand_vortices_rk4_simd(double *state, double h, long steps)
     memcpy(&y, state + 4, sizeof y);
     for (long s = 0; s < steps; s++) {
         four a1, b1, a2, b2, a3, b3, a4, b4;
-        velocities(x, y, &a1, &b1);
-        velocities(x + h / 2 * a1, y + h / 2 * b1, &a2, &b2);
-        velocities(x + h / 2 * a2, y + h / 2 * b2, &a3, &b3);
-        velocities(x + h * a3, y + h * b3, &a4, &b4);
+        velocities(&x, &y, &a1, &b1);
+        four at_x = x + h / 2 * a1, at_y = y + h / 2 * b1;
+        velocities(&at_x, &at_y, &a2, &b2);
+        at_x = x + h / 2 * a2, at_y = y + h / 2 * b2;
+        velocities(&at_x, &at_y, &a3, &b3);
+        at_x = x + h * a3, at_y = y + h * b3;
+        velocities(&at_x, &at_y, &a4, &b4);
         x += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
         y += h / 6 * (b1 + 2 * b2 + 2 * b3 + b4);
     }
@@ -118,13 +122,14 @@ GM_CLONES void gm_hand_vortices_midpoint_simd(double *state, double h, long step
     four x, y, a, b;
     memcpy(&x, state, sizeof x);
     memcpy(&y, state + 4, sizeof y);
-    velocities(x, y, &a, &b);
+    velocities(&x, &y, &a, &b);
     for (long s = 0; s < steps; s++) {
         double change = INFINITY, before;
         do {
             four fx, fy;
             before = change;
-            velocities(x + h / 2 * a, y + h / 2 * b, &fx, &fy);
+            const four at_x = x + h / 2 * a, at_y = y + h / 2 * b;
+            velocities(&at_x, &at_y, &fx, &fy);
             const four da = fx - a, db = fy - b, square = da * da + db * db;
             change = h * h * (square[0] + square[1] + square[2] + square[3]);
             a = fx;

@@ -18,7 +18,7 @@ struct gm_display {
     bool stale;                /* there is a newer picture than the one that was begun last */
     bool lost;                 /* the terminal may have lost parts of what it was sent */
     bool painted;              /* `bytes` wait to be shown */
-    bool failed;               /* there is no GL: no pixels */
+    bool failed;               /* there is no font: no pixels */
     enum gm_inline_kind shown; /* what the terminal shows */
     struct gm_pixels_job job;  /* the last that was begun */
     const char *bytes;

@@ -86,7 +86,7 @@ struct gm_pixels *gm_pixels_open(int wake, char *message)
         gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
-    /* the context of GL is the thread's: it is closed there */
+    /* a context of OpenGL, where there is one, is the thread's: it is closed there */
     if (!gm_job_open(&pixels->painting, paint, forget, pixels, wake, message)) {
         free(pixels);
         return NULL;

@@ -5,8 +5,8 @@
 #include "render/files/inline_image.h"
 #include "render/layout/theme.h"
 
-/* The thread that paints pictures through GL and encodes them for a terminal that shows pixels, so that
-   neither keys nor steps wait for it. One picture at a time. */
+/* The thread that paints pictures and encodes them for a terminal that shows pixels, so that neither keys nor steps wait
+   for it. One picture at a time. */
 
 struct gm_pixels;
 

@@ -108,7 +108,7 @@ bool gm_recorder_close(struct gm_recorder *recorder, char *message)
 {
     gm_job_close(&recorder->painting);
     bool good = gm_sink_close(recorder->sink, true, message);
-    if (recorder->message[0]) { /* there was no GL to paint with */
+    if (recorder->message[0]) { /* there was nothing to paint with */
         gm_refuse(message, "%s", recorder->message);
         good = false;
     }

@@ -5,7 +5,7 @@
 #include "app/request/interrupt.h"
 #include "render/layout/theme.h"
 
-/* A movie of what is seen: a thread that paints pictures through GL and hands them to ffmpeg, so that steps
+/* A movie of what is seen: a thread that paints pictures and hands them to ffmpeg, so that steps
    do not wait for it. The movie goes with the clock on the wall: a picture is held for as long as it was
    seen, but where nothing changes for no longer than a second. */
 
