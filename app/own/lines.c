@@ -102,7 +102,7 @@ int gm_system_lines_fault(const struct gm_system_lines *written, char *const wor
     } else {
         gm_refuse(message, "system: %.200s", fault->sentence);
     }
-    if (placed && written->path) {
+    if (written->path && fault->offset < length && length <= GM_LARGEST_SYSTEM) {
         gm_place_show(text, length, fault->offset, message);
     }
     return GM_EXIT_USAGE;

@@ -168,28 +168,31 @@ static bool choose_words(struct gm_made_system *made, const struct gm_own_system
     return good || gm_refuse(message, "not enough memory");
 }
 
-/* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in
-   it, or its value; 0: nowhere. */
+/* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in such a
+   line, or the value of the first one; 0: nowhere. */
 static size_t line_told(const char *text, const char *sentence)
 {
     const size_t word = strcspn(sentence, ": ") + 1;
     const char *line = sentence[word - 1] == ':' ? text : NULL;
-    while (line && strncmp(line, sentence, word) != 0) {
-        line = strchr(line, '\n');
-        line += line != NULL;
-    }
-    if (!line) {
-        return 0;
-    }
-    const char *value = line + word + strspn(line + word, " \t");
     const char *wrong = sentence + word + strspn(sentence + word, " ");
-    const size_t length = strcspn(wrong, " "), room = strcspn(value, "\n");
-    for (size_t i = 0; length > 0 && i + length <= room; i++) {
-        if (strncmp(value + i, wrong, length) == 0) {
-            return (size_t)(value + i - text);
+    const size_t length = strcspn(wrong, " ");
+    size_t first = 0; /* the value of the first such line */
+    for (const char *next; line; line = next) {
+        next = strchr(line, '\n');
+        next += next != NULL;
+        if (strncmp(line, sentence, word) != 0) {
+            continue;
+        }
+        const char *value = line + word + strspn(line + word, " \t");
+        const size_t room = strcspn(value, "\n");
+        first = first > 0 ? first : (size_t)(value - text);
+        for (size_t i = 0; length > 0 && i + length <= room; i++) {
+            if (strncmp(value + i, wrong, length) == 0) {
+                return (size_t)(value + i - text);
+            }
         }
     }
-    return (size_t)(value - text);
+    return first;
 }
 
 /* The equations of a system that was read, with the values that these are built on. What was read is emptied. */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/ode/variational/manifold.h"
+#include "core/system/names.h"
 #include "scenes/frame/rows.h"
 #include "scenes/ode/system/pieces.h"
 
@@ -303,6 +304,21 @@ static bool add_area(struct gm_system_scene *own)
            (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
 }
 
+/* Says which line makes a second observable of that name; false. */
+static bool refuse_twice(const struct gm_system_scene *own, const char *key, char *sentence)
+{
+    for (size_t i = own->system.item_count; i-- > 0;) {
+        const struct gm_system_item *item = &own->system.items[i];
+        const size_t length = item->name ? strlen(item->name) : 0;
+        const char *ending = item->word == GM_WORD_OBSERVE ? "" : "_error";
+        if (length > 0 && strncmp(key, item->name, length) == 0 && strcmp(key + length, ending) == 0) {
+            return gm_refuse(sentence, "%s: %s makes two observables %s", gm_system_words[item->word].word,
+                             item->name, key);
+        }
+    }
+    return gm_refuse(sentence, "there are two observables %s", key);
+}
+
 bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
 {
     const size_t most = own->system.item_count + 7;
@@ -313,7 +329,7 @@ bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_pro
     for (size_t i = 0; i < own->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
             good = strcmp(own->observables[i].key, own->observables[k].key) != 0 ||
-                   gm_refuse(sentence, "there are two observables %s", own->observables[i].key);
+                   refuse_twice(own, own->observables[i].key, sentence);
         }
     }
     return good;
