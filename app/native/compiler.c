@@ -195,17 +195,25 @@ static unsigned long ticks_of(pid_t group)
     return all;
 }
 
-/* Whether it hangs. One that has to wait for a processor, since the machine has much else to do, does not. */
-static bool hangs(struct gm_compilation *compilation)
+/* Whether it is to be ended, with a sentence. One that has to wait for a processor, since the machine has much else to
+   do, is not. */
+static bool is_overdue(struct gm_compilation *compilation, char *sentence)
 {
-    const double now = gm_clock_seconds();
-    if (now < compilation->seen + most_seconds()) {
+    const double now = gm_clock_seconds(), most = most_seconds();
+    if (now < compilation->seen + most) {
         return false;
     }
     const unsigned long ticks = ticks_of(compilation->process), before = compilation->ticks;
     compilation->seen = now;
     compilation->ticks = ticks;
-    return ticks == before || now > compilation->begin + LONGEST * most_seconds();
+    if (now > compilation->begin + LONGEST * most) {
+        gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
+        return true;
+    }
+    if (ticks == before) {
+        gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
+    }
+    return ticks == before;
 }
 
 /* The first line that it complained with. */
@@ -229,11 +237,10 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     struct rusage used = {0};
     const pid_t ended = wait4(compilation->process, &status, WNOHANG, &used);
     if (ended == 0 || (ended < 0 && errno == EINTR)) {
-        if (!hangs(compilation)) {
+        if (!is_overdue(compilation, sentence)) {
             return GM_COMPILES;
         }
         gm_compilation_stop(compilation);
-        gm_refuse(sentence, "the compiler hung for %.0f seconds", most_seconds());
         return GM_COMPILES_NOT;
     }
     compilation->process = 0;
