@@ -75,9 +75,9 @@ static void put_search_path(char *path, size_t size)
     }
 }
 
-static void limit(int resource, rlim_t most)
+static void limit(int resource, rlim_t most, rlim_t utmost)
 {
-    const struct rlimit limits = {most, most};
+    const struct rlimit limits = {most, utmost};
     setrlimit(resource, &limits);
 }
 
@@ -93,9 +93,10 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     signal(SIGPIPE, SIG_DFL);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
-    limit(RLIMIT_CPU, seconds);
-    limit(RLIMIT_FSIZE, MOST_BYTES);
-    limit(RLIMIT_CORE, 0);
+    signal(SIGXCPU, SIG_DFL);
+    limit(RLIMIT_CPU, seconds, seconds + 1); /* first with a signal that tells why */
+    limit(RLIMIT_FSIZE, MOST_BYTES, MOST_BYTES);
+    limit(RLIMIT_CORE, 0, 0);
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* what libraries have opened */
     if (nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
         dup2(log, STDERR_FILENO) >= 0 && fchdir(folder) == 0) {
@@ -250,7 +251,8 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return GM_COMPILED;
     }
-    if (ended > 0 && seconds_of(&used) >= most_seconds()) {
+    if (ended > 0 &&
+        ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) || seconds_of(&used) >= most_seconds())) {
         gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
     } else {
         gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
