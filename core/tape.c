@@ -59,11 +59,11 @@ struct writing {
     uint32_t zero;     /* of long code the constants 0 and, behind it, -0 */
     struct value *values;
     struct term *terms;
-    uint32_t
-        *products; /* the numbers of those that powers are made of, by what they are of; 0: a free place */
-    size_t product_count, product_room; /* a power of two, above twice as many */
-    struct group *groups;               /* in the order of the code */
-    size_t number_count;                /* of values as they were found: numbers are below it */
+    uint32_t *products;   /* a table of the numbers of products within powers; 0: a free place */
+    size_t product_count; /* in it; its room is a power of two, above twice as many */
+    size_t product_room;
+    struct group *groups; /* in the order of the code */
+    size_t number_count;  /* of values as they were found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
     size_t least_rolled; /* values: fewer stay in the order of the formula */

@@ -75,9 +75,9 @@ static void put_search_path(char *path, size_t size)
     }
 }
 
-static void limit(int resource, rlim_t most)
+static void limit(int resource, rlim_t most, rlim_t utmost)
 {
-    const struct rlimit limits = {most, most};
+    const struct rlimit limits = {most, utmost};
     setrlimit(resource, &limits);
 }
 
@@ -93,9 +93,10 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     signal(SIGPIPE, SIG_DFL);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
-    limit(RLIMIT_CPU, seconds);
-    limit(RLIMIT_FSIZE, MOST_BYTES);
-    limit(RLIMIT_CORE, 0);
+    signal(SIGXCPU, SIG_DFL);
+    limit(RLIMIT_CPU, seconds, seconds + 1); /* first with a signal that tells why */
+    limit(RLIMIT_FSIZE, MOST_BYTES, MOST_BYTES);
+    limit(RLIMIT_CORE, 0, 0);
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* what libraries have opened */
     if (nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
         dup2(log, STDERR_FILENO) >= 0 && fchdir(folder) == 0) {
@@ -195,17 +196,25 @@ static unsigned long ticks_of(pid_t group)
     return all;
 }
 
-/* Whether it hangs. One that has to wait for a processor, since the machine has much else to do, does not. */
-static bool hangs(struct gm_compilation *compilation)
+/* Whether it is to be ended, with a sentence. One that has to wait for a processor, since the machine has much else to
+   do, is not. */
+static bool is_overdue(struct gm_compilation *compilation, char *sentence)
 {
-    const double now = gm_clock_seconds();
-    if (now < compilation->seen + most_seconds()) {
+    const double now = gm_clock_seconds(), most = most_seconds();
+    if (now < compilation->seen + most) {
         return false;
     }
     const unsigned long ticks = ticks_of(compilation->process), before = compilation->ticks;
     compilation->seen = now;
     compilation->ticks = ticks;
-    return ticks == before || now > compilation->begin + LONGEST * most_seconds();
+    if (now > compilation->begin + LONGEST * most) {
+        gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
+        return true;
+    }
+    if (ticks == before) {
+        gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
+    }
+    return ticks == before;
 }
 
 /* The first line that it complained with. */
@@ -229,11 +238,10 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     struct rusage used = {0};
     const pid_t ended = wait4(compilation->process, &status, WNOHANG, &used);
     if (ended == 0 || (ended < 0 && errno == EINTR)) {
-        if (!hangs(compilation)) {
+        if (!is_overdue(compilation, sentence)) {
             return GM_COMPILES;
         }
         gm_compilation_stop(compilation);
-        gm_refuse(sentence, "the compiler hung for %.0f seconds", most_seconds());
         return GM_COMPILES_NOT;
     }
     compilation->process = 0;

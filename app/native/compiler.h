@@ -21,10 +21,10 @@ bool gm_compiler_find(char path[GM_CACHE_PATH], struct gm_digest *digest);
 
 /* One compilation. */
 struct gm_compilation {
-    pid_t process; /* 0: none runs */
+    pid_t process;       /* 0: none runs */
     double begin, seen;  /* by the clock: since when, and when it was last looked whether it hangs */
     unsigned long ticks; /* of a processor that it had taken then */
-    int complaints; /* a file in memory, which a full disk does not lose */
+    int complaints;      /* a file in memory, which a full disk does not lose */
 };
 enum gm_compiled { GM_COMPILED, GM_COMPILES, GM_COMPILES_NOT };
 

@@ -23,9 +23,9 @@
 #include "core/ode/own/own.h"
 #include "render/message.h"
 
-/* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. (Without the search
-   for what is computed twice it takes four fifths of the time; nothing is found by it.) The functions of formulas are
-   those of the library, in each case; what is one instruction is one. */
+/* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. (The search for
+   what is computed twice would take a fifth of the time and find nothing.) The functions of formulas are those of the
+   library, in each case; what is one instruction is one. */
 static const char *const flags[] = {
     "-std=c17",
     "-O3",
