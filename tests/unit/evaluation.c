@@ -372,7 +372,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bits_are_those_of_the_text),
                                        cmocka_unit_test(powers_share_products),
-        cmocka_unit_test(a_quotient_of_both_signs_is_computed_once),
+                                       cmocka_unit_test(a_quotient_of_both_signs_is_computed_once),
                                        cmocka_unit_test(sums_are_loops_with_the_bits_of_the_graph)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
