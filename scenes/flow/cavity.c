@@ -206,7 +206,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                     1e-4,    2.5e-4, 5e-4,  1e-3,  1.5e-3, 3e-3};
     const struct gm_look look = {
         .title = "A cavity driven by its lid",
-        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)}},
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds), NULL}},
         .clock_unit = "L/U",
         .vorticity_range = 5,
         .speed_high = 1,

@@ -160,7 +160,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct gm_look look = {
         .title = "A channel with a hot wall",
-        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)}},
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity), NULL}},
         .remark = ",  profiles at x = 3 L/4",
         .clock_unit = "H²/ν",
         .scalar_high = hot,

@@ -378,7 +378,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .title = own->scene.title,
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
                   gm_picture_text(picture, "%s", name_unit(own, spread, unit))},
-                 {"Schmidt number", offsetof(struct gm_flows, schmidt)}},
+                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(own, time, unit)),
         .axes = {gm_picture_text(picture, "x%s", beside_unit(own, length, unit)),
                  gm_picture_text(picture, "y%s", beside_unit(own, length, unit))},

@@ -196,8 +196,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double entering = inlet * scalar * own->timing.until * flow->time_unit;
     const struct gm_look look = {
         .title = "A polluted room",
-        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)},
-                 {"Schmidt number", offsetof(struct gm_flows, schmidt)}},
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds), NULL},
+                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL}},
         .remark = gm_picture_text(picture, ";  τ = %.4g h/U, the perimeter / U", flow->time_unit),
         .clock_unit = "τ",
         .axes = {"x / h", "y / h"},

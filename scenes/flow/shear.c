@@ -296,7 +296,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const struct shear *shear = shear_of(&lanes[0]->problem);
     const struct gm_look look = {
         .title = shear->title,
-        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)}},
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds), NULL}},
         .clock_unit = "H²/ν",
         .scalar_high = 1,
         .vorticity_range = shear->vorticity_range,

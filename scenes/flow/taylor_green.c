@@ -139,7 +139,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .title = own->speed == 0      ? "Taylor–Green vortices"
                  : own->viscosity > 0 ? "Taylor–Green vortices among other waves"
                                       : "Taylor–Green vortices among other waves, in an ideal fluid",
-        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)}},
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity), NULL}},
         .remark = own->domain == GM_DOMAIN_TORUS ? ",  torus" : ",  walls without friction",
         .clock_unit = "",
         .vorticity_range = 2 * wave_number(own) * (1 + own->speed),
