@@ -185,9 +185,8 @@ struct gm_look {
     const char *axes[2];    /* of the field, x and y, where one lane is shown; NULL: none are drawn */
     double scalar_high;     /* the scalar's range; 0: inlet_scalar */
     double temperature[2];  /* its range */
-    const char
-        *names[GM_SHOW_TEMPERATURE + 1]; /* beside the colours, by what is shown; NULL: without a unit */
-    double vorticity_range;              /* what the colours end at */
+    const char *names[GM_SHOW_TEMPERATURE + 1]; /* beside the colours; NULL: without a unit */
+    double vorticity_range;                     /* what the colours end at */
     double speed_high;
     const char *const *sides; /* names of openings, by the number of their side; NULL: "inlet", "outlet" */
     const double *levels;     /* of psi, where they are not chosen by the flow through; NULL */
