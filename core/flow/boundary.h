@@ -33,10 +33,8 @@ struct gm_side {
     double theta;          /* else it is held at this */
     bool temperature_free; /* the same of temperature, of flows that carry heat */
     double temperature;
-    bool
-        heats; /* a wall that does not hold it gives this heat, per unit of length and time, over density and heat
-                   capacity */
-    double heat;
+    bool heats;  /* a wall that does not hold a temperature gives this heat, */
+    double heat; /* per unit of length and time, over density and heat capacity */
 };
 
 enum gm_boundary_fault {

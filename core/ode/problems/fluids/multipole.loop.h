@@ -391,13 +391,7 @@ static void act_singly(struct tree *tree, const struct cell *one, const struct c
         }
         lanes mine_x = {0}, mine_y = {0};
         for (; j < end; j += LANES) {
-            const lanes dx = x_i - load(x + j), dy = y_i - load(y + j);
-            const lanes inverse = 1 / (dx * dx + dy * dy);
-            const lanes give_x = dx * inverse, give_y = dy * inverse;
-            mine_x += give_x;
-            mine_y += give_y;
-            store(sum_x + j, load(sum_x + j) - give_x);
-            store(sum_y + j, load(sum_y + j) - give_y);
+            give(x_i, y_i, x, y, j, &mine_x, &mine_y, sum_x, sum_y);
         }
         sum_x[i] += sum_of(mine_x);
         sum_y[i] += sum_of(mine_y);

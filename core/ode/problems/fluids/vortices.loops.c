@@ -32,7 +32,20 @@ static double factor_of(const struct gm_problem *problem)
     return *(const double *)problem->parameters / (2 * M_PI);
 }
 
-/* Each pair once: what j gives to i, i gives to j with the opposite sign. */
+/* What the vortices from j on, eight of them, give to one at (x_i, y_i), and it to them with the opposite sign. */
+static inline void give(double x_i, double y_i, const double *x, const double *y, size_t j, lanes *mine_x,
+                        lanes *mine_y, double *sum_x, double *sum_y)
+{
+    const lanes dx = x_i - load(x + j), dy = y_i - load(y + j);
+    const lanes inverse = 1 / (dx * dx + dy * dy);
+    const lanes give_x = dx * inverse, give_y = dy * inverse;
+    *mine_x += give_x;
+    *mine_y += give_y;
+    store(sum_x + j, load(sum_x + j) - give_x);
+    store(sum_y + j, load(sum_y + j) - give_y);
+}
+
+/* Each pair once. */
 static void pair_sum(const struct gm_problem *problem, const double *state, double *f, size_t m)
 {
     (void)m;
@@ -45,13 +58,7 @@ static void pair_sum(const struct gm_problem *problem, const double *state, doub
         lanes mine_x = {0}, mine_y = {0};
         size_t j = i + 1;
         for (; j + LANES <= count; j += LANES) {
-            const lanes dx = x_i - load(x + j), dy = y_i - load(y + j);
-            const lanes inverse = 1 / (dx * dx + dy * dy);
-            const lanes give_x = dx * inverse, give_y = dy * inverse;
-            mine_x += give_x;
-            mine_y += give_y;
-            store(sum_x + j, load(sum_x + j) - give_x);
-            store(sum_y + j, load(sum_y + j) - give_y);
+            give(x_i, y_i, x, y, j, &mine_x, &mine_y, sum_x, sum_y);
         }
         double rest_x = sum_of(mine_x), rest_y = sum_of(mine_y);
         for (; j < count; j++) {
