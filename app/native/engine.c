@@ -192,9 +192,9 @@ static void load(struct build *build, const char *folder)
     gm_refuse(build->sentence, "what was compiled could not be loaded: %.300s",
               error ? error : "it holds no loops");
     refuse(build);
-    /* one that lacks a symbol is made anew by the next start; where nothing can be loaded, as from a folder that is
-       mounted noexec, that would be for nothing */
-    if (library || (error && strstr(error, "symbol"))) {
+    /* it is made anew by the next start; where nothing can be loaded, as from a folder that is mounted noexec, that
+       would be for nothing */
+    if (!error || !strstr(error, "failed to map segment")) {
         gm_cache_drop(folder, &build->key);
     }
     if (library) {
