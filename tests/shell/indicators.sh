@@ -80,6 +80,8 @@ between escape_time 2.99322 2.99323 # arcosh 10
 grep -q '"lyapunov":null' out && grep -q '"lyapunov":"the run was stopped' out || fail "an orbit that left has an exponent"
 status 2 run henon-heiles scheme=explicit-euler until=1000 --measure megno,escape_time --json
 grep -q '"megno":"blow-up"' out || fail "an orbit that blew up has a MEGNO"
+status 2 run outer-planets scheme=implicit-euler dt=100 --measure escape_time --json
+grep -q '"escape_time":"no-convergence"' out || fail "a run that failed is said to have stayed"
 status 0 run kepler scheme=gsl-rk4 until=1 --measure lyapunov --json
 grep -q '"lyapunov":"what the scheme remembers' out || fail "GSL's steppers have no derivative"
 "$geomint" list schemes --json | python3 -c '
