@@ -101,6 +101,10 @@ assert len(rows) == 99 and at[-.4, -.4]["status"] == "refused" and at[-.4, -.4][
 assert float(at[.3, 0]["megno"]) < 2.5 and float(at[-.2, 0]["megno"]) > 3, (at[.3, 0], at[-.2, 0])
 assert float(at[.2, .2]["megno"]) == float(at[.2, .2]["megno"]) > 3
 END
+# of several observables each map says what it shows, and one that shows nothing has no colours to read
+status 0 sweep henon-heiles q2=-.1,.1 p2=-.1,.1 until=20 scheme=verlet --measure escape_time,lyapunov -o maps.svg
+grep -q 'time until the orbit has left, Verlet<' maps.svg && grep -q 'no run has a number<' maps.svg &&
+    grep -q 'largest Lyapunov exponent, Verlet<' maps.svg || fail "two maps do not say what they show"
 status 0 work-precision henon-heiles scheme=verlet dt=.1,.05 until=20 --measure lyapunov --size 320x180
 
 # argon as in Hairer, Lubich & Wanner, I.4: H = -1260.2 and 22.72 K at the start, in kB K; explicit Euler gains hundreds with
