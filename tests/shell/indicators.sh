@@ -183,6 +183,10 @@ for i, known in enumerate([5.203, 9.54, 19.2, 30.1, 39.5], 1):
     axis = 1 / (2 / r - sum(x * x for x in v) / (2.95912208286e-4 * (masses[0] + masses[i])))
     assert abs(axis / known - 1) < 0.015, (i, axis)
 END
+status 0 render outer-planets -o planets.svg
+for words in 'explicit Euler, Δt = 10<' 'implicit Euler, Δt = 10<' 'symplectic Euler, Δt = 100<' 'Verlet, Δt = 200<'; do
+    grep -q "$words" planets.svg || fail "the picture of the planets lacks $words"
+done
 status 0 run outer-planets scheme=explicit-euler dt=10 --measure jupiter,energy_error --json
 between jupiter 10 20
 status 2 run outer-planets scheme=implicit-euler dt=10 --measure jupiter,energy_error --json
