@@ -112,7 +112,8 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     struct gm_digest digest;
     struct seal seal;
     path_of(folder, key, path);
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    /* without waiting for whoever might write to a pipe of that name */
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) {
         return -1;
     }

@@ -124,7 +124,7 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         while (values > key && strchr(" \t\r\n", line[values - 1])) {
             values--;
         }
-        bool replaced = false;
+        bool replaced = strncmp(line, "lanes:", strlen("lanes:")) == 0; /* these words are one lane's */
         for (size_t i = 0; i < LINES; i++) {
             const size_t letters = strlen(lines[i]);
             replaced |= other[i] && strncmp(line, lines[i], letters) == 0 && line[letters] == ':';

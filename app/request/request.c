@@ -525,6 +525,11 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     }
     gm_words_close(&words);
     gm_arguments_close(&own);
+    if (!good && shown) { /* what nobody typed stands in a file */
+        char sentence[GM_MESSAGE];
+        snprintf(sentence, sizeof sentence, "%s", message);
+        gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
+    }
     if (!good) {
         const struct gm_request refused = *request;
         gm_request_close(request);

@@ -522,6 +522,7 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_WATCH:
     case GM_WORD_REFERENCE:
     case GM_WORD_SCHEMES:
+    case GM_WORD_LANES:
     case GM_WORD_MEMBERS:
         system->texts[line->word] = gm_reading_text(reading, line->value);
         return true;

@@ -825,6 +825,7 @@ static bool make_schemes(struct own_field *own, const struct gm_problem *problem
                          : own->is_form ? boxes
                          : own->moves   ? moving
                                         : gm_wave_schemes;
+    own->scene.lanes = own->system.texts[GM_WORD_LANES];
     return true;
 }
 

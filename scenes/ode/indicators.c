@@ -178,6 +178,5 @@ double gm_escape_time(const struct gm_view *view)
 
 const char *gm_escape_why(const struct gm_view *view)
 {
-    (void)view;
-    return "the orbit has not left";
+    return view->run->status != GM_OK ? gm_status_name(view->run->status) : "the orbit has not left";
 }

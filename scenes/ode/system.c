@@ -577,6 +577,7 @@ static bool make_schemes(struct gm_system_scene *own, const struct gm_problem *p
         return gm_refuse(sentence, "no scheme fits this system");
     }
     own->scene.schemes = own->schemes;
+    own->scene.lanes = own->system.texts[GM_WORD_LANES];
     return true;
 }
 

@@ -80,6 +80,8 @@ between escape_time 2.99322 2.99323 # arcosh 10
 grep -q '"lyapunov":null' out && grep -q '"lyapunov":"the run was stopped' out || fail "an orbit that left has an exponent"
 status 2 run henon-heiles scheme=explicit-euler until=1000 --measure megno,escape_time --json
 grep -q '"megno":"blow-up"' out || fail "an orbit that blew up has a MEGNO"
+status 2 run outer-planets scheme=implicit-euler dt=100 --measure escape_time --json
+grep -q '"escape_time":"no-convergence"' out || fail "a run that failed is said to have stayed"
 status 0 run kepler scheme=gsl-rk4 until=1 --measure lyapunov --json
 grep -q '"lyapunov":"what the scheme remembers' out || fail "GSL's steppers have no derivative"
 "$geomint" list schemes --json | python3 -c '
@@ -99,6 +101,10 @@ assert len(rows) == 99 and at[-.4, -.4]["status"] == "refused" and at[-.4, -.4][
 assert float(at[.3, 0]["megno"]) < 2.5 and float(at[-.2, 0]["megno"]) > 3, (at[.3, 0], at[-.2, 0])
 assert float(at[.2, .2]["megno"]) == float(at[.2, .2]["megno"]) > 3
 END
+# of several observables each map says what it shows, and one that shows nothing has no colours to read
+status 0 sweep henon-heiles q2=-.1,.1 p2=-.1,.1 until=20 scheme=verlet --measure escape_time,lyapunov -o maps.svg
+grep -q 'time until the orbit has left, Verlet<' maps.svg && grep -q 'no run has a number<' maps.svg &&
+    grep -q 'largest Lyapunov exponent, Verlet<' maps.svg || fail "two maps do not say what they show"
 status 0 work-precision henon-heiles scheme=verlet dt=.1,.05 until=20 --measure lyapunov --size 320x180
 
 # argon as in Hairer, Lubich & Wanner, I.4: H = -1260.2 and 22.72 K at the start, in kB K; explicit Euler gains hundreds with
@@ -177,6 +183,10 @@ for i, known in enumerate([5.203, 9.54, 19.2, 30.1, 39.5], 1):
     axis = 1 / (2 / r - sum(x * x for x in v) / (2.95912208286e-4 * (masses[0] + masses[i])))
     assert abs(axis / known - 1) < 0.015, (i, axis)
 END
+status 0 render outer-planets -o planets.svg
+for words in 'explicit Euler, Δt = 10<' 'implicit Euler, Δt = 10<' 'symplectic Euler, Δt = 100<' 'Verlet, Δt = 200<'; do
+    grep -q "$words" planets.svg || fail "the picture of the planets lacks $words"
+done
 status 0 run outer-planets scheme=explicit-euler dt=10 --measure jupiter,energy_error --json
 between jupiter 10 20
 status 2 run outer-planets scheme=implicit-euler dt=10 --measure jupiter,energy_error --json

@@ -92,6 +92,14 @@ misplaced() { # PLACE LINE [START]
     printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: %s\n%s\n' "${3:-x = 1, p_x = 0}" "$2" >wrong.system
     refused 1 "wrong.system:$1" run ./wrong.system
 }
+# a file names the lanes of its picture; what is wrong with them is said to be the file's
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 1, p = 0\nlanes: scheme=verlet,rk4\n  dt=.1,.2 zip=yes\n' >lanes.system
+status 0 render lanes.system -o lanes.svg
+grep -q 'Verlet, .*[.]1<' lanes.svg && grep -q 'RK4, .*[.]2<' lanes.svg || fail 'a picture of other lanes than those of the file'
+status 0 run lanes.system steps=1
+[ "$(grep -c 'lanes  ' out)" = 1 ] || fail 'a run is of one lane'
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 1, p = 0\nlanes: scheme=verlt\n' >lanes.system
+refused 1 'in the line "lanes:" of lanes: there is no scheme "verlt"' render lanes.system -o lanes.svg
 misplaced '4:14: schemes: verlt is no scheme' 'schemes: rk4 verlt'
 misplaced '4:10: members: disk 3 is no whole number' 'members: disk 3'
 misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'

@@ -506,16 +506,18 @@ static void compilers_fail(void **state)
     refused("bit by bit");
 }
 
-/* What is in the cache under the right key, whole, but lacks a symbol: it is refused, goes, and the next start
-   makes it anew. Each start is a process of its own, as one remembers what it has loaded. */
-static void entries_lack_symbols(void **state)
+/* What is in the cache under the right key, whole, but lacks a symbol or is no library: it is refused, goes, and the
+   next start makes it anew. Each start is a process of its own, as one remembers what it has loaded. */
+static void entries_are_libraries(void **state)
 {
     (void)state;
     static const struct {
-        const char *source, *says;
+        const char *source, *into, *says;
     } lacking[] = {
-        {"int nothing;", "it holds no loops"},
-        {"int gone(void); int gm_loops_own_native(void) { return gone(); }", "undefined symbol: gone"},
+        {"int nothing;", "cc -shared -fPIC -x c - -o", "it holds no loops"},
+        {"int gone(void); int gm_loops_own_native(void) { return gone(); }", "cc -shared -fPIC -x c - -o",
+         "undefined symbol: gone"},
+        {"rubbish", "cat >", "could not be loaded"},
     };
     char cache[GM_CACHE_PATH], aside[GM_CACHE_PATH + 8], command[2 * GM_CACHE_PATH], message[GM_MESSAGE];
     assert_true(gm_cache_folder(cache, message));
@@ -527,8 +529,7 @@ static void entries_lack_symbols(void **state)
         assert_true(is_stepped_elsewhere(words, NULL));
         assert_true(gm_cache_list(cache, &entries, &count));
         assert_int_equal(count, 1);
-        snprintf(command, sizeof command, "echo '%s' | cc -shared -fPIC -o '%s' -x c -", lacking[i].source,
-                 aside);
+        snprintf(command, sizeof command, "echo '%s' | %s '%s'", lacking[i].source, lacking[i].into, aside);
         assert_int_equal(system(command), 0);
         assert_true(gm_cache_keep(cache, aside, &entries[0].key));
         free(entries);
@@ -665,7 +666,7 @@ static void entries_are_whole(void **state)
     snprintf(aside, sizeof aside, "%s/aside", cache);
     snprintf(path, sizeof path, "%s/%s.so", cache, key.text);
     snprintf(other, sizeof other, "%s/%s.so", cache, second.text);
-    for (int fault = 0; fault < 5; fault++) {
+    for (int fault = 0; fault < 6; fault++) {
         FILE *file = fopen(aside, "w");
         assert_non_null(file);
         fprintf(file, "a library");
@@ -693,6 +694,10 @@ static void entries_are_whole(void **state)
             assert_int_equal(rename(path, other), 0);
             assert_int_equal(gm_cache_find(cache, &second), -1);
             assert_int_not_equal(access(other, F_OK), 0);
+            break;
+        case 4: /* a pipe in its place, which nobody writes to */
+            assert_int_equal(unlink(path), 0);
+            assert_int_equal(mkfifo(path, 0600), 0);
             break;
         default:
             assert_int_equal(gm_cache_clear(cache), 1);
@@ -756,7 +761,7 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(caches_are_bounded, begin, end),
         cmocka_unit_test_setup_teardown(caches_fail, begin, end),
         cmocka_unit_test_setup_teardown(disks_are_full, begin, end),
-        cmocka_unit_test_setup_teardown(entries_lack_symbols, begin, end),
+        cmocka_unit_test_setup_teardown(entries_are_libraries, begin, end),
         cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
         cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
         cmocka_unit_test_setup_teardown(compilers_are_slow, begin, end),

@@ -134,7 +134,8 @@ static void saved(void **unused)
     static const char text[] =
         "parameter: k[1..3] = 1, 2,\n  3; 0 .. 10\ncoordinates: q[1..3]\n"
         "H: sum(i=1..3, (p_q[i]^2 + k[i]*q[i]^2)/2) + c*q[1]\nstart: q[i] = i,\n  p_q[i] = 0\n"
-        "parameter: c = 0.5 # a push\ndt: 0.1\nuntil: 1\n";
+        "parameter: c = 0.5 # a push\ndt: 0.1\nuntil: 1\n"
+        "lanes: dt=1,2\n";
     char *words[] = {"lists", "k[2]=5", "q[3]=7", "c=0.25"}, message[GM_MESSAGE];
     struct gm_request request;
     assert_true(gm_system_recall("lists", text));
@@ -144,6 +145,7 @@ static void saved(void **unused)
     assert_non_null(strstr(now, "parameter: k[1..3] = 1, 5, 3; 0 .. 10\n"));
     assert_non_null(strstr(now, "q[1] = 1, q[2] = 2, q[3] = 7,\n"));
     assert_non_null(strstr(now, "parameter: c = 0.25 # a push\n"));
+    assert_null(strstr(now, "lanes")); /* they would have another dt */
     gm_request_close(&request);
     /* and what was saved means these values */
     char *plain[] = {"again"};

@@ -409,10 +409,18 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     struct cells cells = {.points = malloc(8 * all * sizeof *cells.points),
                           .values = malloc(4 * all * sizeof *cells.values),
                           .triangles = malloc(6 * all * sizeof *cells.triangles)};
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, line_name(chart, line, picture));
-    panel->axes = panel->colour_bar = true;
+    const char *name = line_name(chart, line, picture);
+    /* a small picture has no room at the bar */
+    struct gm_panel *panel = gm_panel_add(
+        picture, GM_PLACE_STATE,
+        chart->shown > 1 ? gm_picture_text(picture, "%s%s%s", short_title(chart, observable, picture),
+                                           name[0] ? ", " : "", name)
+                         : name);
+    const bool empty = extent.low > extent.high;
+    panel->axes = true;
+    panel->colour_bar = !empty;
     panel->title_role = GM_INK;
-    panel->note = extent.logarithmic ? "colour: log₁₀" : ""; /* a small picture has no room at the bar */
+    panel->note = empty ? "no run has a number" : extent.logarithmic ? "colour: log₁₀" : "";
     panel->colour_bar_label = gm_picture_text(picture, "%s%s", extent.logarithmic ? "log₁₀ " : "", title);
     for (size_t axis = 0; axis < 2; axis++) {
         struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;
@@ -441,7 +449,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const double reach = fmax(-extent.low, extent.high);
     const double low = extent.logarithmic ? log10(extent.low) : extent.is_signed ? -reach : extent.low;
     const double high = extent.logarithmic ? log10(extent.high) : extent.is_signed ? reach : extent.high;
-    if (good) {
+    if (good && !empty) {
         gm_mark_mesh(picture, panel, extent.is_signed ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low, high,
                      cells.points, cells.values, 4 * cells.count, cells.triangles, 2 * cells.count);
     }
