@@ -62,7 +62,7 @@ holds() {
 }
 holds driven-pendulum quadratic 'no  sin(q) (from line 11, column 31) is not of degree 2, in the rate of p'
 holds lotka-volterra volume 'no  .* (from line 13, column 16) contains'
-holds restricted-three-body separable 'no  y\*p_x (line 13, column 24) holds'
+holds restricted-three-body separable 'no  y\*p_x (line 12, column 24) holds'
 cat >stiff.system <<'END'
 coordinates: a b
 H: (p_a^2 + p_b^2)/2 + 2500*b^2/2 - 1/sqrt(a^2 + b^2)
