@@ -905,6 +905,9 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
         if (place == 0 && system->kind != GM_RATES) {
             place = first_not_finite(system, system->energy, values);
         }
+        if (place == 0 && system->kind != GM_RATES && system->graph.places[system->energy] != GM_NO_PLACE) {
+            place = system->graph.places[system->energy]; /* a derivative is too large, nothing written is */
+        }
         good =
             gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
     }

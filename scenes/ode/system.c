@@ -608,7 +608,8 @@ static bool make_studies(struct gm_system_scene *own)
         .value_count = count,
         .label = "h ω",
         .unit = radian_time,
-        .told = "ω is the largest frequency of the linearised field at the start",
+        .told =
+            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start",
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,
