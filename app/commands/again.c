@@ -223,7 +223,12 @@ static int picture_again(const struct gm_options *options, char *const *texts)
 
 static int command_again(const struct gm_options *options)
 {
-    if (options->arguments.count != 1) {
+    if (options->arguments.count > 1) {
+        gm_complain("again makes one picture as it was made; \"%.60s\" is too much",
+                    options->arguments.words[1]);
+        return GM_EXIT_USAGE;
+    }
+    if (options->arguments.count == 0) {
         gm_complain("again which picture? A PNG or SVG file that geomint made");
         return GM_EXIT_USAGE;
     }

@@ -207,13 +207,18 @@ static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome
 {
     printf("  %-44s %10s", "", "t");
     for (size_t i = 0; i < gm_figure_observables(job); i++) {
-        printf(" %14s", job->scene->observables[i].key);
+        if (gm_outcome_has(outcome, i)) {
+            printf(" %14s", job->scene->observables[i].key);
+        }
     }
     printf("\n");
     for (size_t i = 0; i < outcome->lane_count; i++) {
         printf("  %-44s %10.4g", outcome->lanes[i].label, outcome->lanes[i].t);
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
-            printf(" %14.6g", outcome->lanes[i].observables[k]);
+            if (gm_outcome_has(outcome, k)) {
+                const int width = (int)strlen(job->scene->observables[k].key);
+                printf(" %*.6g", width > 14 ? width : 14, outcome->lanes[i].observables[k]);
+            }
         }
         printf("%s%s\n", outcome->lanes[i].failure[0] ? "  " : "", outcome->lanes[i].failure);
     }
@@ -270,8 +275,8 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
 
 static void print_text(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
-    printf("%s: %s\n  geomint render %s %s\n", job->figure->name, job->figure->statement, gm_figure_word(job),
-           job->arguments);
+    printf("%s: %s\n  geomint render %s%s%s\n", job->figure->name, job->figure->statement,
+           gm_figure_word(job), *job->arguments ? " " : "", job->arguments);
     if (outcome->progress == GM_NOT_MADE) {
         printf("  not made: %s\n", outcome->message);
     }

@@ -338,6 +338,15 @@ static void take_numbers(const struct gm_figure_job *job, const struct gm_reques
     }
 }
 
+bool gm_outcome_has(const struct gm_outcome *outcome, size_t index)
+{
+    bool has = false;
+    for (size_t i = 0; i < outcome->lane_count; i++) {
+        has |= !isnan(outcome->lanes[i].observables[index]);
+    }
+    return has;
+}
+
 char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
                      enum gm_format format)
 {

@@ -80,6 +80,9 @@ bool gm_figure_check(const struct gm_figure_job *job, char *message);
 void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                     struct gm_outcome *outcome);
 
+/* Whether observable `index` of the scene is a number in any lane: what has none is told nowhere. */
+bool gm_outcome_has(const struct gm_outcome *outcome, size_t index);
+
 /* FOLDER/NAME.png or FOLDER/NAME-dark.png; malloc'ed. */
 char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
                      enum gm_format format);

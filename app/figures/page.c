@@ -185,8 +185,10 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
           "<thead><tr><th>lane<th>t",
           page);
     for (size_t k = 0; k < gm_figure_observables(job); k++) {
-        fputs("<th>", page);
-        put_text(page, job->scene->observables[k].key);
+        if (gm_outcome_has(outcome, k)) {
+            fputs("<th>", page);
+            put_text(page, job->scene->observables[k].key);
+        }
     }
     fputs("</tr></thead><tbody>\n", page);
     for (size_t i = 0; i < outcome->lane_count; i++) {
@@ -195,6 +197,9 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
         fprintf(page, "<td>%.6g", outcome->lanes[i].t);
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
             const double value = outcome->lanes[i].observables[k];
+            if (!gm_outcome_has(outcome, k)) {
+                continue;
+            }
             fputs("<td>", page);
             if (isfinite(value)) {
                 fprintf(page, "%.6g", value);
@@ -272,7 +277,7 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
     }
     fputs("<pre>geomint render ", page);
     put_text(page, gm_figure_word(job));
-    fputs(" ", page);
+    fputs(*job->arguments ? " " : "", page);
     put_text(page, job->arguments);
     fputs("</pre>\n", page);
     if (outcome->progress == GM_MADE) {

@@ -9,6 +9,7 @@
 #include "app/ground/place.h"
 #include "core/count.h"
 #include "core/formula/reader.h"
+#include "core/system/names.h"
 #include "render/message.h"
 
 enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_COORDINATES };
@@ -359,6 +360,11 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
             const struct name *name = &needed->list[i];
             if (needs_none(typing, name, !parameters)) {
                 continue;
+            }
+            if (gm_reading_reserves(name->text, name->length)) {
+                *place = place_in(typing->count, typing->words, name->text);
+                return gm_refuse(message, "the name %.*s is reserved",
+                                 (int)(name->length < 40 ? name->length : 40), name->text);
             }
             const size_t used = strlen(missing);
             *place = used ? *place : place_in(typing->count, typing->words, name->text);

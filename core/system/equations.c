@@ -831,16 +831,68 @@ static bool check_sizes(struct gm_own_system *system, const double *values, stru
     return true;
 }
 
+/* The first variable without a value at the start that a formula holds; variable_count: there is none. */
+static size_t unknown_at_start(struct gm_own_system *system, gm_node_id node, const double *start)
+{
+    size_t count = 0, unknown = system->variable_count;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count && unknown == system->variable_count; k++) {
+        const struct gm_node *part = &system->graph.nodes[parts[k]];
+        unknown = part->operation == GM_VARIABLE && !isfinite(start[part->a]) ? part->a : unknown;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return unknown;
+}
+
+/* Blamed is a start that is not finite by itself; where every one waits for another, they stand in a circle. */
+static bool check_values(struct gm_own_system *system, const double *start, const double *values,
+                         struct gm_fault *fault)
+{
+    size_t waiting = system->n, waits_for = 0;
+    for (size_t i = 0; i < system->n; i++) {
+        const struct gm_system_variable *variable = &system->variables[i];
+        if (isfinite(start[i])) {
+            continue;
+        }
+        const size_t other = variable->start == GM_NO_NODE ? system->variable_count
+                                                           : unknown_at_start(system, variable->start, start);
+        if (other == system->variable_count) {
+            return gm_fail(
+                fault, variable->start == GM_NO_NODE ? 0 : first_not_finite(system, variable->start, values),
+                "%.60s is not finite at the start", variable->name);
+        }
+        waits_for = waiting == system->n ? other : waits_for;
+        waiting = waiting == system->n ? i : waiting;
+    }
+    if (waiting == system->n) {
+        return true;
+    }
+    return gm_fail(fault, system->variables[waiting].start_place,
+                   "a circle: the start of %.60s needs that of %.60s", system->variables[waiting].name,
+                   system->variables[waits_for].name);
+}
+
+/* What is looked at for a change of sign, or held against its start, has a value there. */
+static bool check_looked_at(struct gm_own_system *system, const double *values, struct gm_fault *fault)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_STOP || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) {
+            good = isfinite(values[item->nodes[0]]) ||
+                   gm_fail(fault, item->place, "%.60s is not finite at the start",
+                           item->word == GM_WORD_STOP ? "what ends the run" : item->name);
+        }
+    }
+    return good;
+}
+
 static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
     bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
-    for (size_t i = 0; values && good && i < system->n; i++) {
-        const gm_node_id given = system->variables[i].start;
-        good = isfinite(start[i]) ||
-               gm_fail(fault, given != GM_NO_NODE ? first_not_finite(system, given, values) : 0,
-                       "%.60s is not finite at the start", system->variables[i].name);
-    }
+    good = good && (!values || check_values(system, start, values, fault));
     if (values && good && has(system, GM_WORD_CONSTRAINT)) {
         good = check_constraints(system, start, fault);
     }
@@ -853,6 +905,9 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
         if (place == 0 && system->kind != GM_RATES) {
             place = first_not_finite(system, system->energy, values);
         }
+        if (place == 0 && system->kind != GM_RATES && system->graph.places[system->energy] != GM_NO_PLACE) {
+            place = system->graph.places[system->energy]; /* a derivative is too large, nothing written is */
+        }
         good =
             gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
     }
@@ -861,7 +916,8 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
             isfinite(values[system->energy]) ||
             gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
     }
-    good = good && (!values || (check_monitor(system, values, fault) && check_sizes(system, values, fault)));
+    good = good && (!values || (check_monitor(system, values, fault) && check_sizes(system, values, fault) &&
+                                check_looked_at(system, values, fault)));
     system->graph.failed |= !values;
     free(start);
     free(values);

@@ -76,6 +76,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
                              gm_system_words[word].word, variable->name);
     }
     *place = node;
+    variable->start_place = word == GM_WORD_START ? target->name.begin : variable->start_place;
     return true;
 }
 

@@ -387,6 +387,26 @@ static const char *idle(const void *parameters, const char *key)
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
 }
 
+/* A start in the section lies in it too, where that says which component is 0. */
+static size_t on_section(const struct gm_system_lane *lane, const struct gm_sight *sight,
+                         struct gm_choice *choice)
+{
+    const struct gm_system_scene *own = lane->own;
+    if (sight != &own->section || own->stroboscopic) {
+        return 0;
+    }
+    const struct gm_system_item *item = gm_system_item_of(&own->system, GM_WORD_SECTION, 0);
+    const struct gm_node *node = &own->system.graph.nodes[item->nodes[0]];
+    for (size_t row = own->first_start; row < own->row_count; row++) {
+        if (node->operation == GM_VARIABLE && own->variables[row] == node->a &&
+            sight->components[0] != (long)node->a && sight->components[1] != (long)node->a) {
+            gm_choose(choice, own->rows[row].key, 0);
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static size_t point(const void *parameters, double x, double y, struct gm_choice *choices)
 {
     const struct gm_system_lane *lane = parameters;
@@ -400,7 +420,7 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
         }
     }
     if (count == 2) {
-        return 2;
+        return count + on_section(lane, sight, &choices[count]);
     }
     double *start = gm_system_start_values(lane, NULL);
     count = start ? gm_system_aim(lane, start, x, y, choices) : 0;
@@ -609,7 +629,8 @@ static bool make_studies(struct gm_system_scene *own)
         .value_count = count,
         .label = "h ω",
         .unit = radian_time,
-        .told = "ω is the largest frequency of the linearised field at the start",
+        .told =
+            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start",
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,

@@ -438,6 +438,7 @@ status 0 again pictures/disc-render.png --out new/three
 cmp -s pictures/disc-render.png new/three/disc-render-again.png || fail 'again makes no folder'
 status 0 again pictures/disc-render.png --out pictures
 cmp -s pictures/disc-render.png pictures/disc-render-again.png || fail 'again is another picture'
+refused 1 '"q=2" is too much' again pictures/disc-render.png q=2
 # a picture of an earlier version may tell a key that has no effect any more
 status 0 render room "mesh=$meshes/room-small.msh" steps=1 --size 320x200 --out pictures
 python3 - pictures/room-render.png pictures/older.png <<'END' || fail 'the arguments of a picture'

@@ -47,6 +47,9 @@ for wanted in 'id="spring"' 'Two &amp; one</a> <span class="soft">./spring.syste
     '<td>verlet<td>'; do
     grep -q -- "$wanted" own/figures.html || fail "the page of a system lacks $wanted"
 done
+grep -q '^  geomint render ./spring.system$' out || fail 'the line of a system has more than its name'
+grep -qE '^ +t +energy_error$' out && grep -q '<th>t<th>energy_error</tr>' own/figures.html ||
+    fail 'a system has columns of what nobody asked for'
 [ -s own/spring.png ] && [ -s own/spring-dark.png ] || fail 'a system has no picture'
 "$geomint" again own/spring.png -o again.png 2>err && cmp -s again.png own/spring.png || fail "a system's figure again: $(cat err)"
 mkdir -p other

@@ -525,6 +525,7 @@ refused 3 'No such file' work-precision none.system
 refused 3 'No such file' stability none.system
 printf 'coordinates: q\nH: p_q^2/2\nstart: q = 1, p_q = 0\nschemes: vrlet\n' >scheme.system
 refused 1 'vrlet is no scheme' run scheme.system
+refused 1 'vrlet is no scheme' list scheme.system
 sed 's/^schemes: .*/members: few/' scheme.system >members.system
 refused 1 'members: few is no whole number' run members.system
 # what two systems of one name must not share

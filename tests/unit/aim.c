@@ -17,7 +17,7 @@
 static char path[] = "/tmp/aim-XXXXXX.system";
 
 /* What a click says: "a=1.2 b=0.3", in the order of the rows; "" where it does nothing. */
-static const char *click(const char *lines, double x, double y)
+static const char *click_on(const char *show, const char *lines, double x, double y)
 {
     static char said[GM_CHOICES * 64];
     char message[GM_MESSAGE];
@@ -27,8 +27,10 @@ static const char *click(const char *lines, double x, double y)
     assert_non_null(file);
     fputs(lines, file);
     fclose(file);
-    char *words[] = {path};
-    if (!gm_request_parse(&request, 1, words, 1, message)) {
+    char shown[32];
+    snprintf(shown, sizeof shown, "show=%s", show);
+    char *words[] = {path, shown};
+    if (!gm_request_parse(&request, 2, words, 1, message)) {
         fail_msg("%s", message);
     }
     const size_t count = request.scene->point(request.lanes[0].parameters, x, y, choices);
@@ -38,6 +40,11 @@ static const char *click(const char *lines, double x, double y)
     }
     gm_request_close(&request);
     return said;
+}
+
+static const char *click(const char *lines, double x, double y)
+{
+    return click_on("all", lines, x, y);
 }
 
 #define PENDULUM                                                                                             \
@@ -53,6 +60,20 @@ static void planes(void **unused)
     const char *orbit = "coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)\nview: x, y\n"
                         "start: x = 1, y = 0, p_x = 0, p_y = 1\n";
     assert_string_equal(click(orbit, 0.25, 2), "x=0.25 y=2");
+}
+
+#define TWO                                                                                                  \
+    "coordinates: x y\nH: (p_x^2 + p_y^2 + x^2 + 2*y^2)/2\nstart: x = 1, y = 0, p_x = 0.5, p_y = 1\nsection: "
+
+/* A point of a section is a start that lies in it, where it tells which component is 0. */
+static void sections(void **unused)
+{
+    (void)unused;
+    assert_string_equal(click_on("section", TWO "x = 0, p_x > 0; y, p_y\n", 0.25, -0.5),
+                        "y=0.25 p_y=-0.5 x=0");
+    assert_string_equal(click_on("section", TWO "x - y = 0; y, p_y\n", 0.25, -0.5), "y=0.25 p_y=-0.5");
+    assert_string_equal(click_on("section", TWO "x = 0; x, p_y\n", 0.25, -0.5), "x=0.25 p_y=-0.5");
+    assert_string_equal(click_on("section", TWO "every 2; y, p_y\n", 0.25, -0.5), "y=0.25 p_y=-0.5");
 }
 
 /* Both angles turn where the lower bob is to be, the upper one alone where that is nearer and only as far as its rod;
@@ -90,8 +111,8 @@ static void nothing(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(planes), cmocka_unit_test(bodies),
-                                       cmocka_unit_test(nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(planes), cmocka_unit_test(sections),
+                                       cmocka_unit_test(bodies), cmocka_unit_test(nothing)};
     const int file = mkstemps(path, (int)strlen(".system"));
     if (file < 0 || close(file) != 0) {
         return EXIT_FAILURE;

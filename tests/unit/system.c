@@ -566,6 +566,13 @@ static const struct {
     {THREE "bracket: x x = 1\nH: x\n", 3, 10, "with itself is 0"},
     {THREE "bracket: x y = 1\nbracket: y x = 1\nH: x\n", 4, 10, "said twice"},
     {CANONICAL "H: \xff\n", 3, 4, "0xff is no UTF-8"},
+    {CANONICAL "H: p_q^2/2 + 1e308*q^2\n", 3, 4, "the rate of p_q is not finite at the start"},
+    {CANONICAL "H: p_q^2/2\nstop: sqrt(-2 - q)\n", 4, 7, "what ends the run is not finite at the start"},
+    {CANONICAL "H: p_q^2/2\ninvariant: a = log(-2 - q)*0 + p_q\n", 4, 12, "a is not finite at the start"},
+    {"coordinates: q\nH: p_q^2/2\nstart: q = p_q, p_q = q\n", 3, 8, "the start of q needs that of p_q"},
+    {"coordinates: q\nH: p_q^2/2\nstart: p_q = 0, q = r\nlet: r = 2*q\n", 3, 17,
+     "the start of q needs that of q"},
+    {"coordinates: q\nH: p_q^2/2\nstart: q = p_q, p_q = sqrt(-1)\n", 3, 23, "p_q is not finite at the start"},
 };
 
 static void what_is_wrong_is_named(void **unused)

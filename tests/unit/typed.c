@@ -87,6 +87,7 @@ static void places(void **unused)
     is_wrong("  H=p^2/2 + 2!q q=2 p=0", "no operator");
     is_wrong("H='p^2/2 + 2!q' q=2 p=0", "no operator");
     is_wrong("H=p^2/2 + !k*q q=2 p=0", "not given: k=");
+    is_wrong("H=p^2/2 + !dt*q + k q=2 p=0", "the name dt is reserved");
     is_wrong("rate=x = y rate=y = -x +!   x=1 y=0", "");
     is_wrong("H=p^2/2 - cos(q) q=2 p=0 !foo=3", "no parameter");
     is_wrong("H=p^2/2 - cos(q) q=2 p=0 dt=!abc", "is not a number");

@@ -685,10 +685,25 @@ static int open_system(struct report *report, const struct gm_arguments *argumen
     return status;
 }
 
+/* What is told of a system can be run too: its schemes, members and observables are those of a scene. */
+static int check_scene(const struct gm_arguments *arguments)
+{
+    char message[GM_MESSAGE];
+    struct gm_system_trial trial;
+    const bool good = gm_system_try(&trial, arguments->count, arguments->words, message);
+    const int status = good ? GM_EXIT_OK : trial.status;
+    if (!good) {
+        gm_complain("%s", message);
+    }
+    gm_system_trial_close(&trial);
+    return status;
+}
+
 int gm_list_system(const struct gm_arguments *arguments, const char *path, enum gm_telling telling)
 {
     struct report report = {.problem = {0}};
-    const int status = open_system(&report, arguments, path);
+    int status = open_system(&report, arguments, path);
+    status = status == GM_EXIT_OK ? check_scene(arguments) : status;
     if (status == GM_EXIT_OK && open_problem(&report)) {
         if (telling == GM_TELL_JSON) {
             print_json(&report);
