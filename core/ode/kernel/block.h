@@ -5,7 +5,7 @@
 #ifdef GM_PASS_SCALAR
 enum { K(ABREAST) = 1 };
 #else
-enum { K(ABREAST) = GM_COMPONENTS <= 2 ? 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
+enum { K(ABREAST) = GM_COMPONENTS <= 2 ? GM_WIDTH == 8 ? 6 : 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
 #endif
 
 struct K(block) {
@@ -88,12 +88,12 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
     *carry += old - *y;
 }
 
-/* Which lanes are finite and below the limit (a NaN compares false). */
-GM_INLINE mask K(within)(const struct K(block) * block, double limit)
+/* Which lanes are not finite, or beyond the limit; for K(somewhere_beyond) alone. */
+GM_INLINE mask K(block_beyond)(const struct K(block) * block, double limit)
 {
-    mask good = K(magnitude)(block->y[0]) <= K(constant)(limit);
+    mask beyond = K(beyond)(block->y[0], limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {
-        good &= K(magnitude)(block->y[c]) <= K(constant)(limit);
+        beyond |= K(beyond)(block->y[c], limit);
     }
-    return good;
+    return beyond;
 }
