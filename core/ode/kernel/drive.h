@@ -102,11 +102,11 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
 /* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
-   Members that are more than whole groups make one with some that are done already. Every other call begins at
-   the end: what the last one left in the cache is read before it is gone. False: a member failed, or they are too
-   few, and all are to be made, of y, which is therefore not where they are stored. */
+   Members that are more than whole groups make one with some that are done already. Every other call goes
+   backward: what the last one left in the cache is read before it is gone. False: a member failed, or they are too few,
+   and all are to be made, of y, which is therefore not where they are stored. */
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
-                                        struct gm_progress *progress)
+                                      struct gm_progress *progress)
 {
     const struct gm_task own = *task; /* a copy, which no store to the state can change */
     const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = own.problem->m;
@@ -114,13 +114,13 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
         return false;
     }
     const size_t groups = (m - 1) / size + 1;
-    const bool backward = own.out < own.y;
+    const bool backward = own.out < own.y && 2 * GM_COMPONENTS * m <= K(NEAR);
     const void *parameters = own.problem->parameters;
     const bool stiff = gm_ode_of(own.problem)->stiff;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
     mask solved = K(all)(), beyond = K(other)(solved);
     for (size_t group = 0; group < groups; group++) {
-        const size_t start = (backward ? groups - 1 - group : group) * size;
+        const size_t start = K(group_at)(group, groups, backward) * size;
         const size_t first = start + size <= m ? start : m - size;
         struct K(block) block[GM_ABREAST];
 #pragma GCC unroll 8
