@@ -390,7 +390,7 @@ static void single_steps_are_many_at_once(void **unused)
     enum { STEPS = 20 };
     for (size_t k = 0; k < GM_COUNT(names) * GM_COUNT(members) * GM_COUNT(settings_of); k++) {
         const char *name = names[k % GM_COUNT(names)];
-        struct gm_problem problem = gm_problem_pendulum_tangent;
+        struct gm_problem problem = gm_problem_oscillator_tangent;
         problem.m = members[k / GM_COUNT(names) % GM_COUNT(members)];
         const struct gm_settings *settings = &settings_of[k / GM_COUNT(names) / GM_COUNT(members)];
         const size_t count = problem.n * problem.m;
