@@ -154,13 +154,16 @@ static void vortices_midpoint(const struct line *line)
 }
 
 /* The oscillator by Verlet in single steps, as a run that is looked at makes them, beside many steps at once
-   and beside a plain pass over the same members. */
-static void single_steps(size_t m)
+   and beside a plain pass over the same members; with tangent vectors, as the disc has them, which are by hand so
+   many members more. */
+static void single_steps(size_t m, bool tangent)
 {
-    const struct line line = {"", "verlet", &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = m};
-    struct gm_problem problem = gm_problem_oscillator;
+    const struct line line = {"", "verlet", .start = {0, 1, 1, 0.5}, .h = M_PI / 60, .m = m};
+    struct gm_problem problem = tangent ? gm_problem_oscillator_tangent : gm_problem_oscillator;
     problem.m = m;
-    gm_bench_ensemble(&problem);
+    if (!tangent) {
+        gm_bench_ensemble(&problem);
+    }
     double *y = malloc(problem.n * m * sizeof *y);
     struct gm_run *run = y ? open_run(&problem, &line, y) : NULL;
     if (!run) {
@@ -181,13 +184,13 @@ static void single_steps(size_t m)
         gm_run_advance(run, steps);
         at_once[round] = (seconds() - start) / unit;
         start = seconds();
-        gm_hand_ensemble_oscillator_verlet(y, m, line.h, steps);
+        gm_hand_ensemble_oscillator_verlet(y, problem.n / 2 * m, line.h, steps);
         plain[round] = (seconds() - start) / unit;
     }
     const double one = median(single, ROUNDS), many = median(at_once, ROUNDS), pass = median(plain, ROUNDS);
-    printf("single steps, %7zu members        %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
+    printf("single steps, %7zu members%s %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
            "ratio %.2f\n",
-           m, one, many, one / many, pass, one / pass);
+           m, tangent ? ", disc" : "      ", one, many, one / many, pass, one / pass);
     gm_run_close(run);
     free(y);
 }
@@ -421,7 +424,8 @@ int main(int argc, char *argv[])
 {
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
     for (size_t m = 1000; m <= 1000000; m *= 10) {
-        single_steps(m);
+        single_steps(m, false);
+        single_steps(m, true);
     }
     if (argc > 1 && strcmp(argv[1], "single") == 0) {
         return 0;

@@ -5,7 +5,11 @@
 #ifdef GM_PASS_SCALAR
 enum { K(ABREAST) = 1 };
 #else
-enum { K(ABREAST) = GM_COMPONENTS <= 2 ? GM_WIDTH == 8 ? 6 : 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
+/* numbers of states in registers, of which AVX-512 has 32 and the others 16 */
+enum {
+    K(HELD) = GM_WIDTH == 8 ? 12 : 8,
+    K(ABREAST) = GM_COMPONENTS <= K(HELD) ? K(HELD) / GM_COMPONENTS : 1
+};
 #endif
 
 struct K(block) {
