@@ -240,7 +240,8 @@ static void moments_keep_to_the_tolerance(void **unused)
             const double wanted = -strength * strength / (4 * M_PI) * (double)logarithms;
             const double pairs = strength * strength / (4 * M_PI) * MANY * (MANY - 1) / 2;
             if (!(fabs(energy - wanted) <= tolerances[k] * pairs + 1e-12 * fabs(wanted))) {
-                fail_msg("places %d: energy %.17g and not %.17g with %g", kind, energy, wanted, tolerances[k]);
+                fail_msg("places %d: energy %.17g and not %.17g with %g", kind, energy, wanted,
+                         tolerances[k]);
             }
         }
     }
