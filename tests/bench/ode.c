@@ -105,14 +105,65 @@ static double measure(const struct line *line)
     return ours;
 }
 
-/* The oscillator by Verlet in single steps, as a run that is looked at makes them, beside many steps at once
-   and beside a plain pass over the same members. */
-static void single_steps(size_t m)
+/* What the midpoint rule keeps, where its equations are solved: the sum of squares. */
+static double sum_of_squares(const double *y)
 {
-    const struct line line = {"", "verlet", &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = m};
-    struct gm_problem problem = gm_problem_oscillator;
+    double sum = 0;
+    for (int i = 0; i < 8; i++) {
+        sum += y[i] * y[i];
+    }
+    return sum;
+}
+
+/* The midpoint rule on four vortices beside SIMD by hand: with the program's own iteration, and with one that is
+   shorter. What the sum of squares changed by is said too. */
+static void vortices_midpoint(const struct line *line)
+{
+    struct gm_problem problem = *line->problem;
+    problem.parameters = line->parameters;
+    double y[8], hand[2][8], taken[3][ROUNDS];
+    struct gm_run *run = open_run(&problem, line, y);
+    if (!run) {
+        return;
+    }
+    const double squares = sum_of_squares(y);
+    memcpy(hand[0], y, sizeof y);
+    memcpy(hand[1], y, sizeof y);
+    long evaluations[2] = {0};
+    const double unit = 1e-9 * (double)line->steps, all = (double)ROUNDS * (double)line->steps;
+    for (int round = 0; round < ROUNDS; round++) {
+        double start = seconds();
+        gm_run_advance(run, line->steps);
+        taken[2][round] = (seconds() - start) / unit;
+        for (int alike = 0; alike < 2; alike++) {
+            start = seconds();
+            evaluations[alike] += gm_hand_vortices_midpoint_simd(hand[alike], line->h, line->steps, alike);
+            taken[alike][round] = (seconds() - start) / unit;
+        }
+    }
+    const double ours = median(taken[2], ROUNDS);
+    printf("%-34s %8.2f ns (at most %g); %.2f evaluations; squares by %.1e\n", line->what, ours, line->wanted,
+           (double)run->evaluations / all, sum_of_squares(gm_run_state(run)) - squares);
+    for (int alike = 1; alike >= 0; alike--) {
+        const double theirs = median(taken[alike], ROUNDS);
+        printf("  SIMD by hand, %-19s %8.2f ns: ratio %.2f; %.2f evaluations; squares by %.1e\n",
+               alike ? "the same iteration" : "a shorter iteration", theirs, ours / theirs,
+               (double)evaluations[alike] / all, sum_of_squares(hand[alike]) - squares);
+    }
+    gm_run_close(run);
+}
+
+/* The oscillator by Verlet in single steps, as a run that is looked at makes them, beside many steps at once
+   and beside a plain pass over the same members; with tangent vectors, as the disc has them, which are by hand so
+   many members more. */
+static void single_steps(size_t m, bool tangent)
+{
+    const struct line line = {"", "verlet", .start = {0, 1, 1, 0.5}, .h = M_PI / 60, .m = m};
+    struct gm_problem problem = tangent ? gm_problem_oscillator_tangent : gm_problem_oscillator;
     problem.m = m;
-    gm_bench_ensemble(&problem);
+    if (!tangent) {
+        gm_bench_ensemble(&problem);
+    }
     double *y = malloc(problem.n * m * sizeof *y);
     struct gm_run *run = y ? open_run(&problem, &line, y) : NULL;
     if (!run) {
@@ -133,13 +184,13 @@ static void single_steps(size_t m)
         gm_run_advance(run, steps);
         at_once[round] = (seconds() - start) / unit;
         start = seconds();
-        gm_hand_ensemble_oscillator_verlet(y, m, line.h, steps);
+        gm_hand_ensemble_oscillator_verlet(y, problem.n / 2 * m, line.h, steps);
         plain[round] = (seconds() - start) / unit;
     }
     const double one = median(single, ROUNDS), many = median(at_once, ROUNDS), pass = median(plain, ROUNDS);
-    printf("single steps, %7zu members        %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
+    printf("single steps, %7zu members%s %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
            "ratio %.2f\n",
-           m, one, many, one / many, pass, one / pass);
+           m, tangent ? ", disc" : "      ", one, many, one / many, pass, one / pass);
     gm_run_close(run);
     free(y);
 }
@@ -373,7 +424,8 @@ int main(int argc, char *argv[])
 {
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
     for (size_t m = 1000; m <= 1000000; m *= 10) {
-        single_steps(m);
+        single_steps(m, false);
+        single_steps(m, true);
     }
     if (argc > 1 && strcmp(argv[1], "single") == 0) {
         return 0;
@@ -399,8 +451,6 @@ int main(int argc, char *argv[])
         {"Kepler, midpoint", "midpoint", KEPLER, .m = 1, .steps = 50000, .wanted = 120},
         {"4 vortices, RK4, SIMD by hand", "rk4", SQUARE, .m = 1, .steps = 100000,
          .hand = gm_hand_vortices_rk4_simd},
-        {"4 vortices, midpoint, SIMD by hand", "midpoint", SQUARE, .m = 1, .steps = 20000,
-         .hand = gm_hand_vortices_midpoint_simd, .wanted = 200},
         {"Kepler, Kahan-Li 8", "kahan-li8", KEPLER, .m = 1, .steps = 20000},
         {"ensemble, oscillator, Verlet", "verlet", OSCILLATOR, .steps = 200,
          .ensemble = gm_hand_ensemble_oscillator_verlet, .wanted = 0.4},
@@ -417,6 +467,8 @@ int main(int argc, char *argv[])
                        ? ours
                        : midpoint;
     }
+    vortices_midpoint(
+        &(struct line){"4 vortices, midpoint", "midpoint", SQUARE, .m = 1, .steps = 20000, .wanted = 200});
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
     pair_sum();
     by_moments(1e-3);

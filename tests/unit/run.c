@@ -380,6 +380,40 @@ static void one_of_many_blows_up(void **unused)
     free(start);
 }
 
+/* Single steps go through an ensemble in an order of their own, and end with members that were made before: from
+   the first to the last each makes the step once. */
+static void single_steps_are_many_at_once(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"explicit-euler", "symplectic-euler", "verlet", "rk4"};
+    static const size_t members[] = {16, 33, 47, 6200, 13001};
+    enum { STEPS = 20 };
+    for (size_t k = 0; k < GM_COUNT(names) * GM_COUNT(members) * GM_COUNT(settings_of); k++) {
+        const char *name = names[k % GM_COUNT(names)];
+        struct gm_problem problem = gm_problem_oscillator_tangent;
+        problem.m = members[k / GM_COUNT(names) % GM_COUNT(members)];
+        const struct gm_settings *settings = &settings_of[k / GM_COUNT(names) / GM_COUNT(members)];
+        const size_t count = problem.n * problem.m;
+        double *start = calloc(count, sizeof *start);
+        assert_non_null(start);
+        for (size_t i = 0; i < count; i++) {
+            start[i] = sin(1.0 + (double)i);
+        }
+        struct gm_run *runs[2];
+        for (int i = 0; i < 2; i++) {
+            runs[i] = gm_run_open(&problem, gm_scheme_find(name), settings, 0, 0.05, start);
+            while (runs[i]->steps < STEPS) {
+                assert_int_equal(gm_run_advance(runs[i], i == 0 ? STEPS : 1), GM_OK);
+            }
+        }
+        expect_same_state(runs[1], runs[0]);
+        assert_true(runs[1]->evaluations == runs[0]->evaluations);
+        gm_run_close(runs[0]);
+        gm_run_close(runs[1]);
+        free(start);
+    }
+}
+
 /* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a
    root. */
 static void failed_solves_are_told(void **unused)
@@ -529,6 +563,7 @@ int main(void)
         cmocka_unit_test(refused_memory_is_no_step),
         cmocka_unit_test(blow_up_is_found_to_the_step),
         cmocka_unit_test(one_of_many_blows_up),
+        cmocka_unit_test(single_steps_are_many_at_once),
         cmocka_unit_test(runs_end_where_they_are_to),
         cmocka_unit_test(failed_solves_are_told),
         cmocka_unit_test(newton_takes_over_at_large_steps),

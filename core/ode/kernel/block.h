@@ -5,7 +5,11 @@
 #ifdef GM_PASS_SCALAR
 enum { K(ABREAST) = 1 };
 #else
-enum { K(ABREAST) = GM_COMPONENTS <= 2 ? 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
+/* numbers of states in registers, of which AVX-512 has 32 and the others 16 */
+enum {
+    K(HELD) = GM_WIDTH == 8 ? 12 : 8,
+    K(ABREAST) = GM_COMPONENTS <= K(HELD) ? K(HELD) / GM_COMPONENTS : 1
+};
 #endif
 
 struct K(block) {
@@ -14,6 +18,18 @@ struct K(block) {
     real force[GM_COMPONENTS]; /* splitting: of the last kick, while q has not moved since */
     bool force_known;
 };
+
+/* Ensembles whose state, as it was and as it is, may stay in a core's own caches from one call to the next. */
+enum { K(NEAR) = 1 << 20 }; /* numbers */
+
+/* Which of so many groups is the next one. Backward, stretches of them are taken from the end, each forth, as memory
+   is asked for ahead. */
+GM_INLINE size_t K(group_at)(size_t turn, size_t groups, bool backward)
+{
+    enum { STRETCH = 128 };
+    const size_t from = turn / STRETCH * STRETCH, left = groups - from;
+    return !backward ? turn : turn - from + (left < STRETCH ? 0 : left - STRETCH);
+}
 
 /* What the steps cost, summed over the lanes that are members. */
 struct K(counts) {
@@ -88,12 +104,12 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
     *carry += old - *y;
 }
 
-/* Which lanes are finite and below the limit (a NaN compares false). */
-GM_INLINE mask K(within)(const struct K(block) * block, double limit)
+/* Which lanes are not finite, or beyond the limit; for K(somewhere_beyond) alone. */
+GM_INLINE mask K(block_beyond)(const struct K(block) * block, double limit)
 {
-    mask good = K(magnitude)(block->y[0]) <= K(constant)(limit);
+    mask beyond = K(beyond)(block->y[0], limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {
-        good &= K(magnitude)(block->y[c]) <= K(constant)(limit);
+        beyond |= K(beyond)(block->y[c], limit);
     }
-    return good;
+    return beyond;
 }

@@ -59,15 +59,15 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
                 before[b] = block[b];
             }
         }
-        mask solved = K(all)(), inside = K(all)();
+        mask solved = K(all)(), beyond = K(other)(solved);
         for (long i = 0; i < burst; i++) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                inside &= K(within)(&block[b], task->limit);
+                beyond |= K(block_beyond)(&block[b], task->limit);
             }
         }
-        if (K(everywhere)(solved) && K(everywhere)(inside)) {
+        if (K(everywhere)(solved) && !K(somewhere_beyond)(beyond)) {
             done += burst;
             continue;
         }
@@ -101,19 +101,27 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 }
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
-/* All groups in which no block sticks out, for no more steps than a burst: what is kept for a second try takes
-   several times as long as a step. The members that are done; 0: one of them failed, and all are made again, of
-   y, which is therefore not where they are stored. */
-GM_INLINE size_t GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
-                                        struct gm_progress *progress)
+/* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
+   Members that are more than whole groups make one with some that are done already. Every other call goes
+   backward: what the last one left in the cache is read before it is gone. False: a member failed, or they are too few,
+   and all are to be made, of y, which is therefore not where they are stored. */
+GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
+                                      struct gm_progress *progress)
 {
     const struct gm_task own = *task; /* a copy, which no store to the state can change */
-    const size_t size = (size_t)(GM_LANES * GM_ABREAST), whole = own.problem->m / size * size;
+    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = own.problem->m;
+    if (m < size) {
+        return false;
+    }
+    const size_t groups = (m - 1) / size + 1;
+    const bool backward = own.out < own.y && 2 * GM_COMPONENTS * m <= K(NEAR);
     const void *parameters = own.problem->parameters;
     const bool stiff = gm_ode_of(own.problem)->stiff;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
-    mask good = K(all)();
-    for (size_t first = 0; first < whole; first += size) {
+    mask solved = K(all)(), beyond = K(other)(solved);
+    for (size_t group = 0; group < groups; group++) {
+        const size_t start = K(group_at)(group, groups, backward) * size;
+        const size_t first = start + size <= m ? start : m - size;
         struct K(block) block[GM_ABREAST];
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {
@@ -123,8 +131,8 @@ GM_INLINE size_t GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW
         for (long i = 0; i < own.steps; i++) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
-                good &= GM_STEP(row, &block[b], own.dt, parameters, compensated, stiff, &counts);
-                good &= K(within)(&block[b], own.limit);
+                solved &= GM_STEP(row, &block[b], own.dt, parameters, compensated, stiff, &counts);
+                beyond |= K(block_beyond)(&block[b], own.limit);
             }
         }
 #pragma GCC unroll 8
@@ -132,23 +140,23 @@ GM_INLINE size_t GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW
             K(block_store)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
         }
     }
-    if (!K(everywhere)(good)) {
-        return 0;
+    if (!K(everywhere)(solved) || K(somewhere_beyond)(beyond)) {
+        return false;
     }
-    progress->evaluations = counts.evaluations;
-    return whole;
+    progress->evaluations = counts.evaluations / (groups * size) * m;
+    return true;
 }
 #endif
 
 GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    size_t first = 0;
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
-    if (task->steps <= GM_BURST && task->y != task->out) {
-        first = GM_DRIVE_NAME(quickly)(task, row, compensated, &progress);
+    if (task->steps <= GM_BURST && task->y != task->out &&
+        GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {
+        return progress;
     }
 #endif
-    for (; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
+    for (size_t first = 0; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
         GM_DRIVE_NAME(group)(task, row, compensated, first, &progress);
     }
     return progress;

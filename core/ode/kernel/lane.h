@@ -55,6 +55,14 @@ GM_INLINE double K(magnitude)(double x)
 {
     return fabs(x);
 }
+GM_INLINE bool K(beyond)(double x, double limit)
+{
+    return !(fabs(x) <= limit);
+}
+GM_INLINE bool K(somewhere_beyond)(bool which)
+{
+    return which;
+}
 #define GM_OF_EACH(name, function)                                                                           \
     GM_INLINE double K(name)(double x)                                                                       \
     {                                                                                                        \
@@ -127,6 +135,20 @@ GM_INLINE gm_lanes K(pick)(gm_lanes_mask choose, gm_lanes yes, gm_lanes no)
 GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
+}
+/* Negative where the magnitude of x is beyond a positive limit or x is no number: the bits of numbers are ordered as
+   these are, NaN last. A comparison of numbers would go by the registers of masks, where each waits for the last. */
+GM_INLINE gm_lanes_mask K(beyond)(gm_lanes x, double limit)
+{
+    return (gm_lanes_mask)K(constant)(limit) - ((gm_lanes_mask)x & INT64_MAX);
+}
+GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask which)
+{
+    int64_t any = 0;
+    for (int i = 0; i < GM_WIDTH; i++) {
+        any |= which[i];
+    }
+    return any < 0;
 }
 #define GM_OF_EACH(name, function)                                                                           \
     GM_INLINE gm_lanes K(name)(gm_lanes x)                                                                   \
