@@ -247,8 +247,8 @@ static void moments_keep_to_the_tolerance(void **unused)
     }
 }
 
-/* Moments of pairs of cells are those of equal and opposite actions: the centre stays, and a step too many terms of
-   which are left out is seen in the energy. */
+/* Two cells act on each other by equal and opposite amounts, so that the centre stays to round-off whatever the
+   tolerance; the energy stays as the tolerance lets it. */
 static void moments_keep_the_centre(void **unused)
 {
     (void)unused;

@@ -131,7 +131,7 @@ static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, con
         }
         const bool angle = own->system.variables[c].angle;
         gm_choose(&choices[count++], own->rows[row].key,
-                  angle ? remainder(aim->variables[c], 2 * acos(-1)) : aim->variables[c]);
+                  angle ? remainder(aim->variables[c], 2 * M_PI) : aim->variables[c]);
     }
     return count;
 }

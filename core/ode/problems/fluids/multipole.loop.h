@@ -45,7 +45,7 @@ struct cell {
 struct tree {
     struct cell *cells;
     size_t count, room;
-    size_t vortices, filled;
+    size_t filled; /* how long the lists are */
     double *x, *y; /* vortices */
     size_t *origin;
     double *lists;        /* filled_x, filled_y, sum_x, sum_y: filled each */
@@ -480,7 +480,7 @@ static void close_tree(struct tree *tree)
 static bool open_tree(struct tree *tree, const double *state, size_t count, double tolerance,
                       bool of_logarithms)
 {
-    *tree = (struct tree){.vortices = count, .count = 1, .room = 64, .near = {.product = 1}};
+    *tree = (struct tree){.count = 1, .room = 64, .near = {.product = 1}};
     tree->cells = malloc(tree->room * sizeof *tree->cells);
     tree->x = malloc(2 * count * sizeof *tree->x);
     tree->origin = malloc(count * sizeof *tree->origin);
