@@ -141,6 +141,7 @@ static void read_news(struct gm_explorer *explorer)
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
+        explorer->face.awaited = explorer->face.awaited && explorer->open.shot;
         gm_open_take(&explorer->open, shot);
         read_command(explorer);
         explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
@@ -151,6 +152,7 @@ static void read_news(struct gm_explorer *explorer)
         }
     } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
                gm_worker_failed(explorer->open.worker, explorer->open.said)) {
+        explorer->face.awaited = false;
         explorer->dirty = true;
         if (!explorer->list.shown) {
             gm_explorer_show_start(explorer);
@@ -158,7 +160,7 @@ static void read_news(struct gm_explorer *explorer)
     }
 }
 
-/* For how many milliseconds more keys wait for the page that they were typed for; 0: they are read. */
+/* For how many milliseconds more keys wait for what they were typed for; 0: they are read. */
 static int hold_keys(struct gm_explorer *explorer)
 {
     enum { LONGEST = 500 }; /* a worker in a long step does not silence the keys */

@@ -248,11 +248,13 @@ keys Escape
 keys pipe
 wait_for 'it is a pipe, and no file'
 keys Enter
+wait_for 'Type to search'
 wait_for '▸ pipe'
 keys broken
 wait_for 'there is no name qq'
 caret qq
 keys Enter
+wait_for 'Type to search'
 wait_for '▸ broken'
 keys mine
 wait_for 'a spring of mine, by'
