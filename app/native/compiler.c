@@ -251,8 +251,10 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return GM_COMPILED;
     }
-    /* the clock that limits a process is not quite the one that tells what it took */
-    if (ended > 0 && seconds_of(&used) >= 0.9 * most_seconds()) {
+    /* by its limit's signal, or by one that ended what it had started; the clock that limits a process counts whole
+       ticks, those of a busy machine to its disfavour, so that it is not quite the one that tells what it took */
+    const bool limited = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
+    if (ended > 0 && (limited || seconds_of(&used) >= 0.9 * most_seconds())) {
         gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
     } else {
         gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
