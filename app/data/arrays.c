@@ -244,11 +244,13 @@ static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_
     return good;
 }
 
-/* Without room for a second file there may be some for a longer one, for at least this part of more rows. */
-static bool use_up(const struct gm_saving *saving, struct gm_saved *lane)
+/* Without room for a second file there may be some for a longer one, for so many rows at most and at least this part
+   of more. */
+static bool use_up(const struct gm_saving *saving, struct gm_saved *lane, uint64_t wanted)
 {
     enum { PART = 64 };
-    const uint64_t own = gm_npz_size(lane->npz) + end_size(lane), most = most_rows(saving, lane, own);
+    const uint64_t own = gm_npz_size(lane->npz) + end_size(lane), room = most_rows(saving, lane, own),
+                   most = room < wanted ? room : wanted;
     bool good = false;
     for (uint64_t more = most > lane->rows ? most - lane->rows : 0; more > lane->rows / PART && !good;
          more /= 2) {
@@ -260,15 +262,16 @@ static bool use_up(const struct gm_saving *saving, struct gm_saved *lane)
 /* There are more rows than there is room for. */
 static bool grow(const struct gm_saving *saving, struct gm_saved *lane)
 {
+    const uint64_t wanted = MORE * lane->rows;
     bool good = true;
     for (size_t i = 0; i <= lane->count && good; i++) {
         good = gm_column_flush(&lane->columns[i]);
     }
-    if (!good || make(saving, lane, capacity_of(saving, lane, MORE * lane->rows))) {
+    if (!good || make(saving, lane, capacity_of(saving, lane, wanted))) {
         return good;
     }
     const int why = errno;
-    good = !saving->kept && use_up(saving, lane);
+    good = !saving->kept && use_up(saving, lane, wanted);
     errno = good ? errno : why;
     return good;
 }

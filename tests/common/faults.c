@@ -8,7 +8,8 @@
    What counts are calls by the program itself, and allocations that SuiteSparse, GSL, libpng, libdeflate and
    FreeType make for it and report to it. Others (Mesa, fontconfig, ncurses, BLAS) may end a
    process whose allocations fail; nobody could do anything about that. The count runs on in processes that
-   the program forks, and ends where another program is executed. */
+   the program forks, and ends where another program is executed. A process that writes to places of a file more than any
+   test needs is ended by SIGABRT: it would fill the disk. */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -26,7 +27,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum { MOST_RANGES = 32, ERROR_SEEN = 0x20 /* glibc's flag of a FILE */ };
+enum { MOST_RANGES = 32, ERROR_SEEN = 0x20 /* glibc's flag of a FILE */, MOST_WRITTEN = 1 << 28 /* bytes */ };
 
 static struct range {
     uintptr_t from, to;
@@ -251,6 +252,10 @@ ssize_t pread(int descriptor, void *bytes, size_t size, off_t offset)
 
 ssize_t pwrite(int descriptor, const void *bytes, size_t size, off_t offset)
 {
+    static atomic_size_t written;
+    if ((written += size) > MOST_WRITTEN) {
+        abort();
+    }
     return NO_FILE_HERE ? refuse(ENOSPC) : syscall(SYS_pwrite64, descriptor, bytes, size, offset);
 }
 
