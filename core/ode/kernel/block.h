@@ -104,12 +104,12 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
     *carry += old - *y;
 }
 
-/* Which lanes are not finite, or beyond the limit; for K(somewhere_beyond) alone. */
-GM_INLINE mask K(block_beyond)(const struct K(block) * block, double limit)
+/* What K(somewhere_beyond) asks of a block: how far its numbers are from 0, by their bits. */
+GM_INLINE mask K(block_distance)(const struct K(block) * block, double limit)
 {
-    mask beyond = K(beyond)(block->y[0], limit);
+    mask farthest = K(distance)(block->y[0], limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {
-        beyond |= K(beyond)(block->y[c], limit);
+        farthest = K(farther)(farthest, K(distance)(block->y[c], limit));
     }
-    return beyond;
+    return farthest;
 }

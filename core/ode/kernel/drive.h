@@ -59,15 +59,15 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
                 before[b] = block[b];
             }
         }
-        mask solved = K(all)(), beyond = K(other)(solved);
+        mask solved = K(all)(), farthest = K(other)(solved);
         for (long i = 0; i < burst; i++) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                beyond |= K(block_beyond)(&block[b], task->limit);
+                farthest = K(farther)(farthest, K(block_distance)(&block[b], task->limit));
             }
         }
-        if (K(everywhere)(solved) && !K(somewhere_beyond)(beyond)) {
+        if (K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit)) {
             done += burst;
             continue;
         }
@@ -118,7 +118,7 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
     const void *parameters = own.problem->parameters;
     const bool stiff = gm_ode_of(own.problem)->stiff;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
-    mask solved = K(all)(), beyond = K(other)(solved);
+    mask solved = K(all)(), farthest = K(other)(solved);
     for (size_t group = 0; group < groups; group++) {
         const size_t start = K(group_at)(group, groups, backward) * size;
         const size_t first = start + size <= m ? start : m - size;
@@ -132,7 +132,7 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], own.dt, parameters, compensated, stiff, &counts);
-                beyond |= K(block_beyond)(&block[b], own.limit);
+                farthest = K(farther)(farthest, K(block_distance)(&block[b], own.limit));
             }
         }
 #pragma GCC unroll 8
@@ -140,7 +140,7 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
             K(block_store)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
         }
     }
-    if (!K(everywhere)(solved) || K(somewhere_beyond)(beyond)) {
+    if (!K(everywhere)(solved) || K(somewhere_beyond)(farthest, task->limit)) {
         return false;
     }
     progress->evaluations = counts.evaluations / (groups * size) * m;
