@@ -19,18 +19,6 @@ struct K(block) {
     bool force_known;
 };
 
-/* Ensembles whose state, as it was and as it is, may stay in a core's own caches from one call to the next. */
-enum { K(NEAR) = 1 << 20 }; /* numbers */
-
-/* Which of so many groups is the next one. Backward, stretches of them are taken from the end, each forth, as memory
-   is asked for ahead. */
-GM_INLINE size_t K(group_at)(size_t turn, size_t groups, bool backward)
-{
-    enum { STRETCH = 128 };
-    const size_t from = turn / STRETCH * STRETCH, left = groups - from;
-    return !backward ? turn : turn - from + (left < STRETCH ? 0 : left - STRETCH);
-}
-
 /* What the steps cost, summed over the lanes that are members. */
 struct K(counts) {
     int lanes;      /* members in this block */
