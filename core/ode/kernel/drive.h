@@ -102,9 +102,9 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
 /* A whole group from member `first` on makes its steps, and is not stored. */
-GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row, bool compensated, size_t first,
-                                  struct K(block) * block, struct K(counts) * counts, mask *solved,
-                                  mask *farthest)
+GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row, bool compensated,
+                                  size_t first, struct K(block) * block, struct K(counts) * counts,
+                                  mask *solved, mask *farthest)
 {
     const void *parameters = task->problem->parameters;
     const bool stiff = gm_ode_of(task->problem)->stiff;
