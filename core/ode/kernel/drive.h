@@ -113,13 +113,14 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
         K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
         GM_PRIME(&block[b], parameters, counts);
     }
-    for (long i = 0; i < task->steps; i++) {
+    long left = task->steps;
+    do {
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {
             *solved &= GM_STEP(row, &block[b], task->dt, parameters, compensated, stiff, counts);
             *farthest = K(farther)(*farthest, K(block_distance)(&block[b], task->limit));
         }
-    }
+    } while (--left > 0);
 }
 
 GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, size_t first,
@@ -137,14 +138,18 @@ GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, 
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                       struct gm_progress *progress)
 {
-    const struct gm_task own = *task; /* a copy, which no store to the state can change */
-    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = own.problem->m, last = m - size;
+    /* copies, which no store to the state can change */
+    const struct gm_problem problem = *task->problem;
+    struct gm_task own = *task;
+    own.problem = &problem;
+    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = problem.m, last = m - size;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
-    struct K(block) block[GM_ABREAST], end[GM_ABREAST];
+    struct K(block) end[GM_ABREAST];
     mask solved = K(all)(), farthest = K(other)(solved);
     GM_DRIVE_NAME(few)(&own, row, compensated, last, end, &counts, &solved, &farthest);
     size_t groups = 1;
     for (size_t first = 0; first < last; first += size, groups++) {
+        struct K(block) block[GM_ABREAST];
         GM_DRIVE_NAME(few)(&own, row, compensated, first, block, &counts, &solved, &farthest);
         GM_DRIVE_NAME(put)(&own, compensated, first, block);
     }
