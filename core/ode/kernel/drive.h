@@ -101,7 +101,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 }
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
-/* A whole group from member `first` on makes its steps, and is not stored. */
+/* A whole group from member `first` on makes its steps, at least one, and is not stored. */
 GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                   size_t first, struct K(block) * block, struct K(counts) * counts,
                                   mask *solved, mask *farthest)
@@ -134,7 +134,9 @@ GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, 
 
 /* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
    The last group has members of the one before it as well, so it is made first, and stored when that is done: the
-   steps may be made in place. False: a member failed, and what is stored is void. */
+   steps may be made in place. Every other call takes stretches of groups from the end, each forth, as memory is asked
+   for ahead: what the last call left in the cache is read before it is gone. False: a member failed, and what is stored
+   is void. */
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                       struct gm_progress *progress)
 {
@@ -142,19 +144,22 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
     const struct gm_problem problem = *task->problem;
     struct gm_task own = *task;
     own.problem = &problem;
-    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = problem.m, last = m - size;
+    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = problem.m, last = m - size, stretch = 512 * size;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
     struct K(block) end[GM_ABREAST];
     mask solved = K(all)(), farthest = K(other)(solved);
     GM_DRIVE_NAME(few)(&own, row, compensated, last, end, &counts, &solved, &farthest);
-    size_t groups = 1;
-    for (size_t first = 0; first < last; first += size, groups++) {
-        struct K(block) block[GM_ABREAST];
-        GM_DRIVE_NAME(few)(&own, row, compensated, first, block, &counts, &solved, &farthest);
-        GM_DRIVE_NAME(put)(&own, compensated, first, block);
+    for (size_t done = 0; done < last; done += stretch) {
+        const size_t from = own.steps_before % 2 == 0 ? done : (last - 1) / stretch * stretch - done;
+        const size_t to = from + stretch < last ? from + stretch : last;
+        for (size_t first = from; first < to; first += size) {
+            struct K(block) block[GM_ABREAST];
+            GM_DRIVE_NAME(few)(&own, row, compensated, first, block, &counts, &solved, &farthest);
+            GM_DRIVE_NAME(put)(&own, compensated, first, block);
+        }
     }
     GM_DRIVE_NAME(put)(&own, compensated, last, end);
-    progress->evaluations = counts.evaluations / (groups * size) * m;
+    progress->evaluations = counts.evaluations / ((m - 1) / size * size + size) * m;
     return K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit);
 }
 #endif
