@@ -159,8 +159,11 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
         }
     }
     GM_DRIVE_NAME(put)(&own, compensated, last, end);
+    if (!K(everywhere)(solved) || K(somewhere_beyond)(farthest, task->limit)) {
+        return false;
+    }
     progress->evaluations = counts.evaluations / ((m - 1) / size * size + size) * m;
-    return K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit);
+    return true;
 }
 #endif
 
@@ -171,10 +174,9 @@ GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *
         if (GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {
             return progress;
         }
-        if (task->out == task->y) {
+        if (task->out == task->y) { /* nothing is left to look for the step in: who asked goes back */
             return (struct gm_progress){.status = GM_BLOW_UP};
         }
-        progress.evaluations = 0;
     }
 #endif
     for (size_t first = 0; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
