@@ -161,7 +161,7 @@ static struct gm_task task_again(const struct gm_run *run)
 }
 
 /* Whether these steps may be made in place: loops over kernels can, and ask for no memory. */
-static bool is_in_place(const struct gm_run *run, const gm_loop *loop, long steps)
+static bool is_in_place(const struct gm_run *run, gm_loop *loop, long steps)
 {
     return run->problem->m > 1 && loop != run->scheme->family->loop && !run->looks_back && run->behind > 0 &&
            steps <= FARTHEST_BEHIND - run->behind;
