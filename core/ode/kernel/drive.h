@@ -111,6 +111,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
 #pragma GCC unroll 8
     for (int b = 0; b < GM_ABREAST; b++) {
         K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
+        K(block_ask_ahead)(task, first + (size_t)(b * GM_LANES));
         GM_PRIME(&block[b], parameters, counts);
     }
     long left = task->steps;
