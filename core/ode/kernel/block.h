@@ -79,14 +79,13 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
     }
 }
 
-/* Asks memory for what lies this far beyond a block: where an ensemble is larger than the caches, more components are
+/* Asks memory for what lies so far beyond a block: where an ensemble is larger than the caches, more components are
    read side by side than the machine follows of itself. Beyond the last member nothing is read. */
 GM_INLINE void K(block_ask_ahead)(const struct gm_task *task, size_t first)
 {
-    enum { AHEAD = 2048 }; /* bytes */
+    enum { AHEAD = 256 }; /* numbers */
     for (int c = 0; c < GM_COMPONENTS; c++) {
-        __builtin_prefetch(
-            (const void *)((uintptr_t)(task->y + (size_t)c * task->problem->m + first) + AHEAD));
+        __builtin_prefetch(task->y + (size_t)c * task->problem->m + first + AHEAD);
     }
 }
 
