@@ -10,8 +10,11 @@
 #include "core/kind.h"
 #include "core/memory.h"
 
-/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. A
-   step reads one half and writes the other, so the last good step is always whole. */
+/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. Steps
+   read one half and write the other, so the last good step is always whole. An ensemble makes the next ones in
+   place, with half the memory to move: should one of them fail, they are made again from where the other half is,
+   which is never farther behind than this. */
+enum { FARTHEST_BEHIND = 64 };
 
 enum { ALIGNMENT = 128 };
 
@@ -147,17 +150,42 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count)
     return (double)count / (double)run->problem->m;
 }
 
+/* The steps since the other half, into the present one. */
+static struct gm_task task_again(const struct gm_run *run)
+{
+    struct gm_task task = task_of(run, 1 - run->current, run->current, run->behind);
+    task.n -= run->behind;
+    task.steps_before -= run->behind;
+    task.t = run->t0 + (double)task.n * run->dt;
+    return task;
+}
+
+/* Whether these steps may be made in place: loops over kernels can, and ask for no memory. */
+static bool is_in_place(const struct gm_run *run, gm_loop *loop, long steps)
+{
+    return run->problem->m > 1 && loop != run->scheme->family->loop && !run->looks_back && run->behind > 0 &&
+           steps <= FARTHEST_BEHIND - run->behind;
+}
+
 static enum gm_status advance(struct gm_run *run, long steps, double until)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
     }
-    struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
-    task.until = until;
     const struct gm_family *family = run->scheme->family;
     gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
+    const bool in_place = is_in_place(run, loop, steps);
+    struct gm_task task = task_of(run, run->current, in_place ? run->current : 1 - run->current, steps);
+    task.until = until;
+    run->behind = in_place ? run->behind : 0;
     const unsigned long refusals = gm_memory_refusals();
     struct gm_progress progress = loop(&task);
+    if (in_place && progress.done < steps) {
+        task = task_again(run);
+        loop(&task);
+        run->behind = 0;
+        return advance(run, steps, until);
+    }
     if (gm_memory_refusals() != refusals) {
         /* whatever the steps came to for want of memory, in factors or in a solution, is not theirs */
         return run->status = GM_OUT_OF_MEMORY;
@@ -182,7 +210,8 @@ static enum gm_status advance(struct gm_run *run, long steps, double until)
     run->solves += progress.solves;
     run->factor_solves += progress.factor_solves;
     run->iterations += progress.iterations;
-    run->current = 1 - run->current;
+    run->current = in_place ? run->current : 1 - run->current;
+    run->behind += progress.done;
     run->n += progress.done;
     run->steps += progress.done;
     run->t = family->own_time ? progress.t : run->t0 + (double)run->n * run->dt;
@@ -197,7 +226,7 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
 bool gm_run_repeats(const struct gm_run *run)
 {
     const struct gm_family *family = run->scheme->family;
-    return run->status == GM_OK && run->n > 0 && !family->own_time && !family->memory &&
+    return run->status == GM_OK && run->n > 0 && run->behind == 1 && !family->own_time && !family->memory &&
            !family->workspace_reset;
 }
 
@@ -209,10 +238,7 @@ const double *gm_run_before(const struct gm_run *run)
 /* The last step again, of another length. */
 static struct gm_task part_of(const struct gm_run *run, double fraction)
 {
-    struct gm_task task = task_of(run, 1 - run->current, run->current, 1);
-    task.n--;
-    task.steps_before--;
-    task.t = run->t0 + (double)task.n * run->dt;
+    struct gm_task task = task_again(run);
     task.dt = fraction * run->dt;
     return task;
 }
@@ -236,7 +262,7 @@ void gm_run_shorten(struct gm_run *run, double fraction)
     run->factor_solves += progress.factor_solves;
     run->iterations += progress.iterations;
     run->t = run->t0 = task.t + task.dt;
-    run->n = 0;
+    run->n = run->behind = 0;
 }
 
 long gm_run_steps_at(const struct gm_run *run, double t)
@@ -284,7 +310,7 @@ enum gm_status gm_run_until(struct gm_run *run, double t)
 void gm_run_set_step(struct gm_run *run, double dt)
 {
     run->t0 = run->t;
-    run->n = 0;
+    run->n = run->behind = 0;
     run->dt = dt;
     start(run);
 }
@@ -306,6 +332,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         gm_run_open(run->problem, scheme, &run->settings, run->t, run->dt, gm_run_state(run));
     if (next) {
         next->limit = run->limit;
+        next->looks_back = run->looks_back;
         next->steps = run->steps;
         next->evaluations = run->evaluations;
         next->solves = run->solves;
@@ -361,6 +388,8 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.problem = run->problem;
     then.scheme = run->scheme;
     then.workspace = run->workspace;
+    then.looks_back = run->looks_back;
+    then.behind = run->behind = 0;
     /* into the half that is not in use, until it is known to be a state; tracers may be lost */
     const size_t active = (run->problem->n - 2 * run->problem->passive) * run->problem->m;
     double *state = half(run, 1 - run->current), *carry = state + state_count(run);

@@ -22,6 +22,8 @@ struct gm_run {
     int current;      /* which half of the block holds the state */
     size_t half_size; /* in bytes */
     void *workspace;  /* of the scheme's family; no part of a snapshot */
+    long behind;      /* so many steps before it the other half holds the state; 0: it holds none */
+    bool looks_back;  /* set by who asks where the last step began: gm_run_before */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). NULL when memory is short.
@@ -44,7 +46,8 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count);
 enum gm_status gm_run_advance(struct gm_run *run, long steps);
 
 /* Whether the last step can be made again with another length: gm_run_advance was last called for one step,
-   in this segment (that is up to the caller), and the scheme neither chooses its steps nor remembers any. */
+   in this segment (that is up to the caller), and the scheme neither chooses its steps nor remembers any. Of an
+   ensemble, if run->looks_back is set. */
 bool gm_run_repeats(const struct gm_run *run);
 /* Where that step began; valid as gm_run_state is. */
 const double *gm_run_before(const struct gm_run *run);

@@ -566,6 +566,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
         return gm_refuse(sentence, "not enough memory");
     }
     if (scene->stop) {
+        lane->run->looks_back = true;
         const struct gm_view view = gm_lane_view(lane);
         lane->side = side_of(scene->stop(&view));
         return gm_behind_open(&lane->behind, &lane->problem) || gm_refuse(sentence, "not enough memory");

@@ -330,41 +330,52 @@ static void blow_up_is_found_to_the_step(void **unused)
     gm_run_close(near);
 }
 
-/* One of many members, in the middle of registers, grows until it leaves the bound; the others are at rest. All
+/* Of many members one grows, in the middle or the last, until it leaves the bound; the others are at rest. All
    stop at the last step that it makes, whether steps are made one by one, a few at a time or many at once, and
    explicit Euler's is known, as above. */
 static void one_of_many_blows_up(void **unused)
 {
     (void)unused;
-    enum { MEMBERS = 67, GROWING = 37 };
-    static const char *const names[] = {"explicit-euler", "symplectic-euler", "verlet", "rk4", "midpoint"};
-    struct gm_problem problem = gm_problem_oscillator_tangent;
-    problem.m = MEMBERS;
-    const size_t count = problem.n * problem.m, q = GROWING, p = problem.n / 2 * MEMBERS + GROWING;
-    double *start = calloc(count, sizeof *start);
-    assert_non_null(start);
-    for (size_t k = 0; k < GM_COUNT(names); k++) {
-        const struct gm_scheme *scheme = gm_scheme_find(names[k]);
-        const bool grows = strcmp(names[k], "midpoint") != 0; /* which is bounded whatever the step */
+    static const struct {
+        const char *name;
+        double dt;
+    } schemes[] = {
+        {"explicit-euler", 3}, {"explicit-euler", 0.6}, {"symplectic-euler", 2.02}, {"verlet", 2.02},
+        {"rk4", 2.9},          {"midpoint", 3}};
+    static const size_t members[] = {16, 67, 1000, 13001};
+    enum { VARIANTS = 2 * GM_COUNT(settings_of), CASES = GM_COUNT(schemes) * GM_COUNT(members) * VARIANTS };
+    for (size_t k = 0; k < CASES; k++) {
+        const char *name = schemes[k / VARIANTS % GM_COUNT(schemes)].name;
+        const double dt = schemes[k / VARIANTS % GM_COUNT(schemes)].dt;
+        const struct gm_settings *settings = &settings_of[k % VARIANTS / 2];
+        const bool grows = strcmp(name, "midpoint") != 0; /* which is bounded whatever the step */
+        struct gm_problem problem = gm_problem_oscillator_tangent;
+        problem.m = members[k / VARIANTS / GM_COUNT(schemes)];
+        const size_t q = k % 2 == 0 ? problem.m * 5 / 9 : problem.m - 1, p = problem.n / 2 * problem.m + q;
+        double *start = calloc(problem.n * problem.m, sizeof *start);
+        assert_non_null(start);
         start[q] = 1;
         struct gm_run *runs[3];
         for (int i = 0; i < 3; i++) {
-            runs[i] = gm_run_open(&problem, scheme, &settings_of[0], 0, 3, start);
-            while (runs[i]->steps < 1000 && runs[i]->status == GM_OK) {
+            runs[i] = gm_run_open(&problem, gm_scheme_find(name), settings, 0, dt, start);
+            while (runs[i]->steps < (grows ? 1000 : 40) && runs[i]->status == GM_OK) {
                 gm_run_advance(runs[i], i == 0 ? 1000 : i == 1 ? 8 : 1);
             }
             if (runs[i]->status != (grows ? GM_BLOW_UP : GM_OK)) {
-                fail_msg("%s: %s", names[k], gm_status_name(runs[i]->status));
+                fail_msg("%s: %s", name, gm_status_name(runs[i]->status));
             }
-            expect_same_state(runs[i], runs[0]);
-            assert_true(!grows || runs[i]->steps == runs[0]->steps);
-            assert_true(!grows || runs[i]->evaluations == runs[0]->evaluations);
+            if (grows) {
+                expect_same_state(runs[i], runs[0]);
+                assert_int_equal(runs[i]->steps, runs[0]->steps);
+                assert_int_equal(runs[i]->evaluations, runs[0]->evaluations);
+                assert_true(runs[i]->t == dt * (double)runs[i]->steps);
+            }
         }
-        if (k == 0) {
+        if (strcmp(name, "explicit-euler") == 0 && !settings->compensated) {
             double at[2] = {1, 0};
             long steps = 0;
             for (;; steps++) {
-                const double next[2] = {at[0] + 3 * at[1], at[1] - 3 * at[0]};
+                const double next[2] = {at[0] + dt * at[1], at[1] - dt * at[0]};
                 if (!(fabs(next[0]) <= 1e10 && fabs(next[1]) <= 1e10)) {
                     break;
                 }
@@ -376,8 +387,65 @@ static void one_of_many_blows_up(void **unused)
         for (int i = 0; i < 3; i++) {
             gm_run_close(runs[i]);
         }
+        free(start);
     }
-    free(start);
+}
+
+/* Who looks back at an ensemble finds where each step began, and can make it again. */
+static void ensembles_are_looked_back_at(void **unused)
+{
+    (void)unused;
+    enum { MEMBERS = 67, STEPS = 5 };
+    struct gm_problem problem = gm_problem_oscillator_tangent;
+    problem.m = MEMBERS;
+    const size_t count = problem.n * MEMBERS;
+    double *before = aligned_alloc(128, 4 * count * sizeof *before), *part = before + 2 * count;
+    assert_non_null(before);
+    for (size_t i = 0; i < count; i++) {
+        before[i] = sin(1.0 + (double)i);
+    }
+    struct gm_run *run = gm_run_open(&problem, gm_scheme_find("verlet"), &settings_of[0], 0, 0.05, before);
+    run->looks_back = true;
+    for (int i = 0; i < STEPS; i++) {
+        assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        assert_true(gm_run_repeats(run));
+        assert_memory_equal(gm_run_before(run), before, count * sizeof *before);
+        assert_true(gm_run_part(run, 1, part));
+        assert_memory_equal(gm_run_state(run), part, count * sizeof *part);
+        memcpy(before, part, count * sizeof *before);
+    }
+    gm_run_advance(run, 2);
+    assert_false(gm_run_repeats(run));
+    gm_run_close(run);
+    free(before);
+}
+
+/* What fails in the middle of single steps is found as that of many at once: the equations of one member have no
+   root. */
+static void one_of_many_is_not_solved(void **unused)
+{
+    (void)unused;
+    enum { MEMBERS = 67 };
+    struct gm_problem problem = gm_problem_product;
+    problem.m = MEMBERS;
+    double start[2 * MEMBERS] = {0};
+    start[37] = start[MEMBERS + 37] = 0.5;
+    struct gm_run *runs[2];
+    for (int i = 0; i < 2; i++) {
+        runs[i] = gm_run_open(&problem, gm_scheme_find("midpoint"), &settings_of[0], 0, 1.6, start);
+        while (runs[i]->status == GM_OK && runs[i]->steps < 1000) {
+            gm_run_advance(runs[i], i == 0 ? 1000 : 1);
+        }
+        assert_int_equal(runs[i]->status, GM_NO_CONVERGENCE);
+        assert_true(runs[i]->steps > 2);
+        expect_same_state(runs[i], runs[0]);
+        assert_int_equal(runs[i]->steps, runs[0]->steps);
+        assert_int_equal(runs[i]->iterations, runs[0]->iterations);
+        assert_int_equal(runs[i]->evaluations, runs[0]->evaluations);
+        assert_int_equal(runs[i]->failed_iterations, runs[0]->failed_iterations);
+    }
+    gm_run_close(runs[0]);
+    gm_run_close(runs[1]);
 }
 
 /* Single steps go through an ensemble in an order of their own, and end with members that were made before: from
@@ -387,7 +455,7 @@ static void single_steps_are_many_at_once(void **unused)
     (void)unused;
     static const char *const names[] = {"explicit-euler", "symplectic-euler", "verlet", "rk4"};
     static const size_t members[] = {16, 33, 47, 6200, 13001};
-    enum { STEPS = 20 };
+    enum { STEPS = 140 };
     for (size_t k = 0; k < GM_COUNT(names) * GM_COUNT(members) * GM_COUNT(settings_of); k++) {
         const char *name = names[k % GM_COUNT(names)];
         struct gm_problem problem = gm_problem_oscillator_tangent;
@@ -563,6 +631,8 @@ int main(void)
         cmocka_unit_test(refused_memory_is_no_step),
         cmocka_unit_test(blow_up_is_found_to_the_step),
         cmocka_unit_test(one_of_many_blows_up),
+        cmocka_unit_test(ensembles_are_looked_back_at),
+        cmocka_unit_test(one_of_many_is_not_solved),
         cmocka_unit_test(single_steps_are_many_at_once),
         cmocka_unit_test(runs_end_where_they_are_to),
         cmocka_unit_test(failed_solves_are_told),

@@ -19,18 +19,6 @@ struct K(block) {
     bool force_known;
 };
 
-/* Ensembles whose state, as it was and as it is, may stay in a core's own caches from one call to the next. */
-enum { K(NEAR) = 1 << 20 }; /* numbers */
-
-/* Which of so many groups is the next one. Backward, stretches of them are taken from the end, each forth, as memory
-   is asked for ahead. */
-GM_INLINE size_t K(group_at)(size_t turn, size_t groups, bool backward)
-{
-    enum { STRETCH = 128 };
-    const size_t from = turn / STRETCH * STRETCH, left = groups - from;
-    return !backward ? turn : turn - from + (left < STRETCH ? 0 : left - STRETCH);
-}
-
 /* What the steps cost, summed over the lanes that are members. */
 struct K(counts) {
     int lanes;      /* members in this block */
@@ -91,6 +79,16 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
     }
 }
 
+/* Asks memory for what lies so far beyond a block: where an ensemble is larger than the caches, more components are
+   read side by side than the machine follows of itself. Beyond the last member nothing is read. */
+GM_INLINE void K(block_ask_ahead)(const struct gm_task *task, size_t first)
+{
+    enum { AHEAD = 256 }; /* numbers */
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        __builtin_prefetch(task->y + (size_t)c * task->problem->m + first + AHEAD);
+    }
+}
+
 /* y += increment; compensated: the rounding error goes into carry (Kahan; Hairer, Lubich & Wanner VIII.5). */
 GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
 {
@@ -104,12 +102,12 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
     *carry += old - *y;
 }
 
-/* Which lanes are not finite, or beyond the limit; for K(somewhere_beyond) alone. */
-GM_INLINE mask K(block_beyond)(const struct K(block) * block, double limit)
+/* What K(somewhere_beyond) asks of a block: how far its numbers are from 0, by their bits. */
+GM_INLINE mask K(block_distance)(const struct K(block) * block, double limit)
 {
-    mask beyond = K(beyond)(block->y[0], limit);
+    mask farthest = K(distance)(block->y[0], limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {
-        beyond |= K(beyond)(block->y[c], limit);
+        farthest = K(farther)(farthest, K(distance)(block->y[c], limit));
     }
-    return beyond;
+    return farthest;
 }

@@ -59,15 +59,15 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
                 before[b] = block[b];
             }
         }
-        mask solved = K(all)(), beyond = K(other)(solved);
+        mask solved = K(all)(), farthest = K(other)(solved);
         for (long i = 0; i < burst; i++) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                beyond |= K(block_beyond)(&block[b], task->limit);
+                farthest = K(farther)(farthest, K(block_distance)(&block[b], task->limit));
             }
         }
-        if (K(everywhere)(solved) && !K(somewhere_beyond)(beyond)) {
+        if (K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit)) {
             done += burst;
             continue;
         }
@@ -101,49 +101,69 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 }
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
+/* A whole group from member `first` on makes its steps, at least one, and is not stored. */
+GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row, bool compensated,
+                                  size_t first, struct K(block) * block, struct K(counts) * counts,
+                                  mask *solved, mask *farthest)
+{
+    const void *parameters = task->problem->parameters;
+    const bool stiff = gm_ode_of(task->problem)->stiff;
+#pragma GCC unroll 8
+    for (int b = 0; b < GM_ABREAST; b++) {
+        K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
+        K(block_ask_ahead)(task, first + (size_t)(b * GM_LANES));
+        GM_PRIME(&block[b], parameters, counts);
+    }
+    long left = task->steps;
+    do {
+#pragma GCC unroll 8
+        for (int b = 0; b < GM_ABREAST; b++) {
+            *solved &= GM_STEP(row, &block[b], task->dt, parameters, compensated, stiff, counts);
+            *farthest = K(farther)(*farthest, K(block_distance)(&block[b], task->limit));
+        }
+    } while (--left > 0);
+}
+
+GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, size_t first,
+                                  const struct K(block) * block)
+{
+#pragma GCC unroll 8
+    for (int b = 0; b < GM_ABREAST; b++) {
+        K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
+    }
+}
+
 /* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
-   Members that are more than whole groups make one with some that are done already. Every other call goes
-   backward: what the last one left in the cache is read before it is gone. False: a member failed, or they are too few,
-   and all are to be made, of y, which is therefore not where they are stored. */
+   The last group has members of the one before it as well, so it is made first, and stored when that is done: the
+   steps may be made in place. Every other call takes stretches of groups from the end, each forth, as memory is asked
+   for ahead: what the last call left in the cache is read before it is gone. False: a member failed, and what is stored
+   is void. */
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                       struct gm_progress *progress)
 {
-    const struct gm_task own = *task; /* a copy, which no store to the state can change */
-    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = own.problem->m;
-    if (m < size) {
-        return false;
-    }
-    const size_t groups = (m - 1) / size + 1;
-    const bool backward = own.out < own.y && 2 * GM_COMPONENTS * m <= K(NEAR);
-    const void *parameters = own.problem->parameters;
-    const bool stiff = gm_ode_of(own.problem)->stiff;
+    /* copies, which no store to the state can change */
+    const struct gm_problem problem = *task->problem;
+    struct gm_task own = *task;
+    own.problem = &problem;
+    const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = problem.m, last = m - size, stretch = 512 * size;
     struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
-    mask solved = K(all)(), beyond = K(other)(solved);
-    for (size_t group = 0; group < groups; group++) {
-        const size_t start = K(group_at)(group, groups, backward) * size;
-        const size_t first = start + size <= m ? start : m - size;
-        struct K(block) block[GM_ABREAST];
-#pragma GCC unroll 8
-        for (int b = 0; b < GM_ABREAST; b++) {
-            K(block_load)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
-            GM_PRIME(&block[b], parameters, &counts);
-        }
-        for (long i = 0; i < own.steps; i++) {
-#pragma GCC unroll 8
-            for (int b = 0; b < GM_ABREAST; b++) {
-                solved &= GM_STEP(row, &block[b], own.dt, parameters, compensated, stiff, &counts);
-                beyond |= K(block_beyond)(&block[b], own.limit);
-            }
-        }
-#pragma GCC unroll 8
-        for (int b = 0; b < GM_ABREAST; b++) {
-            K(block_store)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
+    struct K(block) end[GM_ABREAST];
+    mask solved = K(all)(), farthest = K(other)(solved);
+    GM_DRIVE_NAME(few)(&own, row, compensated, last, end, &counts, &solved, &farthest);
+    for (size_t done = 0; done < last; done += stretch) {
+        const size_t from = own.steps_before % 2 == 0 ? done : (last - 1) / stretch * stretch - done;
+        const size_t to = from + stretch < last ? from + stretch : last;
+        for (size_t first = from; first < to; first += size) {
+            struct K(block) block[GM_ABREAST];
+            GM_DRIVE_NAME(few)(&own, row, compensated, first, block, &counts, &solved, &farthest);
+            GM_DRIVE_NAME(put)(&own, compensated, first, block);
         }
     }
-    if (!K(everywhere)(solved) || K(somewhere_beyond)(beyond)) {
+    GM_DRIVE_NAME(put)(&own, compensated, last, end);
+    if (!K(everywhere)(solved) || K(somewhere_beyond)(farthest, task->limit)) {
         return false;
     }
-    progress->evaluations = counts.evaluations / (groups * size) * m;
+    progress->evaluations = counts.evaluations / ((m - 1) / size * size + size) * m;
     return true;
 }
 #endif
@@ -151,9 +171,13 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
 GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
-    if (task->steps <= GM_BURST && task->y != task->out &&
-        GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {
-        return progress;
+    if (task->steps <= GM_BURST && task->problem->m >= (size_t)(GM_LANES * GM_ABREAST)) {
+        if (GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {
+            return progress;
+        }
+        if (task->out == task->y) { /* nothing is left to look for the step in: who asked goes back */
+            return (struct gm_progress){.status = GM_BLOW_UP};
+        }
     }
 #endif
     for (size_t first = 0; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {

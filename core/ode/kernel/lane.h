@@ -55,13 +55,17 @@ GM_INLINE double K(magnitude)(double x)
 {
     return fabs(x);
 }
-GM_INLINE bool K(beyond)(double x, double limit)
+GM_INLINE bool K(distance)(double x, double limit)
 {
     return !(fabs(x) <= limit);
 }
-GM_INLINE bool K(somewhere_beyond)(bool which)
+GM_INLINE bool K(farther)(bool a, bool b)
 {
-    return which;
+    return a | b;
+}
+GM_INLINE bool K(somewhere_beyond)(bool farthest, double limit)
+{
+    return (void)limit, farthest;
 }
 #define GM_OF_EACH(name, function)                                                                           \
     GM_INLINE double K(name)(double x)                                                                       \
@@ -136,17 +140,40 @@ GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
 }
-/* Negative where the magnitude of x is beyond a positive limit or x is no number: the bits of numbers are ordered as
-   these are, NaN last. A comparison of numbers would go by the registers of masks, where each waits for the last. */
-GM_INLINE gm_lanes_mask K(beyond)(gm_lanes x, double limit)
+/* What K(somewhere_beyond) asks of the magnitudes of all x so far: their bits are ordered as they are, NaN last. A
+   comparison of numbers would go by the registers of masks, where each waits for the last. Where there is an
+   instruction for it, the largest bits, which GCC makes of this loop alone; otherwise lanes that are negative once
+   a magnitude was beyond the positive limit. */
+GM_INLINE gm_lanes_mask K(farther)(gm_lanes_mask a, gm_lanes_mask b)
 {
-    return (gm_lanes_mask)K(constant)(limit) - ((gm_lanes_mask)x & INT64_MAX);
+#ifdef __AVX512F__
+    for (int i = 0; i < GM_WIDTH; i++) {
+        a[i] = a[i] > b[i] ? a[i] : b[i];
+    }
+    return a;
+#else
+    return a | b;
+#endif
 }
-GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask which)
+GM_INLINE gm_lanes_mask K(distance)(gm_lanes x, double limit)
 {
+    const gm_lanes_mask bits = (gm_lanes_mask)x & INT64_MAX;
+#ifdef __AVX512F__
+    return (void)limit, bits;
+#else
+    return (gm_lanes_mask)K(constant)(limit) - bits;
+#endif
+}
+GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
+{
+#ifdef __AVX512F__
+    farthest = (gm_lanes_mask)K(constant)(limit) - farthest;
+#else
+    (void)limit; /* K(distance) has asked it */
+#endif
     int64_t any = 0;
     for (int i = 0; i < GM_WIDTH; i++) {
-        any |= which[i];
+        any |= farthest[i];
     }
     return any < 0;
 }
