@@ -1,6 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
 
+/* What an explicit scheme takes of the components at once: in a single run two, in one register, where n is even. Left
+   alone the compiler takes some singly and others together, and a register waits for what was stored singly. */
+#undef GM_AT_ONCE
+#undef some
+#if defined(GM_PASS_SCALAR) && GM_COMPONENTS % 2 == 0
+#define GM_AT_ONCE 2
+#define some gm_packed
+#else
+#define GM_AT_ONCE 1
+#define some real
+#endif
+GM_INLINE some K(take)(const real *from)
+{
+    return *(const some *)from;
+}
+GM_INLINE void K(put)(real *to, some x)
+{
+    *(some *)to = x;
+}
+
 /* Explicit schemes: blocks that advance side by side, as many as the registers hold. */
 #ifdef GM_PASS_SCALAR
 enum { K(ABREAST) = 1 };
@@ -92,17 +112,22 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
 }
 
 /* y += increment; compensated: the rounding error goes into carry (Kahan; Hairer, Lubich & Wanner VIII.5). */
-GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
-{
-    if (!compensated) {
-        *y += increment;
-        return;
+#define GM_ADD(name, number)                                                                                 \
+    GM_INLINE void K(name)(real * at, real * carry_at, number increment, bool compensated)                   \
+    {                                                                                                        \
+        number *y = (number *)at, *carry = (number *)carry_at;                                               \
+        if (!compensated) {                                                                                  \
+            *y += increment;                                                                                 \
+            return;                                                                                          \
+        }                                                                                                    \
+        number old = *y;                                                                                     \
+        *carry += increment;                                                                                 \
+        *y = old + *carry;                                                                                   \
+        *carry += old - *y;                                                                                  \
     }
-    real old = *y;
-    *carry += increment;
-    *y = old + *carry;
-    *carry += old - *y;
-}
+GM_ADD(add, real)
+GM_ADD(add_some, some)
+#undef GM_ADD
 
 /* Which lanes are not finite, or beyond the limit; for K(somewhere_beyond) alone. */
 GM_INLINE mask K(block_beyond)(const struct K(block) * block, double limit)
