@@ -1,17 +1,43 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
 
-/* What an explicit scheme takes of the components at once: in a single run two, in one register, where n is even. Left
-   alone the compiler takes some singly and others together, and a register waits for what was stored singly. */
+/* What Runge-Kutta methods take of the components at once: in a single run two, in one register, where n is even, and
+   where q and p have a half each that is even. Left alone the compiler takes some singly and others together, and a
+   register waits for what was stored singly. */
 #undef GM_AT_ONCE
 #undef some
-#if defined(GM_PASS_SCALAR) && GM_COMPONENTS % 2 == 0
+#ifdef GM_SEPARABLE
+#define GM_ODD (GM_COMPONENTS % 4 != 0)
+#else
+#define GM_ODD (GM_COMPONENTS % 2 != 0)
+#endif
+#if defined(GM_PASS_SCALAR) && !GM_ODD
 #define GM_AT_ONCE 2
 #define some gm_packed
+GM_INLINE gm_packed K(pick_some)(bool choose, gm_packed yes, gm_packed no)
+{
+    return choose ? yes : no;
+}
+/* sum + |x|, one component after the other */
+GM_INLINE double K(add_magnitudes)(double sum, gm_packed x)
+{
+    x = (gm_packed)((gm_packed_bits)x & INT64_MAX);
+    sum += x[0];
+    return sum + x[1];
+}
 #else
 #define GM_AT_ONCE 1
 #define some real
+GM_INLINE real K(pick_some)(mask choose, real yes, real no)
+{
+    return K(pick)(choose, yes, no);
+}
+GM_INLINE real K(add_magnitudes)(real sum, real x)
+{
+    return sum + K(magnitude)(x);
+}
 #endif
+#undef GM_ODD
 GM_INLINE some K(take)(const real *from)
 {
     return *(const some *)from;
