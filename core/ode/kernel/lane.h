@@ -26,6 +26,10 @@ typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
    halves of them, for which the register then has to wait. */
 typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
 
+/* Two components of one member, side by side in the state, in one register. */
+typedef double gm_packed __attribute__((vector_size(16), aligned(8), may_alias));
+typedef int64_t gm_packed_bits __attribute__((vector_size(16)));
+
 #endif
 
 #ifdef GM_PASS_SCALAR

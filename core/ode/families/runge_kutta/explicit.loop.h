@@ -10,24 +10,27 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #pragma GCC unroll 8
     for (int i = 0; i < tableau->stages; i++) {
         real stage[GM_COMPONENTS];
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            stage[c] = block->y[c];
+#pragma GCC unroll 8
+        for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
+            some at = K(take)(block->y + c);
 #pragma GCC unroll 8
             for (int j = 0; j < i; j++) {
                 if (tableau->a[i][j] != 0) {
-                    stage[c] += h * tableau->a[i][j] * k[j][c];
+                    at += h * tableau->a[i][j] * K(take)(&k[j][c]);
                 }
             }
+            K(put)(&stage[c], at);
         }
         K(field)(stage, k[i], parameters);
     }
-    for (int c = 0; c < GM_COMPONENTS; c++) {
-        real increment = h * tableau->b[0] * k[0][c];
+#pragma GCC unroll 8
+    for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
+        some increment = h * tableau->b[0] * K(take)(&k[0][c]);
 #pragma GCC unroll 8
         for (int i = 1; i < tableau->stages; i++) {
-            increment += h * tableau->b[i] * k[i][c];
+            increment += h * tableau->b[i] * K(take)(&k[i][c]);
         }
-        K(add)(&block->y[c], &block->carry[c], increment, compensated);
+        K(add_some)(&block->y[c], &block->carry[c], increment, compensated);
     }
     counts->evaluations += (unsigned long)(tableau->stages * counts->lanes);
     return K(all)();

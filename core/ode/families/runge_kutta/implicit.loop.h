@@ -10,13 +10,14 @@ GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages,
 {
     real change = K(constant)(0);
     for (int i = 0; i < stages; i++) {
-        for (int c = from; c < to; c++) {
-            real next = h * row->a[i][0] * f[0][c];
+        for (int c = from; c < to; c += GM_AT_ONCE) {
+            some next = h * row->a[i][0] * K(take)(&f[0][c]);
             for (int j = 1; j < stages; j++) {
-                next += h * row->a[i][j] * f[j][c];
+                next += h * row->a[i][j] * K(take)(&f[j][c]);
             }
-            change += K(magnitude)(next - z[i][c]);
-            z[i][c] = K(pick)(active, next, z[i][c]);
+            const some last = K(take)(&z[i][c]);
+            change = K(add_magnitudes)(change, next - last);
+            K(put)(&z[i][c], K(pick_some)(active, next, last));
         }
     }
     return change;
@@ -25,8 +26,8 @@ GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages,
 /* Components [from, to) of slope i, in the lanes that are active. */
 GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope, real *f)
 {
-    for (int c = from; c < to; c++) {
-        f[c] = K(pick)(active, slope[c - from], f[c]);
+    for (int c = from; c < to; c += GM_AT_ONCE) {
+        K(put)(&f[c], K(pick_some)(active, K(take)(&slope[c - from]), K(take)(&f[c])));
     }
 }
 
@@ -40,8 +41,8 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
     enum { HALF = GM_COMPONENTS / 2 };
     for (int i = 0; i < stages; i++) {
         real p[HALF], velocity[HALF];
-        for (int c = 0; c < HALF; c++) {
-            p[c] = y[HALF + c] + z[i][HALF + c];
+        for (int c = 0; c < HALF; c += GM_AT_ONCE) {
+            K(put)(&p[c], K(take)(&y[HALF + c]) + K(take)(&z[i][HALF + c]));
         }
         K(velocity)(p, velocity, parameters);
         K(implicit_take)(0, HALF, active, velocity, f[i]);
@@ -49,8 +50,8 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
     const real change = K(implicit_update)(row, stages, 0, HALF, h, active, f, z);
     for (int i = 0; i < stages; i++) {
         real q[HALF], force[HALF];
-        for (int c = 0; c < HALF; c++) {
-            q[c] = y[c] + z[i][c];
+        for (int c = 0; c < HALF; c += GM_AT_ONCE) {
+            K(put)(&q[c], K(take)(&y[c]) + K(take)(&z[i][c]));
         }
         K(force)(q, force, parameters);
         K(implicit_take)(HALF, GM_COMPONENTS, active, force, f[i]);
@@ -59,8 +60,8 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
 #else
     for (int i = 0; i < stages; i++) {
         real stage[GM_COMPONENTS], slope[GM_COMPONENTS];
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            stage[c] = y[c] + z[i][c];
+        for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
+            K(put)(&stage[c], K(take)(&y[c]) + K(take)(&z[i][c]));
         }
         K(field)(stage, slope, parameters);
         K(implicit_take)(0, GM_COMPONENTS, active, slope, f[i]);
@@ -77,10 +78,10 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
                                        const void *parameters, real f[][GM_COMPONENTS],
                                        real z[][GM_COMPONENTS], struct K(counts) * counts)
 {
-    for (int c = 0; c < GM_COMPONENTS; c++) {
+    for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
         for (int i = 0; i < stages; i++) {
-            z[i][c] = K(constant)(0);
-            f[i][c] = K(constant)(0);
+            K(put)(&z[i][c], (some){0});
+            K(put)(&f[i][c], (some){0});
         }
     }
     real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
@@ -97,8 +98,8 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         }
         mask last = change * change <= negligible * previous;
         real norm = K(constant)(0);
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            norm += K(magnitude)(y[c]);
+        for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
+            norm = K(add_magnitudes)(norm, K(take)(&y[c]));
         }
         const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
         mask stagnant = K(both)(K(either)(change >= previous, last), change <= roundoff);
@@ -262,12 +263,12 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
             solved |= K(implicit_by_newton)(row, K(other)(solved), block->y, h, parameters, f, counts);
         }
         good &= solved;
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            real increment = h * row->b[0] * f[0][c];
+        for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
+            some increment = h * row->b[0] * K(take)(&f[0][c]);
             for (int i = 1; i < stages; i++) {
-                increment += h * row->b[i] * f[i][c];
+                increment += h * row->b[i] * K(take)(&f[i][c]);
             }
-            K(add)(&block->y[c], &block->carry[c], increment, compensated);
+            K(add_some)(&block->y[c], &block->carry[c], increment, compensated);
         }
     }
     return good;
