@@ -228,6 +228,23 @@ wait_for 'SCHEMES'
 keys q
 wait_for 'left 0'
 
+# in a small terminal, too, the sentence is there to its end, and the caret below its letter
+start 40x12 TERM=tmux-256color
+open
+wait_for 'Type to search'
+keys own Enter
+wait_for 'H=p'
+keys C-u
+keys -l 'H=p^2/2+q^2/2+q^4/8+q^6/12+q^8/16+kk q=1 p=0'
+wait_for 'no name kk'
+caret 'kk q=1'
+keys C-u
+keys -l 'coordinates=x H=p_x^2/2 constraint=x^2+p_x p_x=0'
+wait_for 'a constraint holds'
+wait_for 'parameters'
+keys Escape
+wait_for 'Type to search|▸ your own'
+
 # the list of what there is has the systems of one's own folder; one that is wrong says why, and a pipe is no file
 mkdir -p "$folder/config/geomint"
 printf 'title: a spring of mine\ncoordinates: q\nH: p_q^2/2 + q^2\nstart: q = 1, p_q = 0\n' \
