@@ -545,6 +545,8 @@ static const struct {
      "a surface stands in space"},
     {CANONICAL "H: p_q^2/2\nsection: q\n", 4, 10, "where something is 0"},
     {CANONICAL "H: p_q^2/2\nsection: q = 0\n", 4, 15, "shows two values"},
+    {CANONICAL "H: p_q^2/2\nsection: 1 = 0; q, p_q\n", 4, 10, "it holds no component, and no t"},
+    {CANONICAL "H: p_q^2/2\nparameter: a = 1\nsection: a - 1 = 0; q, p_q\n", 5, 10, "it holds no component"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
     {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
