@@ -236,14 +236,13 @@ keys own Enter
 wait_for 'H=p'
 keys C-u
 keys -l 'H=p^2/2+q^2/2+q^4/8+q^6/12+q^8/16+kk q=1 p=0'
-wait_for 'no name kk'
+wait_for 'the formula needs values that are not'
+wait_for 'given: kk='
 caret 'kk q=1'
-keys C-u
-keys -l 'coordinates=x H=p_x^2/2 constraint=x^2+p_x p_x=0'
-wait_for 'a constraint holds'
-wait_for 'parameters'
 keys Escape
-wait_for 'Type to search|▸ your own'
+wait_gone 'given: kk='
+keys Escape q
+wait_for 'left 0'
 
 # the list of what there is has the systems of one's own folder; one that is wrong says why, and a pipe is no file
 mkdir -p "$folder/config/geomint"
