@@ -75,8 +75,8 @@ bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, 
 bool gm_reading_lines(struct gm_reading *reading);
 /* The first line with a word; NULL: there is none. */
 const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);
-/* The number, from 1, of the line of text that a place is in. */
-size_t gm_reading_line_number(const struct gm_reading *reading, size_t place);
+/* Says that what stands at a place has the name of an entry. Returns false. */
+bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first);
 /* Words with one blank between them; malloc'ed. NULL: told as a fault. */
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
 

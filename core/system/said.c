@@ -234,8 +234,7 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     }
     const struct gm_entry *other = gm_reading_entry(reading, item->name, length, false, 0);
     if (other) {
-        return gm_fail_first(&reading->fault, target.name.begin, "%s is defined twice, first in line %zu",
-                             other->name, gm_reading_line_number(reading, other->place));
+        return gm_reading_fail_twice(reading, target.name.begin, other);
     }
     if (!add_formula(reading, item, target.value)) {
         return false;

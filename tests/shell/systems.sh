@@ -126,6 +126,14 @@ grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 "$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
 [ $? = 2 ] || fail "a potential that is not negative is no failure"
 grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
+
+# of a name that is defined twice a file tells the line of the first; a command line has none
+printf 'coordinates: q\nH: q\nlet: a = 1\nlet: a = 2\n' >twice.system
+"$geomint" run ./twice.system 2>out
+grep -q 'twice.system:4:6: a is defined twice, first in line 3$' out || fail "twice in a file: $(cat out)"
+"$geomint" run system 'H=p^2/2+a*q' a=1 a=2 q=1 p=0 2>out
+grep -q 'in a=, column 1: a is defined twice$' out || fail "twice on the command line: $(cat out)"
+
 printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
 "$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
 [ $? = 2 ] || fail "a monitor that falls to 0 is no failure"

@@ -478,7 +478,7 @@ static const struct {
     {"\xef\xbb\xbf"
      "coordinates: dt\nH: q\n",
      1, 14, "the name dt is reserved"},
-    {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice, first in line 2"},
+    {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice"},
     {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
     {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 3, 8, "p_q has no value at the start"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, r = 2\n", 3, 15, "no name r"},
@@ -486,7 +486,7 @@ static const struct {
     {"coordinates: q\nH: p_q^2\nstart: q 1\n", 3, 10, "= was expected"},
     {CANONICAL "let: a = b\nlet: b = a\nH: a\n", 3, 6, "a circle"},
     {CANONICAL "let: a = a + 1\nH: a\n", 3, 6, "a needs itself"},
-    {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice, first in line 3"},
+    {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice"},
     {CANONICAL "parameter: a = 3; 0 .. 2\nH: a*q\n", 3, 12, "outside of its range"},
     {CANONICAL "parameter: a = q\nH: a*q\n", 3, 16, "no name q"},
     {CANONICAL "parameter: a = b\nparameter: b = a\nH: a*q\n", 3, 12, "a circle"},
@@ -548,7 +548,7 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nsection: 1 = 0; q, p_q\n", 4, 10, "it holds no component, and no t"},
     {CANONICAL "H: p_q^2/2\nparameter: a = 1\nsection: a - 1 = 0; q, p_q\n", 5, 10, "it holds no component"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
-    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
+    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
     {"rate: x = -x\nstart: x = 1\nsection: ; x, x\n", 3, 10, "where something is 0"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 2, 4, "singular at the start, q = 1: momenta"},
@@ -576,6 +576,34 @@ static const struct {
      "the start of q needs that of q"},
     {"coordinates: q\nH: p_q^2/2\nstart: q = p_q, p_q = sqrt(-1)\n", 3, 23, "p_q is not finite at the start"},
 };
+
+/* Of a name that is defined twice the first place is told, too; what is wrong in itself has none. */
+static void first_places_are_told(void **unused)
+{
+    static const struct {
+        const char *text;
+        size_t line, column;
+    } twice[] = {
+        {"coordinates: q q\nH: q\n", 1, 14},
+        {"coordinates: q\nparameter: q = 2\nH: q\n", 2, 12},
+        {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 3, 6},
+        {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 1, 14},
+    };
+    struct gm_own_system system;
+    struct gm_fault fault;
+    (void)unused;
+    for (size_t i = 0; i < GM_COUNT(twice); i++) {
+        size_t line, column;
+        assert_false(open_text(&system, twice[i].text, &fault));
+        gm_text_place(twice[i].text, fault.earlier, &line, &column);
+        assert_int_equal(line, twice[i].line);
+        assert_int_equal(column, twice[i].column);
+        gm_system_close(&system);
+    }
+    assert_false(open_text(&system, CANONICAL "H: qq\n", &fault));
+    assert_int_equal(fault.earlier, 0);
+    gm_system_close(&system);
+}
 
 static void what_is_wrong_is_named(void **unused)
 {
@@ -609,7 +637,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
         cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
-        cmocka_unit_test(lines_are_counted),           cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(lines_are_counted),           cmocka_unit_test(first_places_are_told),
+        cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
