@@ -274,8 +274,10 @@ wait_for 'Type to search'
 wait_for '▸ broken'
 keys mine
 wait_for 'a spring of mine, by'
-keys Enter
+# what is typed ahead, at once, is for the scene that opens
+keys -H 0d 20
 wait_for 'SCHEMES'
+wait_for 'paused'
 keys l
 wait_for '▸ mine'
 keys Enter
