@@ -269,12 +269,13 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                        : "component: it has no value at the start");
         return GM_REFUSED;
     }
-    if (!entry->read && (entry->role == GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
+    if (!entry->read && (entry->role >= GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
         reading->wanted = (uint32_t)(entry - reading->entries);
         return GM_POSTPONED;
     }
     switch (entry->role) {
     case GM_ENTRY_NAMED:
+    case GM_ENTRY_OBSERVED:
         *node = entry->node;
         break;
     case GM_ENTRY_PARAMETER:

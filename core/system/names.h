@@ -27,7 +27,8 @@ enum gm_entry_role {
     GM_ENTRY_VELOCITY,
     GM_ENTRY_PARAMETER,
     GM_ENTRY_TIME,
-    GM_ENTRY_NAMED
+    GM_ENTRY_NAMED,
+    GM_ENTRY_OBSERVED /* named, too, by a line of its own that is read later */
 };
 
 /* A name of the system, or an element of a list. */
@@ -37,7 +38,7 @@ struct gm_entry {
     bool indexed;
     long index;
     enum gm_entry_role role;
-    bool read;            /* of parameters and lets: `node` is what they are */
+    bool read;            /* of parameters and what is named: `node` is what they are */
     struct gm_span value; /* their formula */
     long element;         /* the value of the index that is bound in it */
     struct gm_span bound; /* that index; empty: none */

@@ -549,6 +549,9 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nparameter: a = 1\nsection: a - 1 = 0; q, p_q\n", 5, 10, "it holds no component"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
     {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice"},
+    {CANONICAL "H: p_q^2/2\nobserve: r = q\nobserve: r = 1\n", 5, 10, "r is defined twice"},
+    {CANONICAL "H: p_q^2/2\nobserve: r = 1 - r\n", 4, 10, "r needs itself"},
+    {CANONICAL "H: p_q^2/2\nstop: r - 1\nobserve: r = q; 1\n", 4, 7, "there is no name r"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
     {"rate: x = -x\nstart: x = 1\nsection: ; x, x\n", 3, 10, "where something is 0"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 2, 4, "singular at the start, q = 1: momenta"},
@@ -605,6 +608,31 @@ static void first_places_are_told(void **unused)
     gm_system_close(&system);
 }
 
+/* Other lines, also those before, may name what is observed, as they name a let. */
+static void observed_names_are_known(void **unused)
+{
+    static const char text[] = CANONICAL "H: p_q^2/2 + far\nstop: far - 2\nobserve: far = sqrt(near)\n"
+                                         "observe: near = q^2 + 1\n";
+    struct gm_own_system system;
+    struct gm_fault fault;
+    size_t found = 0;
+    (void)unused;
+    assert_true(open_text(&system, text, &fault));
+    const struct gm_naming naming = gm_system_naming(&system);
+    for (size_t i = 0; i < system.item_count; i++) {
+        const struct gm_system_item *item = &system.items[i];
+        char *formula = gm_formula_text(&system.graph, item->nodes[0], &naming);
+        assert_non_null(formula);
+        assert_string_equal(formula, item->word == GM_WORD_STOP       ? "sqrt(q^2 + 1) - 2"
+                                     : strcmp(item->name, "far") == 0 ? "sqrt(q^2 + 1)"
+                                                                      : "q^2 + 1");
+        free(formula);
+        found++;
+    }
+    assert_int_equal(found, 3);
+    gm_system_close(&system);
+}
+
 static void what_is_wrong_is_named(void **unused)
 {
     (void)unused;
@@ -638,7 +666,7 @@ int main(void)
         cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
         cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
         cmocka_unit_test(lines_are_counted),           cmocka_unit_test(first_places_are_told),
-        cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(observed_names_are_known),    cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
