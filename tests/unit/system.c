@@ -571,6 +571,8 @@ static const struct {
     {THREE "bracket: x x = 1\nH: x\n", 3, 10, "with itself is 0"},
     {THREE "bracket: x y = 1\nbracket: y x = 1\nH: x\n", 4, 10, "said twice"},
     {CANONICAL "H: \xff\n", 3, 4, "0xff is no UTF-8"},
+    {"coordinates: q\rH: p_q^2/2\rstart: q = 1, p_q = 0\r", 1, 15, "a carriage return alone ends no line"},
+    {"coordinates: q\r\nH: q\r\r\nstart: q = 1, p_q = 0, r = 1\r", 3, 24, "no name r"},
     {CANONICAL "H: p_q^2/2 + 1e308*q^2\n", 3, 4, "the rate of p_q is not finite at the start"},
     {CANONICAL "H: p_q^2/2\nstop: sqrt(-2 - q)\n", 4, 7, "what ends the run is not finite at the start"},
     {CANONICAL "H: p_q^2/2\ninvariant: a = log(-2 - q)*0 + p_q\n", 4, 12, "a is not finite at the start"},
