@@ -49,6 +49,11 @@ const char *gm_observable_title(const struct gm_observable *observable, char *te
     return text;
 }
 
+bool gm_view_stopped(const struct gm_view *view)
+{
+    return view->scene->stop && view->side != 0 && (view->scene->stop(view) < 0) != (view->side < 0);
+}
+
 double gm_observe(const struct gm_observable *observable, const struct gm_view *view)
 {
     struct gm_view asked = *view;
