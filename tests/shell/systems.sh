@@ -127,6 +127,11 @@ grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 [ $? = 2 ] || fail "a potential that is not negative is no failure"
 grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
 
+# a coordinate that H does not hold has a momentum at rest, and not one of -0
+printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nstart: x = 0, y = 0, p_x = 1, p_y = 0\n' >falling.system
+"$geomint" list ./falling.system --long | grep -q "^  p_x' = 0\$" || fail "a momentum at rest"
+"$geomint" list ./falling.system --latex | grep -q 'dot{p_{x}} &= 0 ' || fail "a momentum at rest, in LaTeX"
+
 # of a name that is defined twice a file tells the line of the first; a command line has none
 printf 'coordinates: q\nH: q\nlet: a = 1\nlet: a = 2\n' >twice.system
 "$geomint" run ./twice.system 2>out
