@@ -162,6 +162,7 @@ printf 'rate: x = 1/sqrt(2 - t)\nstart: x = 2\n' >late.system
 grep -q 'sqrt(2 - t) is not finite where 2 - t = -0.00625' out || fail "the time of a stage: $(cat out)"
 misplaced '3:21: p_x is not finite at the start' '' 'x = 1, p_x = 0/0'
 misplaced '4:10: observe: energy_error makes two observables energy_error' 'observe: energy_error = x'
+misplaced '4:10: observe: energy_error_max makes two observables energy_error_max' 'observe: energy_error_max = x'
 misplaced '5:12: invariant: L makes two observables L_error' "$(printf 'observe: L_error = x\ninvariant: L = p_x^2 + x^2')"
 printf 'hamiltonian: q\ncoordinates: q\nH: p_q^2/2\nstart: q = 0, p_q = 0\n' >wrong.system
 refused 1 'wrong.system:1:1: a system has no line "hamiltonian"' run ./wrong.system
