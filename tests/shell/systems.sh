@@ -127,6 +127,10 @@ grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 [ $? = 2 ] || fail "a potential that is not negative is no failure"
 grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
 
+# momenta by the names of a file are told to be others here
+refused 1 'not given: p=; without coordinates= a momentum is p, not p_q' run system 'H=p_q^2/2 + q^2' q=1 p_q=0
+refused 1 'not given: p=$' run system 'H=q^2' q=1
+
 # a coordinate that H does not hold has a momentum at rest, and not one of -0
 printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nstart: x = 0, y = 0, p_x = 1, p_y = 0\n' >falling.system
 "$geomint" list ./falling.system --long | grep -q "^  p_x' = 0\$" || fail "a momentum at rest"
