@@ -206,7 +206,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         } else if (gm_interrupted) {
             status = GM_EXIT_INTERRUPTED;
         } else if (!gm_still_write(&print, &request, (const struct gm_lane *const *)lanes, message)) {
-            gm_complain("%s", message);
+            status = gm_press_fail(print.path, message);
         } else {
             gm_press_tell(&print, "");
             status = GM_EXIT_OK;

@@ -23,8 +23,13 @@ static int command_cache(const struct gm_options *options)
         return GM_EXIT_FILE;
     }
     if (options->clear) {
-        gm_say("%zu removed from %s", gm_cache_clear(folder), folder);
-        return gm_finish(GM_EXIT_OK);
+        size_t removed;
+        const bool all = gm_cache_clear(folder, &removed, message);
+        gm_say("%zu removed from %s", removed, folder);
+        if (!all) {
+            gm_complain("%s", message);
+        }
+        return gm_finish(all ? GM_EXIT_OK : GM_EXIT_FILE);
     }
     size_t count = 0, bytes = 0;
     struct gm_cache_entry *entries = NULL;

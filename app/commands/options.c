@@ -142,14 +142,16 @@ static bool is_painted(double width, double height)
 static bool read_size(const char *value, double page[2], struct gm_appearance *look)
 {
     int width = 0, height = 0, used = 0;
-    char unit[3] = "", more = '\0';
+    char unit[3] = "", first[3] = "", more = '\0';
     if (sscanf(value, "%5dx%5d%n", &width, &height, &used) == 2 && !value[used]) {
         look->width = width;
         look->height = height;
         return is_painted(width, height);
     }
     if (strspn(value, "0123456789.xcm") != strlen(value) ||
-        sscanf(value, "%lfx%lf%2[cm]%c", &page[0], &page[1], unit, &more) != 3) {
+        (sscanf(value, "%lfx%lf%2[cm]%c", &page[0], &page[1], unit, &more) != 3 &&
+         (sscanf(value, "%lf%2[cm]x%lf%2[cm]%c", &page[0], first, &page[1], unit, &more) != 4 ||
+          strcmp(first, unit) != 0))) {
         return false;
     }
     const double mm = strcmp(unit, "cm") == 0 ? 10 : strcmp(unit, "mm") == 0 ? 1 : NAN;

@@ -417,8 +417,8 @@ static int paint_still(struct work *work, const char *name)
     if (gm_interrupted) {
         status = GM_EXIT_INTERRUPTED;
     } else if (!driven || !gm_still_write(&print, work->request, lanes_of(work), message)) {
-        gm_complain("%s", message);
-        status = gm_interrupted ? GM_EXIT_INTERRUPTED : GM_EXIT_FILE; /* a pipe may wait for its reader */
+        status = gm_press_fail(path, message);
+        status = gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
     } else {
         status = tell_end(work);
         gm_press_tell(&print, "");

@@ -204,11 +204,12 @@ static void print_text(const struct outcome *outcome)
             printf("  %-*s %.10g\n", width, told(outcome, i)->key, outcome->values[i]);
         }
     }
-    char name[64];
     for (size_t i = 0; outcome->maxima && i < outcome->outputs->chosen.count; i++) {
-        snprintf(name, sizeof name, "%s_max", told(outcome, i)->key);
+        const char *key = told(outcome, i)->key;
+        const int left = width - (int)strlen(key);
         const bool none = isnan(outcome->maxima[i]) && missing(outcome, i);
-        printf(none ? "  %-*s none\n" : "  %-*s %.10g\n", width, name, outcome->maxima[i]);
+        printf(none ? "  %s%-*s none\n" : "  %s%-*s %.10g\n", key, left > 0 ? left : 0, "_max",
+               outcome->maxima[i]);
     }
 }
 

@@ -246,7 +246,6 @@ static bool enter_named(struct gm_explorer *explorer, const char *name)
 {
     explorer->open.guide.tour = NULL;
     explorer->face.guide = NULL;
-    explorer->face.awaited = true;
     return gm_open_named(&explorer->open, name, false, explorer->message);
 }
 

@@ -47,7 +47,8 @@ struct gm_explorer {
     struct gm_own_prompt own;
     struct gm_check check; /* of what is typed in it */
     bool editing;          /* the present system is asked for, to be edited */
-    int64_t held_until;    /* keys wait for what is awaited; 0: they do not */
+    int64_t held_until;    /* keys wait for what is not there yet; 0: they do not */
+    bool behind;           /* some of them may have left the terminal */
     bool dirty;            /* the screen has to be composed again */
     bool fresh;            /* with a new picture */
     double draw_cost;      /* seconds that composing it took the last time */

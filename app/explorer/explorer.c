@@ -35,9 +35,41 @@ static void read_cell_size(struct gm_explorer *explorer)
     }
 }
 
+/* Whether what is typed now is for what is not there yet: a scene, or what its worker is to tell. A tour goes on
+   without its picture. */
+static bool is_early(const struct gm_explorer *explorer)
+{
+    const struct gm_open *open = &explorer->open;
+    return explorer->face.awaited ||
+           (open->worker && !open->shot && !open->said[0] && !open->touring && !explorer->list.shown);
+}
+
+/* For how many milliseconds more keys wait; 0: they are read. */
+static int hold_keys(struct gm_explorer *explorer)
+{
+    enum { LONGEST = 500 }; /* a worker in a long step does not silence the keys */
+    const int64_t now = gm_clock_milliseconds();
+    if (!is_early(explorer)) {
+        explorer->held_until = 0;
+        return 0;
+    }
+    explorer->held_until = explorer->held_until ? explorer->held_until : now + LONGEST;
+    if (now >= explorer->held_until) {
+        explorer->face.awaited = false;
+        return 0;
+    }
+    return (int)(explorer->held_until - now);
+}
+
+/* Keys that wait may have left the terminal already: the console has them. */
 static void read_keys(struct gm_explorer *explorer)
 {
-    for (int key; !explorer->leave && !explorer->face.awaited && (key = gm_console_key()) >= 0;) {
+    while (!explorer->leave) {
+        explorer->behind = hold_keys(explorer) > 0;
+        const int key = explorer->behind ? -1 : gm_console_key();
+        if (key < 0) {
+            return;
+        }
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->pointer.mouse, key, &event);
         if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
@@ -141,7 +173,6 @@ static void read_news(struct gm_explorer *explorer)
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
-        explorer->face.awaited = explorer->face.awaited && explorer->open.shot;
         gm_open_take(&explorer->open, shot);
         read_command(explorer);
         explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
@@ -152,28 +183,11 @@ static void read_news(struct gm_explorer *explorer)
         }
     } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
                gm_worker_failed(explorer->open.worker, explorer->open.said)) {
-        explorer->face.awaited = false;
         explorer->dirty = true;
         if (!explorer->list.shown) {
             gm_explorer_show_start(explorer);
         }
     }
-}
-
-/* For how many milliseconds more keys wait for what they were typed for; 0: they are read. */
-static int hold_keys(struct gm_explorer *explorer)
-{
-    enum { LONGEST = 500 }; /* a worker in a long step does not silence the keys */
-    const int64_t now = gm_clock_milliseconds();
-    if (explorer->face.awaited && explorer->held_until == 0) {
-        explorer->held_until = now + LONGEST;
-    }
-    if (!explorer->face.awaited || now >= explorer->held_until) {
-        explorer->face.awaited = false;
-        explorer->held_until = 0;
-        return 0;
-    }
-    return (int)(explorer->held_until - now);
 }
 
 static void run(struct gm_explorer *explorer)
@@ -193,7 +207,7 @@ static void run(struct gm_explorer *explorer)
         if (explorer->leave) {
             break;
         }
-        int patience = hold > 0 ? hold : gm_console_patience();
+        const int patience = hold > 0 ? hold : explorer->behind ? 0 : gm_console_patience();
         if (patience >= 0 && (wait < 0 || patience < wait)) {
             wait = patience;
         }

@@ -103,7 +103,7 @@ void gm_cache_drop(const char *folder, const struct gm_cache_key *key)
 {
     char path[GM_CACHE_PATH];
     path_of(folder, key, path);
-    unlink(path);
+    remove(path); /* an empty folder, too, that would keep a library from its place */
 }
 
 int gm_cache_find(const char *folder, const struct gm_cache_key *key)
@@ -173,7 +173,7 @@ static bool is_entry(const char *name)
            strspn(name, "0123456789abcdef") == GM_KEY_TEXT - 1 && strcmp(name + GM_KEY_TEXT - 1, ending) == 0;
 }
 
-/* Calls `each` for every file of the folder that is an entry, or for those that are none. False where the
+/* Calls `each` for whatever has the name of an entry, or for the regular files that have none. False where the
    folder, which need not be there, cannot be read. */
 static bool each_file(const char *folder, bool entries,
                       void (*each)(void *data, const char *path, const char *name, const struct stat *about),
@@ -187,7 +187,8 @@ static bool each_file(const char *folder, bool entries,
         char path[GM_CACHE_PATH];
         struct stat about;
         snprintf(path, sizeof path, "%.3800s/%s", folder, file->d_name);
-        if (is_entry(file->d_name) == entries && lstat(path, &about) == 0 && S_ISREG(about.st_mode)) {
+        if (is_entry(file->d_name) == entries && lstat(path, &about) == 0 &&
+            (entries || S_ISREG(about.st_mode))) {
             each(data, path, file->d_name, &about);
         }
     }
@@ -219,6 +220,9 @@ static void add_entry(void *data, const char *path, const char *name, const stru
 {
     (void)path;
     struct list *list = data;
+    if (!S_ISREG(about->st_mode)) {
+        return;
+    }
     if (list->count == list->room) {
         const size_t room = 2 * list->room + 16;
         struct gm_cache_entry *more = realloc(list->entries, room * sizeof *more);
@@ -252,18 +256,30 @@ bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *
     return good;
 }
 
+struct removed {
+    size_t count;
+    bool all;
+    char *sentence;
+};
+
+/* A folder that is not empty is somebody's: it is told, and left. */
 static void remove_entry(void *data, const char *path, const char *name, const struct stat *about)
 {
     (void)name;
     (void)about;
-    size_t *count = data;
-    *count += unlink(path) == 0;
+    struct removed *removed = data;
+    if (remove(path) == 0) {
+        removed->count++;
+    } else if (removed->all && errno != ENOENT) { /* which somebody else removed */
+        removed->all = gm_refuse(removed->sentence, "%.400s could not be removed: %s", path, strerror(errno));
+    }
 }
 
-size_t gm_cache_clear(const char *folder)
+bool gm_cache_clear(const char *folder, size_t *count, char *sentence)
 {
-    size_t count = 0, others = 0;
-    each_file(folder, true, remove_entry, &count);
+    struct removed entries = {.all = true, .sentence = sentence}, others = entries;
     each_file(folder, false, remove_entry, &others);
-    return count;
+    each_file(folder, true, remove_entry, &entries);
+    *count = entries.count;
+    return others.all && entries.all;
 }

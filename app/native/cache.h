@@ -47,7 +47,8 @@ struct gm_cache_entry {
 /* The entries, the one used last first; malloc'ed, NULL where there are none. False, with errno, where the
    folder cannot be read. */
 bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *count);
-/* Removes all; how many there were. */
-size_t gm_cache_clear(const char *folder);
+/* Removes all, *count of them. False, with a sentence: something stays, as a folder in the place of an entry that is
+   not empty. */
+bool gm_cache_clear(const char *folder, size_t *count, char *sentence);
 
 #endif

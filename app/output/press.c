@@ -4,10 +4,12 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "app/output/say.h"
 #include "core/memory.h"
@@ -111,6 +113,16 @@ bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_pi
         return no_memory(look, message);
     }
     return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
+}
+
+int gm_press_fail(const char *path, const char *message)
+{
+    struct pollfd pipe = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    if (path && strcmp(path, "-") == 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR)) {
+        return GM_EXIT_PIPE;
+    }
+    gm_complain("%s", message);
+    return GM_EXIT_FILE;
 }
 
 /* The letters that the font lacks, the last place of them for that there are more. */

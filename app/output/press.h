@@ -36,6 +36,10 @@ const char *gm_press_backend(const struct gm_press *press);
 bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
                     const struct gm_png_text *texts, size_t count, char *message);
 
+/* Complains that the picture could not be written to that path (NULL: one that is not known). The status to exit with:
+   3, or 141, without a word, where standard output is a pipe that nobody reads. */
+int gm_press_fail(const char *path, const char *message);
+
 /* Says on standard error what was written, of a file, with the table beside it ("": none); and once what of
    it is an image. */
 void gm_press_tell(const struct gm_print *print, const char *table);

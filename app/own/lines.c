@@ -98,7 +98,13 @@ int gm_system_lines_fault(const struct gm_system_lines *written, char *const wor
     if (written->path) {
         size_t line, column;
         gm_text_place(text, length <= GM_LARGEST_SYSTEM ? fault->offset : 0, &line, &column);
-        gm_refuse(message, "%.150s:%zu:%zu: %.200s", written->path, line, column, fault->sentence);
+        char first[48] = "";
+        if (fault->earlier > 0) {
+            size_t other, behind;
+            gm_text_place(text, fault->earlier, &other, &behind);
+            snprintf(first, sizeof first, ", first in line %zu", other);
+        }
+        gm_refuse(message, "%.150s:%zu:%zu: %.200s%s", written->path, line, column, fault->sentence, first);
     } else {
         gm_refuse(message, "system: %.200s", fault->sentence);
     }

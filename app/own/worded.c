@@ -350,6 +350,16 @@ static bool are_formulas(const struct typing *typing, struct gm_word_place *plac
     return true;
 }
 
+/* Whether a formula has p_q, as momenta are called in a file, and with coordinates=. */
+static bool means_momenta(const struct typing *typing)
+{
+    bool found = false;
+    for (size_t i = 0; i < typing->names.count; i++) {
+        found = found || strncmp(typing->names.list[i].text, "p_q", 3) == 0;
+    }
+    return found;
+}
+
 /* Every name has to be given: the components at the start, all others as parameters. */
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
@@ -380,7 +390,8 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
         *place = wrong;
         return false;
     }
-    return gm_refuse(message, "the formula needs values that are not given: %s", missing);
+    return gm_refuse(message, "the formula needs values that are not given: %s%s", missing,
+                     means_momenta(typing) ? "; without coordinates= a momentum is p, not p_q" : "");
 }
 
 /* What the system is made of: its lines, and which names have a value at the start. */

@@ -182,6 +182,9 @@ static void run(struct gm_lane *lane, long steps, struct gm_modified_energy *ene
         if (i > 0) {
             const long step = looks == steps ? i : (long)((double)steps * (double)i / (double)looks);
             gm_lane_to(lane, step, ((const struct gm_timing *)lane->parameters)->until);
+            if (gm_lane_stopped(lane)) { /* by a shorter step, whose H~ is another one */
+                break;
+            }
         }
         look(lane, energy, y, terms);
         double difference = 0, power = 1;

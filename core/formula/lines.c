@@ -30,9 +30,17 @@ struct gm_span gm_span_trimmed(const char *text, struct gm_span span)
 bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault)
 {
     const size_t valid = gm_text_valid(text, length);
-    return valid == length ||
-           gm_fail(fault, valid, text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
-                   (unsigned char)text[valid]);
+    if (valid < length) {
+        return gm_fail(fault, valid,
+                       text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
+                       (unsigned char)text[valid]);
+    }
+    for (size_t i = 0; i + 1 < length; i++) {
+        if (text[i] == '\r' && text[i + 1] != '\n' && text[i + 1] != '\r') {
+            return gm_fail(fault, i, "a carriage return alone ends no line: lines end with a newline");
+        }
+    }
+    return true;
 }
 
 static bool split(const char *text, struct gm_span span, struct gm_text_line *line, struct gm_fault *fault)

@@ -21,7 +21,7 @@ struct gm_text_line {
 bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_line *line,
                    struct gm_fault *fault);
 
-/* Whether the whole text is UTF-8 without a byte 0; false with a fault. */
+/* Whether the whole text is UTF-8 without a byte 0, in lines that end with a newline; false with a fault. */
 bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault);
 
 /* Without blanks around it; a comment is blank. */

@@ -44,6 +44,7 @@ static void tell(struct gm_fault *fault, size_t offset, const char *format, va_l
 {
     vsnprintf(fault->sentence, sizeof fault->sentence, format, arguments);
     fault->offset = offset;
+    fault->earlier = 0;
 }
 
 bool gm_fail(struct gm_fault *fault, size_t offset, const char *format, ...)

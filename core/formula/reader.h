@@ -15,7 +15,7 @@ enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 10000000
 
 /* What is wrong, and where: bytes from the beginning of the text. */
 struct gm_fault {
-    size_t offset;
+    size_t offset, earlier; /* where the same was said before; 0: it was not */
     char sentence[GM_FAULT_SENTENCE];
 };
 /* Says what is wrong, and where. Returns false. */

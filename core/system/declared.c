@@ -479,19 +479,24 @@ bool gm_declared_relations(struct gm_reading *reading)
 bool gm_declared_lets(struct gm_reading *reading)
 {
     for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+        const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
         struct gm_target target;
-        if (reading->lines[i].word != GM_WORD_LET ||
-            !gm_reading_assignment(reading, reading->lines[i].value, &target)) {
+        struct gm_span value = reading->lines[i].value;
+        if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
+            (observed && gm_span_until(reading->text, value, ";") < value.end) ||
+            !gm_reading_assignment(reading, value, &target) ||
+            (observed && target.index.begin < target.index.end)) {
             continue;
         }
-        struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_NAMED);
+        struct gm_entry entry =
+            gm_reading_entry_for(reading, &target, observed ? GM_ENTRY_OBSERVED : GM_ENTRY_NAMED);
         entry.indexed = target.index.begin < target.index.end;
         if (!entry.indexed || gm_reading_whole(reading, target.index, &entry.index)) {
             gm_reading_add(reading, entry);
         }
     }
     for (uint32_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
-        if (reading->entries[i].role == GM_ENTRY_NAMED && !reading->entries[i].read) {
+        if (reading->entries[i].role >= GM_ENTRY_NAMED && !reading->entries[i].read) {
             gm_reading_define(reading, i);
         }
     }

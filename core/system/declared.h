@@ -13,6 +13,7 @@ bool gm_declared_parameters(struct gm_reading *reading);
 bool gm_declared_state(struct gm_reading *reading);
 /* How parameters follow from others, now that these have their numbers. */
 bool gm_declared_relations(struct gm_reading *reading);
+/* And observables, but for those of a list. */
 bool gm_declared_lets(struct gm_reading *reading);
 
 #endif

@@ -469,6 +469,11 @@ static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
             if (!check_surface(system, item, fault)) {
                 return false;
             }
+        } else if (item->word == GM_WORD_SECTION && !item->periodic) {
+            if (is_of_components(system, item->nodes[0], 0)) {
+                return gm_fail(fault, item->place,
+                               "what a section waits for never changes: it holds no component, and no t");
+            }
         } else if (item->word == GM_WORD_CASIMIR) {
             item->check = check_casimir(system, item->nodes[0]);
             if (item->check == GM_NOT_ZERO) {

@@ -58,11 +58,13 @@ static const char *word_at(size_t i, const void *data)
     return gm_system_words[i].word;
 }
 
-size_t gm_reading_line_number(const struct gm_reading *reading, size_t place)
+bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
-    size_t line, column;
-    gm_text_place(reading->text, place, &line, &column);
-    return line;
+    if (!reading->fault.failed) {
+        gm_fail_first(&reading->fault, place, "%.60s is defined twice", first->name);
+        reading->fault.fault->earlier = first->place;
+    }
+    return false;
 }
 
 static bool read_line(struct gm_reading *reading, const struct gm_text_line *text_line)
@@ -217,8 +219,7 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
         other = list_of(reading, entry.name, entry.length, &low, &high);
     }
     if (other) {
-        return gm_fail_first(&reading->fault, entry.place, "%.*s is defined twice, first in line %zu", brief,
-                             entry.name, gm_reading_line_number(reading, other->place));
+        return gm_reading_fail_twice(reading, entry.place, other);
     }
     char *name = strndup(entry.name, entry.length);
     if (!name) {
@@ -268,12 +269,13 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                        : "component: it has no value at the start");
         return GM_REFUSED;
     }
-    if (!entry->read && (entry->role == GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
+    if (!entry->read && (entry->role >= GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
         reading->wanted = (uint32_t)(entry - reading->entries);
         return GM_POSTPONED;
     }
     switch (entry->role) {
     case GM_ENTRY_NAMED:
+    case GM_ENTRY_OBSERVED:
         *node = entry->node;
         break;
     case GM_ENTRY_PARAMETER:

@@ -27,7 +27,8 @@ enum gm_entry_role {
     GM_ENTRY_VELOCITY,
     GM_ENTRY_PARAMETER,
     GM_ENTRY_TIME,
-    GM_ENTRY_NAMED
+    GM_ENTRY_NAMED,
+    GM_ENTRY_OBSERVED /* named, too, by a line of its own that is read later */
 };
 
 /* A name of the system, or an element of a list. */
@@ -37,7 +38,7 @@ struct gm_entry {
     bool indexed;
     long index;
     enum gm_entry_role role;
-    bool read;            /* of parameters and lets: `node` is what they are */
+    bool read;            /* of parameters and what is named: `node` is what they are */
     struct gm_span value; /* their formula */
     long element;         /* the value of the index that is bound in it */
     struct gm_span bound; /* that index; empty: none */
@@ -75,8 +76,8 @@ bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, 
 bool gm_reading_lines(struct gm_reading *reading);
 /* The first line with a word; NULL: there is none. */
 const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);
-/* The number, from 1, of the line of text that a place is in. */
-size_t gm_reading_line_number(const struct gm_reading *reading, size_t place);
+/* Says that what stands at a place has the name of an entry. Returns false. */
+bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first);
 /* Words with one blank between them; malloc'ed. NULL: told as a fault. */
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
 

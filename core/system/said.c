@@ -232,12 +232,11 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     if (gm_reading_reserves(item->name, length)) {
         return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s is reserved", item->name);
     }
-    const struct gm_entry *other = gm_reading_entry(reading, item->name, length, false, 0);
-    if (other) {
-        return gm_fail_first(&reading->fault, target.name.begin, "%s is defined twice, first in line %zu",
-                             other->name, gm_reading_line_number(reading, other->place));
+    const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
+    if (named && named->place != target.name.begin) {
+        return gm_reading_fail_twice(reading, target.name.begin, named);
     }
-    if (!add_formula(reading, item, target.value)) {
+    if (!(named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value))) {
         return false;
     }
     for (size_t i = 0; i + 1 < reading->system->item_count; i++) {

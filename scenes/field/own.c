@@ -796,7 +796,7 @@ static bool make_observables(struct own_field *own, char *sentence)
             return false;
         }
         for (size_t k = 0; k < own->observable_count; k++) {
-            if (strcmp(own->observables[k].key, key) == 0) {
+            if (gm_observables_clash(key, own->observables[k].key)) {
                 return gm_refuse(sentence, "there are two observables %s", key);
             }
         }

@@ -171,11 +171,8 @@ static int side_of(double value)
 
 bool gm_lane_stopped(const struct gm_lane *lane)
 {
-    if (!lane->scene->stop) {
-        return false;
-    }
     const struct gm_view view = gm_lane_view(lane);
-    return lane->side != 0 && (lane->scene->stop(&view) < 0) != (lane->side < 0);
+    return gm_view_stopped(&view);
 }
 
 /* Whether it has stopped: then the last step ends where that was. */

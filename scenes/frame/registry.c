@@ -49,6 +49,22 @@ const char *gm_observable_title(const struct gm_observable *observable, char *te
     return text;
 }
 
+static bool is_largest_of(const char *key, const char *other)
+{
+    const size_t length = strlen(other);
+    return strncmp(key, other, length) == 0 && strcmp(key + length, "_max") == 0;
+}
+
+bool gm_observables_clash(const char *key, const char *other)
+{
+    return strcmp(key, other) == 0 || is_largest_of(key, other) || is_largest_of(other, key);
+}
+
+bool gm_view_stopped(const struct gm_view *view)
+{
+    return view->scene->stop && view->side != 0 && (view->scene->stop(view) < 0) != (view->side < 0);
+}
+
 double gm_observe(const struct gm_observable *observable, const struct gm_view *view)
 {
     struct gm_view asked = *view;

@@ -249,6 +249,11 @@ const char *gm_observable_title(const struct gm_observable *observable, char *te
 
 /* The value of an observable in a view. */
 double gm_observe(const struct gm_observable *observable, const struct gm_view *view);
+/* Whether two observables would be told by one name: both have it, or one is KEY_max, as --max calls the largest of
+   the other. */
+bool gm_observables_clash(const char *key, const char *other);
+/* Whether the scene's stop has changed its sign. */
+bool gm_view_stopped(const struct gm_view *view);
 /* The natural scale of an error. */
 double gm_observable_scale(const struct gm_observable *observable, const void *parameters);
 

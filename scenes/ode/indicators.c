@@ -171,9 +171,7 @@ const char *gm_return_why(const struct gm_view *view)
 
 double gm_escape_time(const struct gm_view *view)
 {
-    double (*const stop)(const struct gm_view *view) = view->scene->stop;
-    const bool stopped = stop && view->side != 0 && (stop(view) < 0) != (view->side < 0);
-    return stopped || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
+    return gm_view_stopped(view) || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
 }
 
 const char *gm_escape_why(const struct gm_view *view)

@@ -82,10 +82,17 @@ static double energy_of(struct worked *worked, struct state *state, const struct
     return sum;
 }
 
+/* Whether the run was stopped within a step: of the shorter step that led there another Hamiltonian is the modified
+   one. */
+static bool is_within_step(const struct gm_view *view)
+{
+    return view->run && view->run->n == 0 && view->run->steps > 0 && gm_view_stopped(view);
+}
+
 static double error_of(const struct gm_view *view, int power)
 {
     struct worked *worked = worked_of(view, power);
-    if (!worked || !worked->energy) {
+    if (!worked || !worked->energy || is_within_step(view)) {
         return NAN;
     }
     struct gm_view before = *view;
@@ -117,7 +124,10 @@ double gm_modified_error_6(const struct gm_view *view)
 const char *gm_modified_why(const struct gm_view *view)
 {
     const struct worked *worked = view->worked[GM_WORKED_ENERGY].data;
-    return worked && worked->why[0] ? worked->why : NULL;
+    return worked && worked->why[0] ? worked->why
+           : is_within_step(view)
+               ? "the run was stopped within a step, and a shorter step has another modified Hamiltonian"
+               : NULL;
 }
 
 const char *const gm_modified_shows[] = {"all", GM_SHOW_MODIFIED, NULL};

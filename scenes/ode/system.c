@@ -630,7 +630,8 @@ static bool make_studies(struct gm_system_scene *own)
         .label = "h ω",
         .unit = radian_time,
         .told =
-            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start",
+            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start, or "
+            "1 where none is found",
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,

@@ -45,6 +45,22 @@ assert all(point["best"] == 6 and 1 < point["gamma"] < 100 for point in own["poi
 rows = list(csv.DictReader(open(sys.argv[2])))
 assert len(rows) == 21 and float(rows[6]["error"]) == float("%.9g" % own["points"][0]["errors"][6])
 END
+# stopped on the way, too: the shorter step that ends there, at q = 1, has another modified Hamiltonian
+printf 'coordinates: q\nH: p_q^2/2 - cos(q)\nstart: q = -1, p_q = 2\nstop: q - 1\nobserve: place = q\n' >stops.system
+status 0 backward ./stops.system dt=.1,.05,.025 scheme=verlet until=20 --size 320x180 -o stops.png --json
+python3 - out <<'END' || fail "backward of what stops: $(head -c 500 out)"
+import json, sys
+slopes = json.loads(open(sys.argv[1]).readline())["slopes"]
+assert all(abs(slopes[power] - power - 2) < 0.3 for power in (0, 2, 4)), slopes
+END
+status 0 run ./stops.system scheme=verlet dt=.1 until=20 --measure modified_energy4_error,place --json --max
+python3 - out <<'END' || fail "a modified energy where a run stops: $(head -c 500 out)"
+import json, sys
+run = json.loads(open(sys.argv[1]).readline())
+assert run["stopped"] and abs(run["observables"]["place"] - 1) < 1e-12, run
+assert run["observables"]["modified_energy4_error"] is None and "stopped within a step" in run["reasons"]["modified_energy4_error"]
+assert 0 < run["observables"]["modified_energy4_error_max"] < 1e-4, run
+END
 status 0 again own.png
 [ -s own-again.png ] || fail "the diagram is not made again"
 

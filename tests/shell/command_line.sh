@@ -121,6 +121,19 @@ grep -q 'No space left' err || fail "a full disk is not told: $(cat err)"
 } | head -n 1 >/dev/null
 [ "$(cat code)" = 141 ] || fail "a broken pipe is exit $(cat code), not 141"
 [ -s err ] && fail "a broken pipe is not silent: $(cat err)"
+for words in 'render disc' 'stability --region rk4'; do
+    for ending in png svg pdf; do
+        {
+            trap '' PIPE
+            while echo 2>/dev/null; do sleep 0.02; done # until nobody reads
+            # shellcheck disable=SC2086
+            timeout 600 "$geomint" $words --format $ending -o - 2>err
+            echo $? >code
+        } | :
+        [ "$(cat code)" = 141 ] || fail "$words -o - to a broken pipe, as $ending, is exit $(cat code), not 141"
+        [ -s err ] && fail "$words -o - to a broken pipe is not silent: $(cat err)"
+    done
+done
 
 # SIGINT in the middle of frames: what is finished stays whole, exit 130
 "$geomint" render disc --frames 100000 --size 320x200 --out frames 2>err &

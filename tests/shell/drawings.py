@@ -218,6 +218,10 @@ def test_paper():
     geomint("render disc until=1 --size 800x600 --dpi 200 -o dots.png")
     geomint("render disc until=1 --size 8x6cm --dpi 100 --frames 2 --out told")
     geomint("render disc until=1 --size 800x600 -o untold.png")
+    geomint("render disc until=1 --size 8cmx6cm -o each.png")
+    with open("told.png", "rb") as file, open("each.png", "rb") as each:
+        check(file.read() == each.read(), "a unit behind each length")
+    geomint("render disc until=1 --size 8cmx60mm -o none.png", 1)
     with open("untold.png", "rb") as file:
         check(b"pHYs" not in file.read(), "a PNG tells a size on paper that was not given")
     try:

@@ -228,6 +228,22 @@ wait_for 'SCHEMES'
 keys q
 wait_for 'left 0'
 
+# in a small terminal, too, the sentence is there to its end, and the caret below its letter
+start 40x12 TERM=tmux-256color
+open
+wait_for 'Type to search'
+keys own Enter
+wait_for 'H=p'
+keys C-u
+keys -l 'H=p^2/2+q^2/2+q^4/8+q^6/12+q^8/16+kk q=1 p=0'
+wait_for 'the formula needs values that are not'
+wait_for 'given: kk='
+caret 'kk q=1'
+keys Escape
+wait_gone 'given: kk='
+keys Escape q
+wait_for 'left 0'
+
 # the list of what there is has the systems of one's own folder; one that is wrong says why, and a pipe is no file
 mkdir -p "$folder/config/geomint"
 printf 'title: a spring of mine\ncoordinates: q\nH: p_q^2/2 + q^2\nstart: q = 1, p_q = 0\n' \
@@ -258,8 +274,10 @@ wait_for 'Type to search'
 wait_for '▸ broken'
 keys mine
 wait_for 'a spring of mine, by'
-keys Enter
+# what is typed ahead, at once, is for the scene that opens
+keys -H 0d 20
 wait_for 'SCHEMES'
+wait_for 'paused'
 keys l
 wait_for '▸ mine'
 keys Enter

@@ -180,9 +180,9 @@ refused 1 'the diagram of one scheme' certify all -o drawn/c.png
 [ ! -e drawn/c.png ] || fail 'a diagram of nothing'
 
 # with the digits that are missing
-status 0 certify 'composition(verlet; order: 4; 1.3512, -1.7024, 1.3512)' --polish polished.scheme
-grep -q '1.35120719195965763404768780897' polished.scheme || fail "polished: $(cat polished.scheme)"
-status 0 certify polished.scheme
+status 0 certify 'composition(verlet; order: 4; 1.3512, -1.7024, 1.3512)' --polish new/folder/polished.scheme
+grep -q '1.35120719195965763404768780897' new/folder/polished.scheme || fail "polished: $(cat new/folder/*)"
+status 0 certify new/folder/polished.scheme
 printf '# my own\nkind: composition\nbase: verlet\norder: 4\nsteps: g, 1 - 2*g, g\nlet: g = 1.35120819 # typed\n' >typed.scheme
 "$geomint" certify typed.scheme >/dev/null 2>&1
 [ $? = 4 ] || fail 'a wrong digit holds'

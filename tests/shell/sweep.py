@@ -269,6 +269,11 @@ def test_pictures(folder):
     sweep("kepler", "dt=1e-2,2e-2", "eccentricity=0,0.1", "until=1", "--output", drawn)
     with open(drawn, encoding="utf-8") as picture:
         check("<svg" in picture.read() and len(rows(drawn.replace(".svg", ".csv"))) == 4, "-o FILE.svg")
+    drawn = os.path.join(folder, "maps", "even.svg")
+    sweep("system", "H=p^2/2", "q=1,2", "p=0,1", "until=1", "scheme=verlet", "-o", drawn)
+    with open(drawn, encoding="utf-8") as picture:
+        text = picture.read()
+        check(">0 everywhere<" in text and "radient" not in text, "of one number there is no scale")
     maps = []
     for values in ("0.1,0.2,0.4", "0.2,0.1,0.4"):
         drawn = os.path.join(folder, "maps", f"{values}.svg")

@@ -126,6 +126,23 @@ grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 "$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
 [ $? = 2 ] || fail "a potential that is not negative is no failure"
 grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
+
+# momenta by the names of a file are told to be others here
+refused 1 'not given: p=; without coordinates= a momentum is p, not p_q' run system 'H=p_q^2/2 + q^2' q=1 p_q=0
+refused 1 'not given: p=$' run system 'H=q^2' q=1
+
+# a coordinate that H does not hold has a momentum at rest, and not one of -0
+printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nstart: x = 0, y = 0, p_x = 1, p_y = 0\n' >falling.system
+"$geomint" list ./falling.system --long | grep -q "^  p_x' = 0\$" || fail "a momentum at rest"
+"$geomint" list ./falling.system --latex | grep -q 'dot{p_{x}} &= 0 ' || fail "a momentum at rest, in LaTeX"
+
+# of a name that is defined twice a file tells the line of the first; a command line has none
+printf 'coordinates: q\nH: q\nlet: a = 1\nlet: a = 2\n' >twice.system
+"$geomint" run ./twice.system 2>out
+grep -q 'twice.system:4:6: a is defined twice, first in line 3$' out || fail "twice in a file: $(cat out)"
+"$geomint" run system 'H=p^2/2+a*q' a=1 a=2 q=1 p=0 2>out
+grep -q 'in a=, column 1: a is defined twice$' out || fail "twice on the command line: $(cat out)"
+
 printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
 "$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
 [ $? = 2 ] || fail "a monitor that falls to 0 is no failure"
@@ -149,6 +166,7 @@ printf 'rate: x = 1/sqrt(2 - t)\nstart: x = 2\n' >late.system
 grep -q 'sqrt(2 - t) is not finite where 2 - t = -0.00625' out || fail "the time of a stage: $(cat out)"
 misplaced '3:21: p_x is not finite at the start' '' 'x = 1, p_x = 0/0'
 misplaced '4:10: observe: energy_error makes two observables energy_error' 'observe: energy_error = x'
+misplaced '4:10: observe: energy_error_max makes two observables energy_error_max' 'observe: energy_error_max = x'
 misplaced '5:12: invariant: L makes two observables L_error' "$(printf 'observe: L_error = x\ninvariant: L = p_x^2 + x^2')"
 printf 'hamiltonian: q\ncoordinates: q\nH: p_q^2/2\nstart: q = 0, p_q = 0\n' >wrong.system
 refused 1 'wrong.system:1:1: a system has no line "hamiltonian"' run ./wrong.system

@@ -102,11 +102,16 @@ changes() {
     fail "$1: the screen stays as it was" >&2
 }
 
-same() { # NAME SCREEN SCREEN
-    [ "$2" = "$3" ] || {
-        fail "$1: the screens differ"
-        diff <(printf '%s\n' "$2") <(printf '%s\n' "$3")
-    }
+# rests WHEN: what was begun comes to its end, and then a second passes without any processor time
+rests() {
+    local pid before i
+    pid=$(explorer_pid)
+    for ((i = 0; i < 40; i++)); do
+        before=$(cut -d' ' -f14,15 "/proc/$pid/stat")
+        sleep 1
+        [ "$(cut -d' ' -f14,15 "/proc/$pid/stat")" = "$before" ] && return 0
+    done
+    fail "$1, it uses processor time"
 }
 
 # start SIZE [NAME=VALUE ...]: a shell in a pane of that size

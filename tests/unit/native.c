@@ -296,6 +296,15 @@ static void parameters_need_no_compiler(void **state)
     gm_lane_close(wanted);
 }
 
+/* How many entries there were of a cache from which all can be removed. */
+static size_t cleared(const char *cache)
+{
+    size_t count = 0;
+    char sentence[GM_MESSAGE];
+    assert_true(gm_cache_clear(cache, &count, sentence));
+    return count;
+}
+
 /* A system that no other test has: what was refused once is not tried again. */
 static const char *fresh(void)
 {
@@ -537,7 +546,7 @@ static void entries_are_libraries(void **state)
         assert_true(gm_cache_list(cache, &entries, &count));
         assert_int_equal(count, 0);
         assert_true(is_stepped_elsewhere(words, NULL));
-        assert_int_equal(gm_cache_clear(cache), 1);
+        assert_int_equal(cleared(cache), 1);
     }
 }
 
@@ -658,6 +667,7 @@ static void entries_are_whole(void **state)
     (void)state;
     char cache[GM_CACHE_PATH], path[GM_CACHE_PATH + 64], other[GM_CACHE_PATH + 64], message[GM_MESSAGE],
         aside[GM_CACHE_PATH + 8];
+    size_t count = 0;
     assert_true(gm_cache_folder(cache, message));
     struct gm_digest digest = gm_digest_open();
     const struct gm_cache_key key = gm_digest_key(&digest);
@@ -666,7 +676,7 @@ static void entries_are_whole(void **state)
     snprintf(aside, sizeof aside, "%s/aside", cache);
     snprintf(path, sizeof path, "%s/%s.so", cache, key.text);
     snprintf(other, sizeof other, "%s/%s.so", cache, second.text);
-    for (int fault = 0; fault < 6; fault++) {
+    for (int fault = 0; fault < 8; fault++) {
         FILE *file = fopen(aside, "w");
         assert_non_null(file);
         fprintf(file, "a library");
@@ -699,8 +709,25 @@ static void entries_are_whole(void **state)
             assert_int_equal(unlink(path), 0);
             assert_int_equal(mkfifo(path, 0600), 0);
             break;
+        case 5: /* a folder in its place, which is empty */
+            assert_int_equal(unlink(path), 0);
+            assert_int_equal(mkdir(path, 0700), 0);
+            break;
+        case 6: /* which is not empty: it is somebody's until its owner has emptied it */
+            assert_int_equal(unlink(path), 0);
+            assert_int_equal(mkdir(path, 0700), 0);
+            snprintf(other, sizeof other, "%s/%s.so/kept", cache, key.text);
+            assert_int_equal(mkdir(other, 0700), 0);
+            assert_int_equal(gm_cache_find(cache, &key), -1);
+            assert_false(gm_cache_clear(cache, &count, message));
+            assert_non_null(strstr(message, key.text));
+            assert_non_null(strstr(message, "could not be removed: Directory not empty"));
+            assert_int_equal(count, 0);
+            assert_int_equal(rmdir(other), 0);
+            assert_int_equal(cleared(cache), 1);
+            break;
         default:
-            assert_int_equal(gm_cache_clear(cache), 1);
+            assert_int_equal(cleared(cache), 1);
         }
         assert_int_equal(gm_cache_find(cache, &key), -1);
         assert_int_not_equal(access(path, F_OK), 0);
@@ -728,7 +755,7 @@ static void caches_are_bounded(void **state)
     assert_true(gm_cache_list(cache, &entries, &count));
     free(entries);
     assert_in_range(count, 1, 256);
-    assert_int_equal(gm_cache_clear(cache), count);
+    assert_int_equal(cleared(cache), count);
     assert_true(gm_cache_list(cache, &entries, &count));
     assert_null(entries);
 }

@@ -478,7 +478,7 @@ static const struct {
     {"\xef\xbb\xbf"
      "coordinates: dt\nH: q\n",
      1, 14, "the name dt is reserved"},
-    {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice, first in line 2"},
+    {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice"},
     {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
     {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 3, 8, "p_q has no value at the start"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, r = 2\n", 3, 15, "no name r"},
@@ -486,7 +486,7 @@ static const struct {
     {"coordinates: q\nH: p_q^2\nstart: q 1\n", 3, 10, "= was expected"},
     {CANONICAL "let: a = b\nlet: b = a\nH: a\n", 3, 6, "a circle"},
     {CANONICAL "let: a = a + 1\nH: a\n", 3, 6, "a needs itself"},
-    {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice, first in line 3"},
+    {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice"},
     {CANONICAL "parameter: a = 3; 0 .. 2\nH: a*q\n", 3, 12, "outside of its range"},
     {CANONICAL "parameter: a = q\nH: a*q\n", 3, 16, "no name q"},
     {CANONICAL "parameter: a = b\nparameter: b = a\nH: a*q\n", 3, 12, "a circle"},
@@ -545,8 +545,13 @@ static const struct {
      "a surface stands in space"},
     {CANONICAL "H: p_q^2/2\nsection: q\n", 4, 10, "where something is 0"},
     {CANONICAL "H: p_q^2/2\nsection: q = 0\n", 4, 15, "shows two values"},
+    {CANONICAL "H: p_q^2/2\nsection: 1 = 0; q, p_q\n", 4, 10, "it holds no component, and no t"},
+    {CANONICAL "H: p_q^2/2\nparameter: a = 1\nsection: a - 1 = 0; q, p_q\n", 5, 10, "it holds no component"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
-    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
+    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice"},
+    {CANONICAL "H: p_q^2/2\nobserve: r = q\nobserve: r = 1\n", 5, 10, "r is defined twice"},
+    {CANONICAL "H: p_q^2/2\nobserve: r = 1 - r\n", 4, 10, "r needs itself"},
+    {CANONICAL "H: p_q^2/2\nstop: r - 1\nobserve: r = q; 1\n", 4, 7, "there is no name r"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
     {"rate: x = -x\nstart: x = 1\nsection: ; x, x\n", 3, 10, "where something is 0"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 2, 4, "singular at the start, q = 1: momenta"},
@@ -566,6 +571,8 @@ static const struct {
     {THREE "bracket: x x = 1\nH: x\n", 3, 10, "with itself is 0"},
     {THREE "bracket: x y = 1\nbracket: y x = 1\nH: x\n", 4, 10, "said twice"},
     {CANONICAL "H: \xff\n", 3, 4, "0xff is no UTF-8"},
+    {"coordinates: q\rH: p_q^2/2\rstart: q = 1, p_q = 0\r", 1, 15, "a carriage return alone ends no line"},
+    {"coordinates: q\r\nH: q\r\r\nstart: q = 1, p_q = 0, r = 1\r", 3, 24, "no name r"},
     {CANONICAL "H: p_q^2/2 + 1e308*q^2\n", 3, 4, "the rate of p_q is not finite at the start"},
     {CANONICAL "H: p_q^2/2\nstop: sqrt(-2 - q)\n", 4, 7, "what ends the run is not finite at the start"},
     {CANONICAL "H: p_q^2/2\ninvariant: a = log(-2 - q)*0 + p_q\n", 4, 12, "a is not finite at the start"},
@@ -574,6 +581,59 @@ static const struct {
      "the start of q needs that of q"},
     {"coordinates: q\nH: p_q^2/2\nstart: q = p_q, p_q = sqrt(-1)\n", 3, 23, "p_q is not finite at the start"},
 };
+
+/* Of a name that is defined twice the first place is told, too; what is wrong in itself has none. */
+static void first_places_are_told(void **unused)
+{
+    static const struct {
+        const char *text;
+        size_t line, column;
+    } twice[] = {
+        {"coordinates: q q\nH: q\n", 1, 14},
+        {"coordinates: q\nparameter: q = 2\nH: q\n", 2, 12},
+        {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 3, 6},
+        {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 1, 14},
+    };
+    struct gm_own_system system;
+    struct gm_fault fault;
+    (void)unused;
+    for (size_t i = 0; i < GM_COUNT(twice); i++) {
+        size_t line, column;
+        assert_false(open_text(&system, twice[i].text, &fault));
+        gm_text_place(twice[i].text, fault.earlier, &line, &column);
+        assert_int_equal(line, twice[i].line);
+        assert_int_equal(column, twice[i].column);
+        gm_system_close(&system);
+    }
+    assert_false(open_text(&system, CANONICAL "H: qq\n", &fault));
+    assert_int_equal(fault.earlier, 0);
+    gm_system_close(&system);
+}
+
+/* Other lines, also those before, may name what is observed, as they name a let. */
+static void observed_names_are_known(void **unused)
+{
+    static const char text[] = CANONICAL "H: p_q^2/2 + far\nstop: far - 2\nobserve: far = sqrt(near)\n"
+                                         "observe: near = q^2 + 1\n";
+    struct gm_own_system system;
+    struct gm_fault fault;
+    size_t found = 0;
+    (void)unused;
+    assert_true(open_text(&system, text, &fault));
+    const struct gm_naming naming = gm_system_naming(&system);
+    for (size_t i = 0; i < system.item_count; i++) {
+        const struct gm_system_item *item = &system.items[i];
+        char *formula = gm_formula_text(&system.graph, item->nodes[0], &naming);
+        assert_non_null(formula);
+        assert_string_equal(formula, item->word == GM_WORD_STOP       ? "sqrt(q^2 + 1) - 2"
+                                     : strcmp(item->name, "far") == 0 ? "sqrt(q^2 + 1)"
+                                                                      : "q^2 + 1");
+        free(formula);
+        found++;
+    }
+    assert_int_equal(found, 3);
+    gm_system_close(&system);
+}
 
 static void what_is_wrong_is_named(void **unused)
 {
@@ -607,7 +667,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
         cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
-        cmocka_unit_test(lines_are_counted),           cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(lines_are_counted),           cmocka_unit_test(first_places_are_told),
+        cmocka_unit_test(observed_names_are_known),    cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

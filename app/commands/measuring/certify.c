@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint certify: the claims against what is measured, and against what theory says of the coefficients. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include "app/commands/measuring/charted.h"
 #include "app/cores/pool.h"
 #include "app/ground/arguments.h"
+#include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
@@ -20,6 +20,7 @@
 #include "core/certify.h"
 #include "core/memory.h"
 #include "core/schemes.h"
+#include "render/files/temporary.h"
 
 /* As a text or as JSON; `system` is what it was measured on, NULL: the problems that schemes are certified
    on. What - is written to gets nothing else. */
@@ -128,10 +129,11 @@ static int certify_on(const struct gm_options *options)
 
 static bool write_text(const char *path, const char *text, char *message)
 {
-    FILE *stream = fopen(path, "w");
-    const bool put = stream && fputs(text, stream) >= 0;
-    const bool good = stream && fclose(stream) == 0 && put;
-    return good || gm_refuse(message, "%.300s could not be written: %s", path, strerror(errno));
+    if (!gm_folder_make_for(path, message)) {
+        return false;
+    }
+    const int error = gm_temporary_write(path, text, strlen(text));
+    return error == 0 || gm_refuse(message, "%.300s could not be written: %s", path, strerror(error));
 }
 
 static int polish(const struct gm_options *options)

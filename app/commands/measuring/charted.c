@@ -43,8 +43,7 @@ int gm_command_chart(const struct gm_options *options, const char *command, cons
     const bool good = words && gm_chart_write(&chart, data, draw, write, message);
     free(words);
     if (!good) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
+        return gm_press_fail(options->output, message);
     }
     gm_press_tell(&chart.print, write ? chart.csv : "");
     return GM_EXIT_OK;

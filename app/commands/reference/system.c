@@ -54,9 +54,13 @@ static bool fits(const struct report *report, const struct gm_scheme *scheme)
            gm_scheme_fits(scheme, &report->problem);
 }
 
-/* How many operations there are, of a formula that is too long to be read. */
+/* That it is long, of a formula that is too long to be read; -0, which a derivative of nothing is, as 0. */
 static char *formula_of(const struct report *report, gm_node_id node, bool latex)
 {
+    const struct gm_node *whole = &report->system.graph.nodes[node];
+    if (whole->operation == GM_CONSTANT && whole->value == 0) {
+        return strdup("0");
+    }
     const struct gm_naming naming = gm_system_naming(&report->system);
     char *text = latex ? gm_formula_latex(&report->system.graph, node, &naming)
                        : gm_formula_text(&report->system.graph, node, &naming);

@@ -45,7 +45,7 @@ struct gm_face {
     bool monochrome;      /* ink and paper alone */
     bool only_monochrome; /* the terminal has no more */
     enum gm_page page;
-    bool awaited; /* what the worker's next words open, a page or a scene: keys typed ahead are for it */
+    bool awaited; /* a page that the worker's next words open: keys typed ahead are for it */
     const struct gm_scheme *explained; /* by its page */
     const char *measured;              /* what certify says of it, line by line; NULL: not yet */
     int scroll;                        /* lines of the page above the screen */

@@ -185,6 +185,11 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         while (*text == ' ' || *text == '\n') {
             text++;
         }
+        if (*text && taken == rows) { /* words are left */
+            const int end = gm_sheet_width(sheet, line);
+            gm_sheet_text(sheet, column + (end < room ? end : room - 1), row + taken - 1,
+                          sheet->face->blocks == GM_ASCII ? "." : "…", role, false);
+        }
     }
     return taken;
 }

@@ -61,7 +61,8 @@ void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, do
 /* Writes a text of several lines as they are; NULL: none. Returns the rows it takes. */
 int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role);
 /* Breaks a text at its blanks, and words that are too long at their commas or anywhere, in at most `rows`
-   rows from `row` on, that begin at `column`; returns the rows it takes. */
+   rows from `row` on, that begin at `column`; what does not fit ends with an ellipsis. Returns the rows it
+   takes. */
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role);
 

@@ -4,8 +4,9 @@
 
 #include <stdio.h>
 
-/* A rule with what is asked, the line, the caret, and what is wrong in at most two rows. */
-enum { ROWS = 5, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16 };
+/* The line, the caret, and rows for so many letters of what is wrong; above them a rule with what is asked, but in
+   screens of few rows. Of these the scene, the keys, the line and its caret have the first ones. */
+enum { LETTERS = 150, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16, SCREEN_ROWS = 7 };
 
 static const char *const questions[GM_OWN_KINDS] = {
     [GM_OWN_SYSTEM] = " Your own system: a formula with its values, a file, or a name ",
@@ -14,12 +15,20 @@ static const char *const questions[GM_OWN_KINDS] = {
     [GM_OWN_FORK] = " Your own scheme for one more lane: coefficients, or a file ",
 };
 
-int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int rows)
+/* What is wrong, at most. */
+static int rows_told(int columns)
+{
+    const int width = columns > 2 ? columns - 2 : 1, rows = (LETTERS + width - 1) / width;
+    return rows > 2 ? rows : 2;
+}
+
+int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int columns, int rows)
 {
     if (!prompt || prompt->kind == GM_OWN_NONE || rows < 4) {
         return 0;
     }
-    return rows >= FEW_SCREEN_ROWS ? ROWS : FEW_ROWS;
+    const int told = rows_told(columns), room = rows - SCREEN_ROWS;
+    return room < 1 ? FEW_ROWS : room < told ? 2 + room : 2 + told + (rows >= FEW_SCREEN_ROWS);
 }
 
 static void verdict(const struct gm_own_prompt *prompt, char *text, size_t size)
@@ -40,19 +49,21 @@ static void verdict(const struct gm_own_prompt *prompt, char *text, size_t size)
 void gm_own_prompt_draw(const struct gm_sheet *sheet, const struct gm_own_prompt *prompt)
 {
     char text[GM_MESSAGE + 128];
-    const bool few = sheet->height < ROWS, wrong = prompt->fault.sentence[0] != '\0';
-    const struct gm_sheet line = gm_sheet_part(sheet, 1, few ? 0 : 1, sheet->width - 2, 1);
-    const struct gm_sheet told = gm_sheet_part(sheet, 1, few ? 1 : 3, sheet->width - 2, few ? 1 : 2);
-    for (int i = 0; !few && i < sheet->width; i++) {
+    const bool rule = sheet->height > 2 + rows_told(sheet->width), caret = sheet->height > FEW_ROWS,
+               wrong = prompt->fault.sentence[0] != '\0';
+    const int below = rule + 1 + caret;
+    const struct gm_sheet line = gm_sheet_part(sheet, 1, rule, sheet->width - 2, 1);
+    const struct gm_sheet told = gm_sheet_part(sheet, 1, below, sheet->width - 2, sheet->height - below);
+    for (int i = 0; rule && i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
     }
-    if (!few) {
+    if (rule) {
         gm_sheet_cut(sheet, 1, 0, questions[prompt->kind], GM_INK, true);
     }
     gm_edit_draw(&line, 0, &prompt->line);
-    if (!few && prompt->checked && wrong && prompt->fault.at >= 0) {
-        gm_sheet_glyph(sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), 2, '^',
-                       GM_INITIAL, true);
+    if (caret && prompt->checked && wrong && prompt->fault.at >= 0) {
+        gm_sheet_glyph(sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), rule + 1,
+                       '^', GM_INITIAL, true);
     }
     verdict(prompt, text, sizeof text);
     gm_sheet_wrapped(&told, 0, 0, told.height, text, prompt->checked && wrong ? GM_INITIAL : GM_SECONDARY);

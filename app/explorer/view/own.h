@@ -26,8 +26,8 @@ struct gm_own_prompt {
     char *last[GM_OWN_KINDS]; /* what was typed before; NULL: nothing */
 };
 
-/* The rows that it takes of a screen of so many; 0: it is closed. */
-int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int rows);
+/* The rows that it takes of a screen of so many columns and rows; 0: it is closed. */
+int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int columns, int rows);
 /* Fills the sheet, of so many rows. */
 void gm_own_prompt_draw(const struct gm_sheet *sheet, const struct gm_own_prompt *prompt);
 /* The keys, in the last row. */

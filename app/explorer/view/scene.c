@@ -108,7 +108,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, shot);
         return;
     }
-    const int asked = gm_own_prompt_rows(face->own, cells->rows);
+    const int asked = gm_own_prompt_rows(face->own, cells->columns, cells->rows);
     if (asked) {
         const struct gm_sheet panel =
             gm_sheet_part(&whole, 0, cells->rows - 1 - asked, cells->columns, asked);

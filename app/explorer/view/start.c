@@ -213,7 +213,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    const int asked = gm_own_prompt_rows(face->own, whole.height);
+    const int asked = gm_own_prompt_rows(face->own, whole.width, whole.height);
     const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked + 1 : below);
     int at = 0;
     if (fresh) {

@@ -416,11 +416,14 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
         chart->shown > 1 ? gm_picture_text(picture, "%s%s%s", short_title(chart, observable, picture),
                                            name[0] ? ", " : "", name)
                          : name);
-    const bool empty = extent.low > extent.high;
+    const bool empty = extent.low > extent.high, even = extent.low == extent.high;
     panel->axes = true;
-    panel->colour_bar = !empty;
+    panel->colour_bar = !empty && !even; /* one number has no scale */
     panel->title_role = GM_INK;
-    panel->note = empty ? "no run has a number" : extent.logarithmic ? "colour: log₁₀" : "";
+    panel->note = empty                ? "no run has a number"
+                  : even               ? gm_picture_text(picture, "%.6g everywhere", extent.low)
+                  : extent.logarithmic ? "colour: log₁₀"
+                                       : "";
     panel->colour_bar_label = gm_picture_text(picture, "%s%s", extent.logarithmic ? "log₁₀ " : "", title);
     for (size_t axis = 0; axis < 2; axis++) {
         struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;

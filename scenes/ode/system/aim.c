@@ -13,6 +13,7 @@ struct aim {
     double target[2];
     double *variables, *numbers; /* of the system, and what the sight tells of them */
     double *slopes, *step;       /* of the body's two numbers over each coordinate; how far that goes */
+    double *before;              /* where the coordinates stood */
 };
 
 /* How far the body is from the point, squared; the way there. */
@@ -84,13 +85,12 @@ static void find_step(struct aim *aim, const double way[2], double m)
 /* How far from the point the step leads, squared; the coordinates stay. */
 static double try_step(struct aim *aim, double way[2])
 {
+    memcpy(aim->before, aim->variables, aim->places * sizeof *aim->before);
     for (size_t c = 0; c < aim->places; c++) {
         aim->variables[c] += aim->step[c];
     }
     look(aim);
-    for (size_t c = 0; c < aim->places; c++) {
-        aim->variables[c] -= aim->step[c];
-    }
+    memcpy(aim->variables, aim->before, aim->places * sizeof *aim->before);
     return distance(aim, aim->body, way);
 }
 
@@ -150,13 +150,14 @@ size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, dou
         return 0;
     }
     aim.variables =
-        calloc(system->variable_count + gm_sight_numbers(sight) + 3 * aim.places + 1, sizeof *aim.variables);
+        calloc(system->variable_count + gm_sight_numbers(sight) + 4 * aim.places + 1, sizeof *aim.variables);
     if (!aim.variables) {
         return 0;
     }
     aim.numbers = aim.variables + system->variable_count;
     aim.slopes = aim.numbers + gm_sight_numbers(sight);
     aim.step = aim.slopes + 2 * aim.places;
+    aim.before = aim.step + aim.places;
     memcpy(aim.variables, start, system->n * sizeof *start);
     memcpy(aim.variables + system->initial, start, system->n * sizeof *start);
     for (size_t row = GM_SYSTEM_ROWS; row < lane->own->first_start; row++) {

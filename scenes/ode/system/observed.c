@@ -328,8 +328,9 @@ bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_pro
                 add_defects(own, problem) && add_solution_error(own) && add_area(own);
     for (size_t i = 0; i < own->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
-            good = strcmp(own->observables[i].key, own->observables[k].key) != 0 ||
-                   refuse_twice(own, own->observables[i].key, sentence);
+            const char *key = own->observables[i].key, *other = own->observables[k].key;
+            good = !gm_observables_clash(key, other) ||
+                   refuse_twice(own, strlen(key) < strlen(other) ? other : key, sentence);
         }
     }
     return good;
