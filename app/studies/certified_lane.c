@@ -70,7 +70,8 @@ struct grid {
 static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
 {
     const struct gm_scene *scene = lane->scene;
-    const int measured = scene->work && scene->work->measure ? gm_scene_observable(scene, scene->work->measure) : -1;
+    const int measured =
+        scene->work && scene->work->measure ? gm_scene_observable(scene, scene->work->measure) : -1;
     for (size_t k = 0; k <= FINER; k++) {
         struct grid *grid = &first[k];
         const struct gm_lane *own = k > 0 ? grid->lane : lane;

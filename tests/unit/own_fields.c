@@ -587,7 +587,7 @@ static const struct gm_verdict *verdict(struct gm_certificate *certificate, enum
 }
 
 #define BREATHER(factor)                                                                                     \
-    "field: u\nV: " factor "*(1 - cos(u))\nlet: g = sqrt(1 - 1/4)\nstart: u = 0, u_t = 4*g/cosh(g*x)\n"        \
+    "field: u\nV: " factor "*(1 - cos(u))\nlet: g = sqrt(1 - 1/4)\nstart: u = 0, u_t = 4*g/cosh(g*x)\n"      \
     "exact: u = 4*atan(g*sin(t/2)/(cosh(g*x)/2))\n"
 
 /* What rows claim holds of somebody's V, with an exact solution and without. */
@@ -609,7 +609,8 @@ static void schemes_are_certified_on_somebodys_potential(void **unused)
                                     *energy = verdict(&certificate, GM_KEEPS_ENERGY);
             if (!certificate.holds || !(fabs(certificate.order - scheme->order) < 0.15) ||
                 !verdict(&certificate, GM_SYMMETRIC)->holds || !law->measured || !energy->measured ||
-                law->holds != law->claimed || energy->holds != energy->claimed || certificate.ladder.count < 2) {
+                law->holds != law->claimed || energy->holds != energy->claimed ||
+                certificate.ladder.count < 2) {
                 fail_msg("%s on %s: order %.3f, M %.1e, H %.1e", names[i], texts[which], certificate.order,
                          law->defect, energy->defect);
             }
@@ -621,7 +622,8 @@ static void schemes_are_certified_on_somebodys_potential(void **unused)
 
 /* Leapfrog with a little friction, and with a speed of sound that is a tenth off. */
 static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next, struct gm_progress *progress)
+                             const double *past, const double *now, double *next,
+                             struct gm_progress *progress)
 {
     const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
     const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
@@ -632,13 +634,15 @@ static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_prob
 }
 
 static enum gm_status slowed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next, struct gm_progress *progress)
+                             const double *past, const double *now, double *next,
+                             struct gm_progress *progress)
 {
     const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
     const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
     const double square = dt * dt / (problem->line.dx * problem->line.dx);
     for (size_t i = 0; i < work->points; i++) {
-        const double left = now[i > 0 ? i - 1 : work->points - 1], right = now[i + 1 < work->points ? i + 1 : 0];
+        const double left = now[i > 0 ? i - 1 : work->points - 1],
+                     right = now[i + 1 < work->points ? i + 1 : 0];
         next[i] -= 0.1 * square * (left - 2 * now[i] + right);
     }
     return status;
@@ -688,8 +692,10 @@ static void wrong_schemes_are_found_out(void **unused)
     assert_false(gm_certify_on(gm_scheme_find("leapfrog"), other.system).order_holds);
     grids.system[0].dt = 0.3;
     certificate = gm_certify_on(gm_scheme_find("leapfrog"), grids.system);
-    assert_true(certificate.holds && isnan(certificate.order) && strstr(certificate.order_reason, "linear theory"));
-    assert_true(!verdict(&certificate, GM_SYMMETRIC)->measured && verdict(&certificate, GM_SYMMETRIC)->reason);
+    assert_true(certificate.holds && isnan(certificate.order) &&
+                strstr(certificate.order_reason, "linear theory"));
+    assert_true(!verdict(&certificate, GM_SYMMETRIC)->measured &&
+                verdict(&certificate, GM_SYMMETRIC)->reason);
     close_grids(&other);
     close_grids(&grids);
     close_typed(&stiffer);

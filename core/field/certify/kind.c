@@ -87,8 +87,9 @@ static double nls_charge(const void *problem, const double *y)
     return gm_nls_node_charge(problem, y);
 }
 
-static void note_kept(struct gm_certificate *certificate, enum gm_claim claim, struct gm_field_subject *subject,
-                      const double *y, double (*quantity)(const void *problem, const double *y))
+static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
+                      struct gm_field_subject *subject, const double *y,
+                      double (*quantity)(const void *problem, const double *y))
 {
     const struct gm_kept kept = {.value = quantity, .data = &subject->problem};
     gm_certificate_note(certificate, claim, gm_field_drift(subject, y, &kept), subject->problem.name);
@@ -456,7 +457,8 @@ static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_
 {
     enum { DIRECTIONS = 3 };
     const double none = 1e-11;
-    const size_t n = system->problem->n, fixed = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
+    const size_t n = system->problem->n,
+                 fixed = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
     double *direction = calloc(n, sizeof *direction);
     bool varies = false, linear = true, quadratic = true;
     for (int k = 1; direction && k <= DIRECTIONS; k++) {
@@ -502,7 +504,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     const struct gm_field *field = gm_field_of(system->problem);
     const double *const y = system->start, size = gm_field_size(system->problem, y);
     const char *const name = system->problem->name;
-    const char *const failing = field->equation ? "without --on it is measured on this equation" : no_steps(&subject, y);
+    const char *const failing =
+        field->equation ? "without --on it is measured on this equation" : no_steps(&subject, y);
     certificate->order_problem = name;
     certificate->order_reason = failing;
     if (!failing) {

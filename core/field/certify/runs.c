@@ -105,7 +105,8 @@ double gm_field_drift(struct gm_field_subject *subject, const double *y, const s
         gm_run_advance(subject->run, 1);
         const double before = kept->value(kept->data, gm_run_state(subject->run));
         if (gm_run_advance(subject->run, GM_FIELD_STEPS - 1) == GM_OK) {
-            change = fabs(kept->value(kept->data, gm_run_state(subject->run)) - before) / fmax(1, fabs(before));
+            change =
+                fabs(kept->value(kept->data, gm_run_state(subject->run)) - before) / fmax(1, fabs(before));
         }
         gm_run_close(subject->run);
     }
@@ -173,7 +174,8 @@ static double tell(const struct refined *refined, double by_differences, double 
 {
     const size_t last = refined->count - 1;
     const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
-    const bool exactly = by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
+    const bool exactly =
+        by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
     ladder->count = exactly ? last + 1 : last;
     for (size_t k = 0; k < ladder->count; k++) {
         ladder->dt[k] = refined->dt[k];
@@ -190,8 +192,9 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
     struct refined refined = {.count = 0};
     double *before = NULL, size = 1, order = NAN, slope_before = NAN;
     const struct gm_problem *coarse = NULL;
-    *reason = "differences between runs on finer and finer grids do not fall by one power: take more points and a "
-              "shorter dt, or a start that closes better on its ring";
+    *reason =
+        "differences between runs on finer and finer grids do not fall by one power: take more points and a "
+        "shorter dt, or a start that closes better on its ring";
     for (; system && refined.count < LEVELS && isnan(order); system = system->finer) {
         const size_t k = refined.count;
         double *state = refine(system, scheme, &refined);

@@ -161,7 +161,8 @@ static struct defect of_derivative(const struct gm_subject *subject, const struc
 }
 
 /* form + dq ^ dp, summed over the copies of phase space, of two columns */
-static double add_form(double form, const double (*tangent)[TANGENTS], size_t all, size_t n, size_t a, size_t b)
+static double add_form(double form, const double (*tangent)[TANGENTS], size_t all, size_t n, size_t a,
+                       size_t b)
 {
     for (size_t copy = 0; copy < all; copy += n) {
         for (size_t q = copy; q < copy + n / 2; q++) {

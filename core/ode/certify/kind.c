@@ -199,8 +199,8 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
         varies = varies || !(gm_kept_differences(kept, subject->start, n, 1, all) < none);
         linear = linear && gm_kept_differences(kept, subject->start, n, 2, all) < none;
         quadratic = quadratic && gm_kept_differences(kept, subject->start, n, 3, all) < none;
-        bilinear =
-            bilinear && gm_kept_differences(kept, subject->start, n, 2, q) < none && gm_kept_differences(kept, subject->start, n, 2, p) < none;
+        bilinear = bilinear && gm_kept_differences(kept, subject->start, n, 2, q) < none &&
+                   gm_kept_differences(kept, subject->start, n, 2, p) < none;
         of_momenta =
             of_momenta && fabs(kept->value(kept->data, q)) <= none * fabs(kept->value(kept->data, all));
     }
@@ -224,7 +224,8 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
         double fastest = 0;
         for (size_t c = 0; c < n; c++) {
             const double turns = (double)(c % points) / (double)points;
-            y[c] = subject->start[c] + 0.3 * subject->scale * sin(2 * M_PI * k * turns + (double)(k + c / points));
+            y[c] = subject->start[c] +
+                   0.3 * subject->scale * sin(2 * M_PI * k * turns + (double)(k + c / points));
         }
         gm_field(&subject->problem, y, rate, 1);
         for (size_t c = 0; c < n; c++) {
