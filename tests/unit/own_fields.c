@@ -485,7 +485,9 @@ static const struct {
     {FIELD "V: u^2\nexact: u_t = x\n", "exact: is of u alone"},
     {FIELD "V: u^2\ninvariant: m = t\n", "a density does not hold t"},
     {FIELD "V: u^2\nparameter: points = 3\n", "the name points is reserved"},
-    {FIELD "V: u^2\nparameter: x = 3\n", "x is defined twice"},
+    {FIELD "V: u^2\nparameter: x = 3\n", "x is the place"},
+    {"field: x\nV: x^2\nstart: x = 0, x_t = 1\n", "x is the place"},
+    {"field: u x\nrate: u = x_x\nrate: x = u_x\nstart: u = 0, x = 0\n", "x is the place"},
     {"field: u\nV: u^2\nstart: u = t, u_t = 0\n", "the start of a field does not hold t"},
     {"field: u\nV: u^2\nstart: u = x\n", "u_t has no value at the start"},
 };
