@@ -281,6 +281,12 @@ status 0 certify box --on kdv
 grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"
 refused 1 'waves on a line or on moving meshes; cavity is none' certify steady --on cavity
 
+# where a scheme has no local law the empty surface says so, however small it is
+status 0 render phi4 scheme=box,leapfrog,gauss-box3,energy-conserving,lobatto-box4,euler-box show=momentum-law until=1 \
+    --size 640x360 -o laws.svg
+[ "$(grep -c 'such law' laws.svg)" = 2 ] || fail "two surfaces without a law say it $(grep -c 'such law' laws.svg) times"
+rm laws.svg
+
 # what schemes of moving meshes cost is measured against more nodes: each strategy has a motion of its own on given ones
 status 0 work-precision phi4 scheme=multiplier-lobatto4,control-gauss4,uniform-gauss4 until=2
 [ "$(awk '/^(multiplier|control|uniform)/ && $NF < 0.01' out | wc -l)" = 3 ] || fail "phi4, work-precision: $(cat out)"
