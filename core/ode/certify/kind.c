@@ -223,9 +223,9 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
     for (int k = 1; good && k <= STATES; k++) {
         double fastest = 0;
         for (size_t c = 0; c < n; c++) {
-            const double turns = (double)(c % points) / (double)points;
-            y[c] = subject->start[c] +
-                   0.3 * subject->scale * sin(2 * M_PI * k * turns + (double)(k + c / points));
+            const double turns = (double)(c % points) / (double)points, phase = (double)(k + c / points);
+            y[c] =
+                subject->start[c] + 0.3 * subject->scale * (sin(2 * M_PI * k * turns + phase) + cos(phase));
         }
         gm_field(&subject->problem, y, rate, 1);
         for (size_t c = 0; c < n; c++) {
