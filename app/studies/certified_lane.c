@@ -9,6 +9,7 @@
 #include "app/ground/arguments.h"
 #include "app/request/request.h"
 #include "core/field/field.h"
+#include "core/memory.h"
 #include "core/mesh/moving_mesh.h"
 #include "core/schemes.h"
 
@@ -97,6 +98,7 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
     const struct gm_kind *kind = lane->problem.kind;
     struct gm_problem problem = lane->problem;
     const size_t n = problem.n;
+    const unsigned long refusals = gm_memory_refusals();
     if (!kind->certify_on) {
         return gm_refuse(
             message,
@@ -138,7 +140,8 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
     free(start);
     free(data);
     free(kept);
-    return good || gm_refuse(message, "not enough memory");
+    /* measurements that had no memory would be told as others */
+    return gm_memory_refusals() == refusals || gm_refuse(message, "not enough memory");
 }
 
 /* The request of these words. */
@@ -180,7 +183,7 @@ bool gm_certify_words(const char *scheme, const char *system, int count, const c
     if (good) {
         struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
         good = lane && gm_certify_lane(lane, certificate, message);
-        *status = good ? GM_EXIT_OK : GM_EXIT_USAGE;
+        *status = good ? GM_EXIT_OK : gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
         gm_lane_close(lane);
     }
     gm_request_close(&request);
