@@ -277,6 +277,16 @@ grep -q 'Q keeps quadratic invariants *not claimed *defect .*e-1[4-6] (charge_er
 status 0 certify midpoint --on bbm
 grep -q 'L keeps linear invariants *holds *defect .* (mass_error)' out &&
     grep -q 'Q keeps quadratic invariants *not measured *no quadratic' out || fail "bbm, certified: $(cat out)"
+printf 'field: u v\nrate: u = v\nrate: v = u_xx - sin(u) - v/10\nstart: u = exp(-x^2), v = 0\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
+status 0 certify rk4 --on own.system
+grep -q 'L keeps linear invariants *not measured' out || fail "a mass that nothing keeps, certified: $(cat out)"
+printf 'field: u\nrate: u = u_xx\nstart: u = 1 + cos(pi*x/20)\nboundary: walls\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
+status 0 certify midpoint --on own.system
+grep -q 'L keeps linear invariants *holds' out || fail "heat between walls, certified: $(cat out)"
+printf 'geomint: 1\nkind: runge-kutta\norder: 1\nclaims: symmetric\na: 0\nb: 1\n' >false.scheme
+status 4 certify false.scheme --on own.system
+grep -q '= symmetric *BROKEN' out || fail "Euler's method as a symmetric one, on a field: $(cat out)"
+rm own.system false.scheme
 status 0 certify box --on kdv
 grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"
 refused 1 'waves on a line or on moving meshes; cavity is none' certify steady --on cavity
