@@ -214,7 +214,9 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
                 break;
             }
             /* an order above that which is claimed may be one of grids that are too coarse for it */
-            const bool told = fabs(slope - scheme->order) < 0.15 || fabs(slope - slope_before) < 0.15 ||
+            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
+                              fabs(slope - slope_before) < 0.15 ||
                               (slope > wanted && (k + 1 == LEVELS || !system->finer));
             if (told) {
                 order = tell(&refined, slope, wanted, size, ladder);
