@@ -4,6 +4,7 @@
 #include "core/certify.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include <gsl/gsl_errno.h>
 
@@ -54,6 +55,26 @@ void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim 
     struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
     verdict->undecided = true;
     verdict->problem = verdict->measured ? verdict->problem : problem;
+}
+
+double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
+                           const double *direction)
+{
+    static const double weights[][4] = {{0}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
+    double *y = malloc(n * sizeof *y), sum = 0, size = 0;
+    if (!y) {
+        return NAN;
+    }
+    for (int i = 0; i <= steps; i++) {
+        for (size_t c = 0; c < n; c++) {
+            y[c] = start[c] + i * direction[c];
+        }
+        const double value = weights[steps][i] * kept->value(kept->data, y);
+        sum += value;
+        size += fabs(value);
+    }
+    free(y);
+    return size > 0 ? fabs(sum) / size : 0;
 }
 
 struct solution {

@@ -59,6 +59,11 @@ struct gm_kept {
     const void *data;
 };
 
+/* Differences of this many steps, up to 3, of such a quantity from a state of n numbers along a direction, beside the
+   size of its values: 0 of a polynomial of lower degree. NaN where memory is short. */
+double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
+                           const double *direction);
+
 /* A system on which a scheme is measured that fits it: defects of one step dt from the start, and the order
    by steps from 8 dt on. */
 struct gm_certified_system {
@@ -67,6 +72,12 @@ struct gm_certified_system {
     double dt;
     const struct gm_kept *kept; /* beside the energy */
     size_t kept_count;
+    /* Of a field on a line: the same with half the step on a grid twice as fine, which may have one finer still; NULL:
+       there is none. Node i of the one is node 2 i of the other. */
+    const struct gm_certified_system *finer;
+    /* How far a state at the time t is from the exact solution; NULL: none is told. */
+    double (*error)(const void *data, double t, const double *y);
+    const void *error_data;
 };
 
 /* What means nothing there is not measured, for a reason that is told, and breaks no claim. */

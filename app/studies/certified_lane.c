@@ -8,6 +8,8 @@
 
 #include "app/ground/arguments.h"
 #include "app/request/request.h"
+#include "core/field/field.h"
+#include "core/memory.h"
 #include "core/mesh/moving_mesh.h"
 #include "core/schemes.h"
 
@@ -27,16 +29,80 @@ static double value_of_kept(const void *data, const double *y)
     return kept->row->evaluate(&view);
 }
 
+/* Of the exact solution that the lane's scene tells. */
+static double error_of_lane(const void *data, double t, const double *y)
+{
+    const struct kept *kept = data;
+    struct gm_view view = gm_lane_view(kept->lane);
+    view.t = t;
+    view.state = y;
+    view.observable = kept->row;
+    return kept->row->evaluate(&view);
+}
+
+/* The same field with half the step on a grid twice as fine; NULL: there is none, or memory is short. */
+static struct gm_lane *open_finer(const struct gm_lane *lane)
+{
+    const struct gm_parameter *points = gm_scene_parameter(lane->scene, "points");
+    struct gm_timing *timing = points ? gm_parameters_copy(lane->scene, lane->parameters) : NULL;
+    struct gm_lane *finer = NULL;
+    char unused[GM_MESSAGE];
+    if (timing) {
+        /* points between walls are counted with both */
+        const double twice = 2 * gm_parameter_get(points, timing) - (lane->problem.line.walls ? 1 : 0);
+        timing->dt /= 2;
+        if (gm_parameter_put(points, timing, twice) == GM_PARSED) {
+            finer = gm_lane_open(lane->scene, timing, &lane->settings, lane->scheme, unused);
+        }
+    }
+    free(timing);
+    return finer;
+}
+
+enum { FINER = 3 }; /* grids beside a field's own */
+
+struct grid {
+    struct gm_lane *lane;
+    struct kept error;
+    struct gm_certified_system system;
+};
+
+/* Opens the finer grids of a field and tells of the exact solution on all of them; `first` is the lane's own. */
+static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
+{
+    const struct gm_scene *scene = lane->scene;
+    const int measured =
+        scene->work && scene->work->measure ? gm_scene_observable(scene, scene->work->measure) : -1;
+    for (size_t k = 0; k <= FINER; k++) {
+        struct grid *grid = &first[k];
+        const struct gm_lane *own = k > 0 ? grid->lane : lane;
+        if (measured >= 0) {
+            grid->error = (struct kept){own, &own->problem, gm_scene_observable_at(scene, (size_t)measured)};
+            grid->system.error = error_of_lane;
+            grid->system.error_data = &grid->error;
+        }
+        struct gm_lane *finer = k < FINER ? open_finer(own) : NULL;
+        if (!finer) {
+            break;
+        }
+        first[k + 1].lane = finer;
+        first[k + 1].system = (struct gm_certified_system){
+            .problem = &finer->problem, .start = finer->start, .dt = finer->run->dt};
+        grid->system.finer = &first[k + 1].system;
+    }
+}
+
 bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certificate, char *message)
 {
     const struct gm_scene *scene = lane->scene;
     const struct gm_kind *kind = lane->problem.kind;
     struct gm_problem problem = lane->problem;
     const size_t n = problem.n;
+    const unsigned long refusals = gm_memory_refusals();
     if (!kind->certify_on) {
         return gm_refuse(
             message,
-            "--on takes ordinary differential equations and waves on moving meshes; %s is none of these",
+            "--on takes ordinary differential equations and waves on a line or on moving meshes; %s is none of these",
             scene->name);
     }
     if (n > kind->most_certified || problem.passive > 0) {
@@ -48,8 +114,8 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
     double *start = malloc(n * sizeof *start);
     struct kept *data = calloc(scene->observable_count + 1, sizeof *data);
     struct gm_kept *kept = calloc(scene->observable_count + 1, sizeof *kept);
-    struct gm_certified_system system = {
-        .problem = &problem, .start = start, .dt = lane->run->dt, .kept = kept};
+    struct grid grids[1 + FINER] = {
+        {.system = {.problem = &problem, .start = start, .dt = lane->run->dt, .kept = kept}}};
     const bool good = start && data && kept;
     for (size_t c = 0; good && c < n; c++) {
         start[c] = lane->start[c * lane->problem.m];
@@ -58,17 +124,24 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
         const struct gm_observable *row = &scene->observables[i];
         data[i] = (struct kept){lane, &problem, row};
         if (row->kept && isfinite(value_of_kept(&data[i], start))) {
-            kept[system.kept_count++] =
+            kept[grids->system.kept_count++] =
                 (struct gm_kept){.name = row->key, .value = value_of_kept, .data = &data[i]};
         }
     }
     if (good) {
-        *certificate = gm_certify_on(lane->scheme, &system);
+        if (kind == &gm_kind_field) {
+            refine(lane, grids);
+        }
+        *certificate = gm_certify_on(lane->scheme, &grids->system);
+    }
+    for (size_t k = 1; k <= FINER; k++) {
+        gm_lane_close(grids[k].lane);
     }
     free(start);
     free(data);
     free(kept);
-    return good || gm_refuse(message, "not enough memory");
+    /* measurements that had no memory would be told as others */
+    return gm_memory_refusals() == refusals || gm_refuse(message, "not enough memory");
 }
 
 /* The request of these words. */
@@ -110,7 +183,7 @@ bool gm_certify_words(const char *scheme, const char *system, int count, const c
     if (good) {
         struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
         good = lane && gm_certify_lane(lane, certificate, message);
-        *status = good ? GM_EXIT_OK : GM_EXIT_USAGE;
+        *status = good ? GM_EXIT_OK : gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
         gm_lane_close(lane);
     }
     gm_request_close(&request);

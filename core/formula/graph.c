@@ -561,7 +561,7 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
         size_t size = 0;
         gm_node_id *parts = gm_formula_parts(graph, nodes[k], &size);
         graph->failed |= !parts;
-        for (size_t p = 0; p < size; p++) {
+        for (size_t p = 0; p < size && !graph->failed; p++) {
             const gm_node_id i = parts[p];
             const struct gm_node node = graph->nodes[i];
             if (others[i] != GM_NO_NODE) {

@@ -186,9 +186,19 @@ static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *
     return false;
 }
 
+/* The place in a field, where it is not the program's own */
+static bool is_place(const struct gm_reading *reading, const struct gm_entry *entry)
+{
+    return gm_system_is_field(reading->system) && entry->role != GM_ENTRY_VELOCITY && entry->length == 1 &&
+           entry->name[0] == 'x';
+}
+
 bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
 {
     const int brief = (int)(entry.length < 60 ? entry.length : 60);
+    if (is_place(reading, &entry)) {
+        return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
+    }
     if (is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);

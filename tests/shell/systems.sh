@@ -280,7 +280,40 @@ grep -q 'order 2, measured [12]\..* (phi4)' out && grep -q 'M multisymplectic *h
 status 0 certify multiplier-trapezoidal --on phi4 points=7
 grep -q 'the law is measured on 3 nodes' out || fail "phi4 on 7 nodes, certified: $(cat out)"
 refused 1 'on takes systems of at most 28 components' certify multiplier-lobatto4 --on phi4 points=8
-refused 1 'equations and waves on moving meshes; phi4 is none' certify leapfrog --on phi4
+# and on rings, between walls, by matrices and by rates, on grids of their own
+status 0 certify leapfrog --on phi4
+grep -q 'order 2, measured [12]\..* (phi4)' out && grep -q 'M multisymplectic *holds' out &&
+    grep -q 'H keeps energy *not claimed *defect' out || fail "phi4 on a ring, certified: $(cat out)"
+status 0 certify energy-conserving --on phi4 boundary=walls
+grep -q 'H keeps energy *holds' out && grep -q 'no quadratic invariant' out || fail "phi4, walls, certified: $(cat out)"
+status 0 certify leapfrog --on phi4 dt=0.16
+grep -q 'measured nowhere: dt is beyond' out || fail "phi4, long steps, certified: $(cat out)"
+status 0 certify box --on nonlinear-dirac points=201
+grep -q 'Q keeps quadratic invariants *not claimed *defect .*e-1[4-6] (charge_error)' out ||
+    fail "nonlinear-dirac, certified: $(cat out)"
+# central differences do not keep what midpoint would: it is not blamed for that
+status 0 certify midpoint --on bbm
+grep -q 'L keeps linear invariants *holds *defect .* (mass_error)' out &&
+    grep -q 'Q keeps quadratic invariants *not measured *no quadratic' out || fail "bbm, certified: $(cat out)"
+printf 'field: u v\nrate: u = v\nrate: v = u_xx - sin(u) - v/10\nstart: u = exp(-x^2), v = 0\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
+status 0 certify rk4 --on own.system
+grep -q 'L keeps linear invariants *not measured' out || fail "a mass that nothing keeps, certified: $(cat out)"
+printf 'field: u\nrate: u = u_xx\nstart: u = 1 + cos(pi*x/20)\nboundary: walls\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
+status 0 certify midpoint --on own.system
+grep -q 'L keeps linear invariants *holds' out || fail "heat between walls, certified: $(cat out)"
+printf 'geomint: 1\nkind: runge-kutta\norder: 1\nclaims: symmetric\na: 0\nb: 1\n' >false.scheme
+status 4 certify false.scheme --on own.system
+grep -q '= symmetric *BROKEN' out || fail "Euler's method as a symmetric one, on a field: $(cat out)"
+rm own.system false.scheme
+status 0 certify box --on kdv
+grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"
+refused 1 'waves on a line or on moving meshes; cavity is none' certify steady --on cavity
+
+# where a scheme has no local law the empty surface says so, however small it is
+status 0 render phi4 scheme=box,leapfrog,gauss-box3,energy-conserving,lobatto-box4,euler-box show=momentum-law until=1 \
+    --size 640x360 -o laws.svg
+[ "$(grep -c 'such law' laws.svg)" = 2 ] || fail "two surfaces without a law say it $(grep -c 'such law' laws.svg) times"
+rm laws.svg
 
 # what schemes of moving meshes cost is measured against more nodes: each strategy has a motion of its own on given ones
 status 0 work-precision phi4 scheme=multiplier-lobatto4,control-gauss4,uniform-gauss4 until=2

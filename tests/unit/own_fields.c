@@ -12,8 +12,10 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
 #include "core/count.h"
 #include "core/field/families/laws/wave.h"
+#include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/own/potential.h"
 #include "core/field/problems/sine_gordon.h"
@@ -483,7 +485,9 @@ static const struct {
     {FIELD "V: u^2\nexact: u_t = x\n", "exact: is of u alone"},
     {FIELD "V: u^2\ninvariant: m = t\n", "a density does not hold t"},
     {FIELD "V: u^2\nparameter: points = 3\n", "the name points is reserved"},
-    {FIELD "V: u^2\nparameter: x = 3\n", "x is defined twice"},
+    {FIELD "V: u^2\nparameter: x = 3\n", "x is the place"},
+    {"field: x\nV: x^2\nstart: x = 0, x_t = 1\n", "x is the place"},
+    {"field: u x\nrate: u = x_x\nrate: x = u_x\nstart: u = 0, x = 0\n", "x is the place"},
     {"field: u\nV: u^2\nstart: u = t, u_t = 0\n", "the start of a field does not hold t"},
     {"field: u\nV: u^2\nstart: u = x\n", "u_t has no value at the start"},
 };
@@ -532,6 +536,185 @@ static void a_field_closes_on_its_ring(void **unused)
     }
 }
 
+/* ---- certificates ---- */
+
+/* A typed field on grids each twice as fine as the one before, with half its step. */
+enum { GRIDS = 4 };
+struct grids {
+    struct gm_problem problem[GRIDS];
+    struct gm_certified_system system[GRIDS];
+};
+
+static double distance_from_exact(const void *data, double t, const double *y)
+{
+    const struct gm_problem *problem = data;
+    double largest = 0;
+    for (size_t i = 0; i < problem->line.points; i++) {
+        largest = fmax(largest, fabs(y[i] - gm_own_wave_exact(problem, gm_line_node(&problem->line, i), t)));
+    }
+    return largest;
+}
+
+static void open_grids(struct grids *grids, const struct typed *typed, double dt, bool solved)
+{
+    for (size_t k = 0; k < GRIDS; k++) {
+        struct gm_problem *problem = &grids->problem[k];
+        const size_t points = (size_t)POINTS << k;
+        *problem = typed->problem;
+        problem->name = "typed";
+        problem->line.points = points;
+        problem->line.dx = 2 * HALF / (double)points;
+        problem->n = gm_wave_size(points);
+        double *start = malloc(problem->n * sizeof *start);
+        gm_own_wave_levels(problem, ldexp(dt, -(int)k), start);
+        grids->system[k] = (struct gm_certified_system){.problem = problem,
+                                                        .start = start,
+                                                        .dt = ldexp(dt, -(int)k),
+                                                        .finer = k + 1 < GRIDS ? &grids->system[k + 1] : NULL,
+                                                        .error = solved ? distance_from_exact : NULL,
+                                                        .error_data = problem};
+    }
+}
+
+static void close_grids(struct grids *grids)
+{
+    for (size_t k = 0; k < GRIDS; k++) {
+        free((double *)grids->system[k].start);
+    }
+}
+
+static const struct gm_verdict *verdict(struct gm_certificate *certificate, enum gm_claim claim)
+{
+    return gm_certificate_claim(certificate, claim);
+}
+
+#define BREATHER(factor)                                                                                     \
+    "field: u\nV: " factor "*(1 - cos(u))\nlet: g = sqrt(1 - 1/4)\nstart: u = 0, u_t = 4*g/cosh(g*x)\n"      \
+    "exact: u = 4*atan(g*sin(t/2)/(cosh(g*x)/2))\n"
+
+/* One whose force bends over a fortieth of what it is differentiated along. */
+#define STEEP "field: u\nV: cosh(20*u)/400\nstart: u = exp(-x^2)/2, u_t = 0\n"
+
+/* What rows claim holds of somebody's V, with an exact solution and without. */
+static void schemes_are_certified_on_somebodys_potential(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"leapfrog",   "energy-conserving", "euler-box",   "box",
+                                        "gauss-box2", "gauss-box3",        "lobatto-box4"};
+    static const char *const texts[] = {PHI4, BREATHER("1")};
+    for (size_t which = 0; which < GM_COUNT(texts); which++) {
+        struct typed typed;
+        struct grids grids;
+        open_typed(&typed, texts[which]);
+        open_grids(&grids, &typed, 0.08, which == 1);
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find_for(names[i], &typed.problem);
+            struct gm_certificate certificate = gm_certify_on(scheme, grids.system);
+            const struct gm_verdict *law = verdict(&certificate, GM_MULTISYMPLECTIC),
+                                    *energy = verdict(&certificate, GM_KEEPS_ENERGY);
+            if (!certificate.holds || !(fabs(certificate.order - scheme->order) < 0.15) ||
+                !verdict(&certificate, GM_SYMMETRIC)->holds || !law->measured || !energy->measured ||
+                law->holds != law->claimed || energy->holds != energy->claimed ||
+                certificate.ladder.count < 2) {
+                fail_msg("%s on %s: order %.3f, M %.1e, H %.1e", names[i], texts[which], certificate.order,
+                         law->defect, energy->defect);
+            }
+        }
+        close_grids(&grids);
+        close_typed(&typed);
+    }
+}
+
+/* Tangents of such steps are differences over less. */
+static void a_steep_force_is_blamed_on_nobody(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"leapfrog", "box"};
+    struct typed typed;
+    struct grids grids;
+    open_typed(&typed, STEEP);
+    open_grids(&grids, &typed, 0.01, false);
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        struct gm_certificate certificate =
+            gm_certify_on(gm_scheme_find_for(names[i], &typed.problem), grids.system);
+        const struct gm_verdict *law = verdict(&certificate, GM_MULTISYMPLECTIC);
+        if (!law->holds) {
+            fail_msg("%s: %.1e", names[i], law->defect);
+        }
+    }
+    close_grids(&grids);
+    close_typed(&typed);
+}
+
+/* Leapfrog with some friction, and with the square of the speed of sound so much less. */
+static double friction, slowness;
+
+static enum gm_status spoilt(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                             const double *past, const double *now, double *next,
+                             struct gm_progress *progress)
+{
+    const size_t last = work->points - 1;
+    const double square = dt * dt / (problem->line.dx * problem->line.dx);
+    const struct gm_two_step_row *row = gm_scheme_find("leapfrog")->coefficients;
+    const enum gm_status status = row->step(work, problem, dt, past, now, next, progress);
+    for (size_t i = 0; i <= last; i++) {
+        const double sides = now[i > 0 ? i - 1 : last] + now[i < last ? i + 1 : 0];
+        next[i] -= friction * (now[i] - past[i]) + slowness * square * (sides - 2 * now[i]);
+    }
+    return status;
+}
+
+/* A wrong step, a wrong order and false claims are found out; steps that are too long refute nothing. */
+static void wrong_schemes_are_found_out(void **unused)
+{
+    (void)unused;
+    struct typed typed, stiffer;
+    struct grids grids, other;
+    struct gm_two_step_row row;
+    open_typed(&typed, BREATHER("1"));
+    open_grids(&grids, &typed, 0.08, true);
+    struct gm_scheme wrong = *gm_scheme_find("leapfrog");
+    row = *(const struct gm_two_step_row *)wrong.coefficients;
+    row.step = spoilt;
+    wrong.coefficients = &row;
+    friction = 1e-4;
+    slowness = 0;
+    struct gm_certificate certificate = gm_certify_on(&wrong, grids.system);
+    assert_false(certificate.holds);
+    assert_false(verdict(&certificate, GM_SYMMETRIC)->holds);
+    assert_true(verdict(&certificate, GM_MULTISYMPLECTIC)->defect > 1e-6);
+    /* runs agree with each other the better the finer they are, but not with the equation */
+    friction = 0;
+    slowness = 0.1;
+    certificate = gm_certify_on(&wrong, grids.system);
+    assert_false(certificate.order_holds);
+    wrong = *gm_scheme_find("leapfrog");
+    wrong.order = 3;
+    assert_false(gm_certify_on(&wrong, grids.system).order_holds);
+    wrong.order = 2;
+    assert_true(gm_certify_on(&wrong, grids.system).holds);
+    wrong.claims |= GM_KEEPS_ENERGY;
+    assert_false(gm_certify_on(&wrong, grids.system).holds);
+    wrong = *gm_scheme_find("energy-conserving");
+    wrong.claims |= GM_MULTISYMPLECTIC;
+    certificate = gm_certify_on(&wrong, grids.system);
+    assert_true(!certificate.holds && verdict(&certificate, GM_MULTISYMPLECTIC)->defect > 1e-6);
+    /* the solution of another equation */
+    open_typed(&stiffer, BREATHER("1.1"));
+    open_grids(&other, &stiffer, 0.08, true);
+    assert_false(gm_certify_on(gm_scheme_find("leapfrog"), other.system).order_holds);
+    grids.system[0].dt = 0.3;
+    certificate = gm_certify_on(gm_scheme_find("leapfrog"), grids.system);
+    assert_true(certificate.holds && isnan(certificate.order) &&
+                strstr(certificate.order_reason, "linear theory"));
+    assert_true(!verdict(&certificate, GM_SYMMETRIC)->measured &&
+                verdict(&certificate, GM_SYMMETRIC)->reason);
+    close_grids(&other);
+    close_grids(&grids);
+    close_typed(&stiffer);
+    close_typed(&typed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -547,6 +730,9 @@ int main(void)
         cmocka_unit_test(a_peakon_moves_as_fast_as_it_is_high),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(a_field_closes_on_its_ring),
+        cmocka_unit_test(schemes_are_certified_on_somebodys_potential),
+        cmocka_unit_test(a_steep_force_is_blamed_on_nobody),
+        cmocka_unit_test(wrong_schemes_are_found_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

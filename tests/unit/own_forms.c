@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
 #include "core/count.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
@@ -429,6 +430,62 @@ static void a_start_that_does_not_close_is_refused(void **unused)
     }
 }
 
+/* Of matrices and a function: the order by three grids, the law, the charge that a kept quantity tells of, and potentials
+   that are left out. */
+static double mass_of(const void *data, const double *y)
+{
+    const struct gm_problem *problem = data;
+    double sum = 0;
+    for (size_t i = 0; i < problem->line.points; i++) {
+        sum += y[problem->line.points + i];
+    }
+    return sum * problem->line.dx;
+}
+
+static void schemes_are_certified_on_somebodys_form(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        double length;
+        bool mass; /* of the second component */
+    } cases[] = {{BREATHER, 40, false}, {KDV, 50, true}};
+    enum { GRIDS = 4, LAST = 3 }; /* boxes of four stages take long */
+    for (size_t which = 0; which < GM_COUNT(cases); which++) {
+        struct typed typed[GRIDS];
+        struct gm_certified_system system[GRIDS];
+        struct gm_kept mass = {"mass", mass_of, &typed[0].problem};
+        for (size_t k = 0; k < GRIDS; k++) {
+            open_typed(&typed[k], cases[which].text, (size_t)POINTS << k, cases[which].length);
+            typed[k].problem.name = "typed";
+            system[k] = (struct gm_certified_system){.problem = &typed[k].problem,
+                                                     .start = typed[k].y,
+                                                     .dt = ldexp(0.08, -(int)k),
+                                                     .kept = &mass,
+                                                     .kept_count = cases[which].mass ? 1 : 0,
+                                                     .finer = k + 1 < GRIDS ? &system[k + 1] : NULL};
+        }
+        for (size_t i = 0; i < LAST; i++) {
+            const struct gm_scheme *scheme = gm_scheme_find_for(boxes[i], &typed[0].problem);
+            struct gm_certificate certificate = gm_certify_on(scheme, system);
+            const struct gm_verdict *linear = gm_certificate_claim(&certificate, GM_KEEPS_LINEAR);
+            if (!certificate.holds || !(fabs(certificate.order - scheme->order) < 0.15) ||
+                !gm_certificate_claim(&certificate, GM_MULTISYMPLECTIC)->holds ||
+                linear->measured != cases[which].mass || !linear->holds != !cases[which].mass) {
+                fail_msg("%s, %zu: order %.3f", boxes[i], which, certificate.order);
+            }
+        }
+        struct gm_scheme wrong = *gm_scheme_find_for("box", &typed[0].problem);
+        wrong.claims |= GM_KEEPS_ENERGY;
+        assert_false(gm_certify_on(&wrong, system).holds);
+        wrong.order = 3;
+        assert_false(gm_certify_on(&wrong, system).order_holds);
+        for (size_t k = 0; k < GRIDS; k++) {
+            close_typed(&typed[k]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -441,6 +498,7 @@ int main(void)
         cmocka_unit_test(what_alternates_is_left_out),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(a_start_that_does_not_close_is_refused),
+        cmocka_unit_test(schemes_are_certified_on_somebodys_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

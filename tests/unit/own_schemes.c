@@ -676,7 +676,8 @@ static void on_a_system(void **unused)
     problem.m = 1;
     const double start[4] = {0.1, -0.2, 0.3, 0.1};
     const struct gm_kept kept = {"first", first, NULL}; /* quadratic, and kept by nothing */
-    const struct gm_certified_system system = {&problem, start, 0.1, &kept, 1};
+    const struct gm_certified_system system = {
+        .problem = &problem, .start = start, .dt = 0.1, .kept = &kept, .kept_count = 1};
     const struct gm_certificate verlet = gm_certify_on(gm_scheme_find("verlet"), &system);
     assert_true(verlet.holds && fabs(verlet.order - 2) < 0.05 && verlet.claims[0].measured);
     assert_true(verlet.claims[4].measured && !verlet.claims[4].holds &&

@@ -84,6 +84,9 @@ bool gm_orders_are_known(const struct gm_orders *orders)
     return points > 0;
 }
 
+/* Where the line of the claimed order begins: that part of the largest step's error, where it hides nothing. */
+static const double part_below = 0.3;
+
 static void find_axes(const struct gm_orders *orders, struct gm_axis *steps, struct gm_axis *errors)
 {
     *steps = (struct gm_axis){.label = "Δt", .scale = GM_LOG, .low = 1, .high = 0};
@@ -93,6 +96,7 @@ static void find_axes(const struct gm_orders *orders, struct gm_axis *steps, str
         for (size_t k = 0; k < ladder->count; k++) {
             gm_range_add(&steps->low, &steps->high, ladder->dt[k]);
             gm_range_add(&errors->low, &errors->high, ladder->error[k]);
+            gm_range_add(&errors->low, &errors->high, part_below * ladder->error[k]);
         }
     }
     steps->low /= 1.2;
@@ -100,12 +104,12 @@ static void find_axes(const struct gm_orders *orders, struct gm_axis *steps, str
     gm_range_round(&errors->low, &errors->high, GM_LOG);
 }
 
-/* The line of the claimed order, a little below the largest step's error, where it hides nothing. */
+/* The line of the claimed order */
 static void draw_claim(struct gm_picture *picture, struct gm_panel *panel, const struct gm_ladder *ladder,
                        int order)
 {
     const size_t last = ladder->count - 1;
-    const double below = 0.3 * ladder->error[0];
+    const double below = part_below * ladder->error[0];
     const double points[] = {ladder->dt[0], below, ladder->dt[last],
                              below * pow(ladder->dt[last] / ladder->dt[0], order)};
     const struct gm_style style = {GM_SECONDARY, 1, 1.6, GM_SHORT_DASH};

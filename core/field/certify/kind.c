@@ -8,13 +8,15 @@
 #include <string.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/field/certify/quantities.h"
+#include "core/field/certify/runs.h"
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
 #include "core/field/families/heat.h"
 #include "core/field/families/kdv_frames.h"
+#include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
-#include "core/field/multisymplectic.h"
 #include "core/field/problems/dirac.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
@@ -53,25 +55,10 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
-/* What is certified on a kind of equation: everything that the equation's data are needed for. */
-struct subject {
-    struct gm_problem problem;
-    const struct gm_scheme *scheme;
-    double dt;
-    struct gm_run *run;
-};
-
 static const struct gm_settings no_settings;
 
-/* A run from the start; false where memory is short. */
-static bool open_run(struct subject *subject, double t0, const double *y)
-{
-    subject->run = gm_run_open(&subject->problem, subject->scheme, &no_settings, t0, subject->dt, y);
-    return subject->run != NULL;
-}
-
 /* Steps to the time t; the largest difference of the field from `exact`, INFINITY for a failure. */
-static double error_at(struct subject *subject, double t,
+static double error_at(struct gm_field_subject *subject, double t,
                        double (*exact)(const struct gm_problem *problem, size_t i, double t))
 {
     double largest = INFINITY;
@@ -85,57 +72,27 @@ static double error_at(struct subject *subject, double t,
     return largest;
 }
 
-/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
-   levels. */
-static double return_defect(struct subject *subject, const double *y)
+static double wave_energy(const void *problem, const double *y)
 {
-    const size_t points = subject->problem.line.points;
-    double *first = malloc(points * sizeof *first), largest = INFINITY;
-    if (first && open_run(subject, 0, y)) {
-        gm_run_advance(subject->run, 1);
-        memcpy(first, gm_run_state(subject->run), points * sizeof *first);
-        gm_run_advance(subject->run, 7);
-        gm_run_set_step(subject->run, -subject->dt);
-        if (gm_run_advance(subject->run, 7) == GM_OK) {
-            largest = gm_distance(gm_run_state(subject->run), first, points);
-        }
-        gm_run_close(subject->run);
-    }
-    free(first);
-    return largest;
+    return gm_wave_energy(problem, y);
 }
 
-/* The relative change of a quantity from the state after one step over 60 more. */
-static double drift(struct subject *subject, const double *y,
-                    double (*quantity)(const struct gm_problem *problem, const double *y))
+static double kdv_mass(const void *problem, const double *y)
 {
-    double change = INFINITY;
-    if (open_run(subject, 0, y)) {
-        gm_run_advance(subject->run, 1);
-        const double before = quantity(&subject->problem, gm_run_state(subject->run));
-        if (gm_run_advance(subject->run, 60) == GM_OK) {
-            change = fabs(quantity(&subject->problem, gm_run_state(subject->run)) - before) /
-                     fmax(1, fabs(before));
-        }
-        gm_run_close(subject->run);
-    }
-    return change;
+    return gm_kdv_mass(problem, y);
 }
 
-/* The multisymplectic law after 25 steps, where the scheme has one. */
-static void note_form(struct gm_certificate *certificate, struct subject *subject, const double *y)
+static double nls_charge(const void *problem, const double *y)
 {
-    if (!open_run(subject, 0, y)) {
-        return;
-    }
-    gm_run_advance(subject->run, 25);
-    const double defect = gm_form_defect(&subject->problem, subject->scheme, subject->dt,
-                                         gm_run_state(subject->run), gm_run_memory(subject->run));
-    if (!isnan(defect)) {
-        gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
-        gm_certificate_note(certificate, GM_MULTISYMPLECTIC, defect, subject->problem.name);
-    }
-    gm_run_close(subject->run);
+    return gm_nls_node_charge(problem, y);
+}
+
+static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
+                      struct gm_field_subject *subject, const double *y,
+                      double (*quantity)(const void *problem, const double *y))
+{
+    const struct gm_kept kept = {.value = quantity, .data = &subject->problem};
+    gm_certificate_note(certificate, claim, gm_field_drift(subject, y, &kept), subject->problem.name);
 }
 
 static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.6};
@@ -147,7 +104,7 @@ static double exact_breather(const struct gm_problem *problem, size_t i, double 
 
 static void certify_wave(struct gm_certificate *certificate, double *farthest)
 {
-    struct subject subject = {.problem = gm_problem_sine_gordon, .scheme = certificate->scheme};
+    struct gm_field_subject subject = {.problem = gm_problem_sine_gordon, .scheme = certificate->scheme};
     struct gm_problem *problem = &subject.problem;
     const char *name = problem->name;
     problem->parameters = &breather;
@@ -171,11 +128,10 @@ static void certify_wave(struct gm_certificate *certificate, double *farthest)
         }
         gm_sine_gordon_levels(problem, 0, subject.dt, y);
         if (k == 0) {
-            gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), name);
-            note_form(certificate, &subject, y);
-            gm_certificate_note(certificate, GM_KEEPS_ENERGY, drift(&subject, y, gm_wave_energy), name);
+            gm_field_note_form(certificate, &subject, y, 1);
+            note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, wave_energy);
         }
-        if (open_run(&subject, 0, y)) {
+        if (gm_field_begin(&subject, y)) {
             error[k] = error_at(&subject, 4, exact_breather);
         }
         free(y);
@@ -190,38 +146,14 @@ static double exact_kdv(const struct gm_problem *problem, size_t i, double t)
     return gm_kdv_exact(&soliton, &problem->line, gm_line_node(&problem->line, i), t);
 }
 
-/* Of a scheme that follows dx^2, or has no error in space to speak of: on one grid, the differences between
-   runs with dt, dt/2 and dt/4. */
-static double order_in_time(struct subject *subject, const double *y)
-{
-    const size_t points = subject->problem.line.points;
-    double *end = calloc(3 * points, sizeof *end), apart[2] = {0};
-    bool good = end != NULL;
-    for (size_t k = 0; good && k < 3; k++) {
-        struct subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
-        good = open_run(&part, 0, y);
-        if (good) {
-            good = gm_run_until(part.run, 1) == GM_OK;
-            memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
-            gm_run_close(part.run);
-        }
-    }
-    for (size_t i = 0; good && i < points; i++) {
-        apart[0] = fmax(apart[0], fabs(end[i] - end[points + i]));
-        apart[1] = fmax(apart[1], fabs(end[points + i] - end[2 * points + i]));
-    }
-    free(end);
-    return good ? log2(apart[0] / apart[1]) : NAN;
-}
-
 /* The difference between a run to t = 1 and one from a frame of velocity 2, which travels over whole nodes; or
    the defect of a step under a boost and a scaling, where there is one and it is larger. */
-static double frame_defect(const struct subject *subject, const double *y)
+static double frame_defect(const struct gm_field_subject *subject, const double *y)
 {
     static const struct gm_kdv boosted = {
         .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .lambda = 2};
     static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
-    struct subject rest = *subject, moving = *subject;
+    struct gm_field_subject rest = *subject, moving = *subject;
     const struct gm_line *line = &subject->problem.line;
     const bool fixed = gm_kdv_fixed(&boosted, subject->scheme);
     const size_t travelled = fixed ? (size_t)lround(boosted.lambda / line->dx) : 0;
@@ -232,8 +164,8 @@ static double frame_defect(const struct subject *subject, const double *y)
     }
     moving.problem.parameters = &boosted;
     gm_kdv_levels(&moving.problem, subject->dt, start);
-    if (open_run(&rest, 0, y)) {
-        if (open_run(&moving, 0, start)) {
+    if (gm_field_begin(&rest, y)) {
+        if (gm_field_begin(&moving, start)) {
             if (gm_run_until(rest.run, 1) == GM_OK && gm_run_until(moving.run, 1) == GM_OK) {
                 largest = isnan(step) ? 0 : step;
                 for (size_t i = 0; i < line->points; i++) {
@@ -253,7 +185,7 @@ static double frame_defect(const struct subject *subject, const double *y)
 
 static void certify_kdv(struct gm_certificate *certificate, double *farthest)
 {
-    struct subject subject = {.problem = gm_problem_kdv, .scheme = certificate->scheme};
+    struct gm_field_subject subject = {.problem = gm_problem_kdv, .scheme = certificate->scheme};
     struct gm_problem *problem = &subject.problem;
     problem->parameters = &soliton;
     if (!gm_scheme_fits(certificate->scheme, problem)) {
@@ -276,17 +208,16 @@ static void certify_kdv(struct gm_certificate *certificate, double *farthest)
         }
         gm_kdv_levels(problem, subject.dt, y);
         if (k == 0) {
-            gm_certificate_note(certificate, GM_KEEPS_LINEAR, drift(&subject, y, gm_kdv_mass), problem->name);
-            note_form(certificate, &subject, y);
-            gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), problem->name);
+            note_kept(certificate, GM_KEEPS_LINEAR, &subject, y, kdv_mass);
+            gm_field_note_form(certificate, &subject, y, 1);
             gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(&subject, y), problem->name);
         }
         if (scheme->family == &gm_family_pseudospectral) {
-            note_order(certificate, farthest, order_in_time(&subject, y), problem->name);
+            note_order(certificate, farthest, gm_field_order_in_time(&subject, y), problem->name);
             free(y);
             return;
         }
-        if (open_run(&subject, 0, y)) {
+        if (gm_field_begin(&subject, y)) {
             error[k] = error_at(&subject, 1, exact_kdv);
         }
         free(y);
@@ -316,9 +247,8 @@ static double *nls_state(const struct gm_problem *problem)
 
 static void certify_nls(struct gm_certificate *certificate, double *farthest)
 {
-    struct subject subject = {.problem = gm_problem_nls, .scheme = certificate->scheme};
+    struct gm_field_subject subject = {.problem = gm_problem_nls, .scheme = certificate->scheme};
     struct gm_problem *problem = &subject.problem;
-    problem->parameters = &bright;
     problem->parameters = &bright;
     if (!gm_scheme_fits(certificate->scheme, problem)) {
         return;
@@ -335,17 +265,15 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
             return;
         }
         if (k == 0) {
-            gm_certificate_note(certificate, GM_KEEPS_QUADRATIC, drift(&subject, y, gm_nls_node_charge),
-                                problem->name);
-            note_form(certificate, &subject, y);
-            gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), problem->name);
+            note_kept(certificate, GM_KEEPS_QUADRATIC, &subject, y, nls_charge);
+            gm_field_note_form(certificate, &subject, y, 1);
         }
         if (explicit) {
-            note_order(certificate, farthest, order_in_time(&subject, y), problem->name);
+            note_order(certificate, farthest, gm_field_order_in_time(&subject, y), problem->name);
             free(y);
             return;
         }
-        if (open_run(&subject, 0, y)) {
+        if (gm_field_begin(&subject, y)) {
             error[k] = error_at(&subject, 1, exact_nls);
         }
         free(y);
@@ -364,7 +292,7 @@ static double exact_dirac(const struct gm_problem *problem, size_t i, double t)
 
 static void certify_dirac(struct gm_certificate *certificate, double *farthest)
 {
-    struct subject subject = {.problem = gm_problem_dirac, .scheme = certificate->scheme};
+    struct gm_field_subject subject = {.problem = gm_problem_dirac, .scheme = certificate->scheme};
     struct gm_problem *problem = &subject.problem;
     problem->parameters = &standing;
     if (!gm_scheme_fits(certificate->scheme, problem)) {
@@ -388,10 +316,9 @@ static void certify_dirac(struct gm_certificate *certificate, double *farthest)
             }
         }
         if (k == 0) {
-            note_form(certificate, &subject, y);
-            gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), problem->name);
+            gm_field_note_form(certificate, &subject, y, 1);
         }
-        if (open_run(&subject, 0, y)) {
+        if (gm_field_begin(&subject, y)) {
             error[k] = error_at(&subject, 4, exact_dirac);
         }
         free(y);
@@ -522,6 +449,101 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
 
+/* ---- on a given equation ---- */
+
+/* Which claims a kept quantity of a field tells of: whether it is linear or quadratic, along directions that a scheme's
+   own numbers do not take part in. */
+static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_system *system, double size)
+{
+    enum { DIRECTIONS = 3 };
+    const double none = 1e-11;
+    const size_t n = system->problem->n,
+                 fixed = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
+    double *direction = calloc(n, sizeof *direction);
+    bool varies = false, linear = true, quadratic = true;
+    for (int k = 1; direction && k <= DIRECTIONS; k++) {
+        for (size_t c = 0; c < n - fixed; c++) {
+            direction[c] = size * sin(k * (double)(3 * c + 1)); /* any */
+        }
+        varies = varies || !(gm_kept_differences(kept, system->start, n, 1, direction) < none);
+        linear = linear && gm_kept_differences(kept, system->start, n, 2, direction) < none;
+        quadratic = quadratic && gm_kept_differences(kept, system->start, n, 3, direction) < none;
+    }
+    free(direction);
+    return !varies ? 0 : linear ? GM_KEEPS_LINEAR : quadratic ? GM_KEEPS_QUADRATIC : 0;
+}
+
+/* The energy of a form, which is of a scheme's own kind. */
+static double form_energy(const void *subject, const double *y)
+{
+    const struct gm_field_subject *of = subject;
+    return gm_form_energy(&of->problem, of->scheme, y);
+}
+
+/* Why no step of this length can tell of a claim; NULL: steps can. */
+static const char *no_steps(struct gm_field_subject *subject, const double *y)
+{
+    const struct gm_step_limit *limit = subject->scheme->limit;
+    if (limit && fabs(subject->dt) > limit->longest(&subject->problem, y)) {
+        return "dt is beyond the longest step of linear theory (longest_step): take a shorter one";
+    }
+    bool good = gm_field_begin(subject, y);
+    if (good) {
+        good = gm_run_advance(subject->run, GM_FIELD_STEPS) == GM_OK;
+        gm_run_close(subject->run);
+    }
+    return good ? NULL : "a run of steps of this dt fails: take a shorter one";
+}
+
+/* The order, and what an equation has that is not one of this program's: symmetry and the multisymplectic law, the
+   energy, and what the system says that it keeps. */
+static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
+                       struct gm_certificate *certificate)
+{
+    struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
+    const struct gm_field *field = gm_field_of(system->problem);
+    const double *const y = system->start, size = gm_field_size(system->problem, y);
+    const char *const name = system->problem->name;
+    const char *const failing =
+        field->equation ? "without --on it is measured on this equation" : no_steps(&subject, y);
+    certificate->order_problem = name;
+    certificate->order_reason = failing;
+    if (!failing) {
+        certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
+        gm_field_note_form(certificate, &subject, y, size);
+        if (field->wave) {
+            note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, wave_energy);
+        } else if (field->form && field->form->hessians) {
+            const struct gm_kept energy = {.value = form_energy, .data = &subject};
+            gm_certificate_note(certificate, GM_KEEPS_ENERGY, gm_field_drift(&subject, y, &energy), name);
+        }
+        for (size_t i = 0; i < system->kept_count; i++) {
+            const unsigned claim = claims_of(&system->kept[i], system, size);
+            if (claim) {
+                gm_certificate_note(certificate, (enum gm_claim)claim,
+                                    gm_field_drift(&subject, y, &system->kept[i]), system->kept[i].name);
+            }
+        }
+    }
+    certificate->order_holds = !(certificate->order <= scheme->order - 0.15);
+    const struct {
+        enum gm_claim claim;
+        const char *reason;
+    } missing[] = {{GM_MULTISYMPLECTIC, "the scheme has no such law that could be measured"},
+                   {GM_KEEPS_ENERGY, "the equation has no energy that is known"},
+                   {GM_KEEPS_LINEAR, "the system names no linear invariant"},
+                   {GM_KEEPS_QUADRATIC, "the system names no quadratic invariant"}};
+    for (size_t i = 0; i < GM_COUNT(missing); i++) {
+        gm_certificate_withhold(certificate, missing[i].claim, failing ? failing : missing[i].reason);
+    }
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (certificate->claims[bit].claimed && !certificate->claims[bit].reason) {
+            gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit),
+                                    failing ? failing : "it is measured on the scheme's own equation alone");
+        }
+    }
+}
+
 static const struct gm_family *const families[] = {
 #define GM_FAMILY(name) &gm_family_##name,
 #include "core/field/families/families.def"
@@ -535,6 +557,8 @@ const struct gm_kind gm_kind_field = {
     .words = words,
     .facets = facets,
     .certify = certify,
+    .certify_on = certify_on,
+    .most_certified = 100000,
     .families = families,
     .quantities = gm_field_quantities,
 };

@@ -13,13 +13,13 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 
-enum { MOST = 2 * GM_SUBJECT_COMPONENTS, LEVELS = 4 };
+enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS, LEVELS = 4 };
 
 /* The derivative of one step at the start; the error of its entries is what the last extrapolation still
    changes. Under constraints the members begin on the manifold, as close as may be to where they would
    without; `start` is the derivative of where they begin, else the identity. */
 struct derivative {
-    double at[MOST][MOST], start[MOST][MOST];
+    double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
     double error, largest;
 };
 
@@ -161,7 +161,8 @@ static struct defect of_derivative(const struct gm_subject *subject, const struc
 }
 
 /* form + dq ^ dp, summed over the copies of phase space, of two columns */
-static double add_form(double form, const double (*tangent)[MOST], size_t all, size_t n, size_t a, size_t b)
+static double add_form(double form, const double (*tangent)[TANGENTS], size_t all, size_t n, size_t a,
+                       size_t b)
 {
     for (size_t copy = 0; copy < all; copy += n) {
         for (size_t q = copy; q < copy + n / 2; q++) {
@@ -263,7 +264,7 @@ double gm_poisson_defect(const struct gm_subject *subject, const struct gm_schem
 static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  const struct derivative *derivative)
 {
-    const double(*tangent)[MOST] = derivative->at;
+    const double(*tangent)[TANGENTS] = derivative->at;
     (void)subject;
     (void)scheme;
     (void)dt;

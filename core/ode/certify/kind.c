@@ -136,7 +136,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
              gm_reversibility_defect(subject, scheme, tolerance(certificate, GM_REVERSIBLE)), name);
     }
     const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
-    if (!scheme->family->own_time) {
+    if (!scheme->family->own_time && subject->problem.n <= GM_SUBJECT_TANGENTS) {
         if (subject->hamiltonian) {
             note(certificate, GM_SYMPLECTIC,
                  gm_symplecticity_defect(subject, scheme, tolerance(certificate, GM_SYMPLECTIC)), name);
@@ -181,23 +181,6 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     }
 }
 
-/* A polynomial's differences of this many steps along a direction, beside the size of its values. */
-static double differences(const struct gm_subject *subject, const struct gm_kept *kept, int steps,
-                          const double *direction)
-{
-    static const double weights[][4] = {{0}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
-    double y[GM_SUBJECT_COMPONENTS], sum = 0, size = 0;
-    for (int i = 0; i <= steps; i++) {
-        for (size_t c = 0; c < subject->problem.n; c++) {
-            y[c] = subject->start[c] + i * direction[c];
-        }
-        const double value = weights[steps][i] * kept->value(kept->data, y);
-        sum += value;
-        size += fabs(value);
-    }
-    return size > 0 ? fabs(sum) / size : 0;
-}
-
 /* Which claim a kept quantity tells of: whether it is linear, of the form q' A p, quadratic; of the form p'
    x(q), x affine, it is the momentum map of the symmetry whose generator is x (Noether's theorem, read
    backwards). 0: none. */
@@ -213,11 +196,11 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
             all[c] = subject->scale * sin(k * (double)(3 * c + 1)); /* any direction */
             *(c < half ? &q[c] : &p[c]) = all[c];
         }
-        varies = varies || !(differences(subject, kept, 1, all) < none);
-        linear = linear && differences(subject, kept, 2, all) < none;
-        quadratic = quadratic && differences(subject, kept, 3, all) < none;
-        bilinear =
-            bilinear && differences(subject, kept, 2, q) < none && differences(subject, kept, 2, p) < none;
+        varies = varies || !(gm_kept_differences(kept, subject->start, n, 1, all) < none);
+        linear = linear && gm_kept_differences(kept, subject->start, n, 2, all) < none;
+        quadratic = quadratic && gm_kept_differences(kept, subject->start, n, 3, all) < none;
+        bilinear = bilinear && gm_kept_differences(kept, subject->start, n, 2, q) < none &&
+                   gm_kept_differences(kept, subject->start, n, 2, p) < none;
         of_momenta =
             of_momenta && fabs(kept->value(kept->data, q)) <= none * fabs(kept->value(kept->data, all));
     }
@@ -227,6 +210,36 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
            : !quadratic ? 0
            : bilinear   ? GM_KEEPS_BILINEAR | GM_KEEPS_QUADRATIC | map
                         : GM_KEEPS_QUADRATIC;
+}
+
+/* Whether a field's equations on its grid keep a quantity: what the continuum keeps, derivatives in space may not. By its
+   change along the rates, at the start and further along them, where there are as many mirrors as at the start. */
+static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    enum { STATES = 3 };
+    const size_t n = subject->problem.n;
+    double y[GM_SUBJECT_COMPONENTS], rate[GM_SUBJECT_COMPONENTS], side[GM_SUBJECT_COMPONENTS];
+    bool good = true;
+    memcpy(y, subject->start, n * sizeof *y);
+    for (int k = 0; good && k < STATES; k++) {
+        double fastest = 0, value[2];
+        gm_field(&subject->problem, y, rate, 1);
+        for (size_t c = 0; c < n; c++) {
+            fastest = fmax(fastest, fabs(rate[c]));
+        }
+        const double step = fastest > 0 ? subject->scale / fastest : 0;
+        for (int end = 0; end < 2; end++) {
+            for (size_t c = 0; c < n; c++) {
+                side[c] = y[c] + (end ? step : -step) * rate[c];
+            }
+            value[end] = kept->value(kept->data, side);
+        }
+        good = fabs(value[1] - value[0]) <= 1e-10 * (fabs(value[0]) + fabs(value[1]));
+        for (size_t c = 0; c < n; c++) {
+            y[c] += 0.3 * step * rate[c];
+        }
+    }
+    return good;
 }
 
 /* Whether the bracket of a quantity with every component is 0, as far as differences tell. */
@@ -300,7 +313,11 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         certificate->order = gm_measure_order(&subject, scheme, &certificate->ladder);
     }
     certificate->order_problem = system->problem->name;
+    const bool on_a_grid = system->problem->line.points > 0;
     for (size_t i = 0; i < system->kept_count; i++) {
+        if (on_a_grid && !is_kept_on_the_grid(&subject, &system->kept[i])) {
+            continue;
+        }
         const unsigned claims = claims_of(&subject, &system->kept[i]) |
                                 (is_casimir(&subject, &system->kept[i]) ? GM_KEEPS_CASIMIRS : 0);
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -320,16 +337,22 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     const char *const no_energy = "the system has no Hamiltonian of the whole state";
-    gm_certificate_withhold(certificate, GM_SYMPLECTIC,
-                            subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
+    const char *const no_derivative = n > GM_SUBJECT_TANGENTS
+                                          ? "a step is differentiated for at most 64 components"
+                                          : "the scheme chooses its steps";
+    gm_certificate_withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? no_derivative : no_energy);
     gm_certificate_withhold(certificate, GM_REVERSIBLE,
                             subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round"
                                                 : no_energy);
     gm_certificate_withhold(certificate, GM_KEEPS_ENERGY, no_energy);
     gm_certificate_withhold(certificate, GM_KEEPS_VOLUME,
                             "the system is not of three components without divergence");
-    gm_certificate_withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
-    gm_certificate_withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
+    gm_certificate_withhold(certificate, GM_KEEPS_LINEAR,
+                            on_a_grid ? "no linear invariant is named that its derivatives in space keep"
+                                      : "the system names no linear invariant");
+    gm_certificate_withhold(certificate, GM_KEEPS_QUADRATIC,
+                            on_a_grid ? "no quadratic invariant is named that its derivatives in space keep"
+                                      : "the system names no quadratic invariant");
     gm_certificate_withhold(certificate, GM_KEEPS_BILINEAR,
                             "the system names no invariant of the form q' A p");
     gm_certificate_withhold(certificate, GM_KEEPS_MOMENTUM_MAPS,
@@ -337,8 +360,9 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     gm_certificate_withhold(certificate, GM_KEEPS_CASIMIRS,
                             ode->poisson ? "the system names no Casimir" : "the system has no bracket");
     gm_certificate_withhold(certificate, GM_POISSON_MAP,
-                            ode->poisson ? "the scheme chooses its steps" : "the system has no bracket");
-    gm_certificate_withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
+                            ode->poisson ? no_derivative : "the system has no bracket");
+    gm_certificate_withhold(certificate, GM_CONFORMAL,
+                            subject.friction != 0 ? no_derivative : "the system has no friction -c p");
     gm_certificate_withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
     gm_certificate_withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {

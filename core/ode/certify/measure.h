@@ -7,8 +7,8 @@
 
 /* What kind.c certifies by: the problems that schemes are certified on, and the measurements. */
 
-/* Components of those of the program, and of any. */
-enum { GM_SUBJECT_COMPONENTS = 64, GM_SUBJECT_INVARIANTS = 2 };
+/* Components of any, and of those of which the derivative of a step is taken. */
+enum { GM_SUBJECT_COMPONENTS = 4096, GM_SUBJECT_TANGENTS = 64, GM_SUBJECT_INVARIANTS = 2 };
 
 /* A quantity that some schemes keep. */
 typedef double gm_invariant(const struct gm_problem *problem, const double *y);

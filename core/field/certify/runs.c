@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Short runs of a field: there and back, over what a scheme keeps, and on finer and finer grids. */
+#include "core/field/certify/runs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/field/multisymplectic.h"
+#include "core/larger.h"
+
+static const struct gm_settings no_settings;
+
+size_t gm_field_numbers(const struct gm_problem *problem)
+{
+    return problem->n == gm_wave_size(problem->line.points) ? problem->line.points : problem->n;
+}
+
+double gm_field_size(const struct gm_problem *problem, const double *y)
+{
+    double size = 1;
+    for (size_t i = 0; i < gm_field_numbers(problem); i++) {
+        size = fmax(size, fabs(y[i]));
+    }
+    return size;
+}
+
+bool gm_field_begin(struct gm_field_subject *subject, const double *y)
+{
+    subject->run = gm_run_open(&subject->problem, subject->scheme, &no_settings, 0, subject->dt, y);
+    return subject->run != NULL;
+}
+
+/* Whether a component has a rate that is its own: others follow from those by slopes and sums, with the round-off and,
+   where they begin as sums, with the errors that these have. */
+static bool moves(const struct gm_problem *problem, size_t component)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    const bool all = form && form->hessians;
+    bool rate = !all;
+    for (size_t row = 0; all && row < form->dimension; row++) {
+        rate = rate || form->m[row * form->dimension + component] != 0;
+    }
+    for (size_t k = 0; all && k < form->potential_count; k++) {
+        rate = rate && form->potentials[k].component != component;
+    }
+    return rate;
+}
+
+/* How far states are apart where both have nodes: one grid has `finer` nodes for every one of the problem's. */
+static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
+{
+    const size_t points = problem->line.points, components = gm_field_numbers(problem) / points;
+    double largest = 0;
+    for (size_t c = 0; c < components; c++) {
+        for (size_t i = 0; i < points && moves(problem, c); i++) {
+            largest = gm_larger(fabs(y[c * points + i] - other[finer * (c * points + i)]), largest);
+        }
+    }
+    return largest;
+}
+
+/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
+   levels. */
+static double return_defect(struct gm_field_subject *subject, const double *y)
+{
+    const size_t numbers = gm_field_numbers(&subject->problem);
+    double *first = malloc(numbers * sizeof *first), largest = INFINITY;
+    if (first && gm_field_begin(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        memcpy(first, gm_run_state(subject->run), numbers * sizeof *first);
+        gm_run_advance(subject->run, 7);
+        gm_run_set_step(subject->run, -subject->dt);
+        if (gm_run_advance(subject->run, 7) == GM_OK) {
+            largest = apart(&subject->problem, gm_run_state(subject->run), first, 1);
+        }
+        gm_run_close(subject->run);
+    }
+    free(first);
+    return largest;
+}
+
+void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
+                        double size)
+{
+    const char *const name = subject->problem.name;
+    gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, name);
+    if (!gm_field_begin(subject, y)) {
+        return;
+    }
+    gm_run_advance(subject->run, 25);
+    const double defect = gm_form_defect(&subject->problem, subject->scheme, subject->dt,
+                                         gm_run_state(subject->run), gm_run_memory(subject->run));
+    if (!isnan(defect)) {
+        gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
+        gm_certificate_note(certificate, GM_MULTISYMPLECTIC, defect, name);
+    }
+    gm_run_close(subject->run);
+}
+
+double gm_field_drift(struct gm_field_subject *subject, const double *y, const struct gm_kept *kept)
+{
+    double change = INFINITY;
+    if (gm_field_begin(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        const double before = kept->value(kept->data, gm_run_state(subject->run));
+        if (gm_run_advance(subject->run, GM_FIELD_STEPS - 1) == GM_OK) {
+            change =
+                fabs(kept->value(kept->data, gm_run_state(subject->run)) - before) / fmax(1, fabs(before));
+        }
+        gm_run_close(subject->run);
+    }
+    return change;
+}
+
+double gm_field_order_in_time(struct gm_field_subject *subject, const double *y)
+{
+    const size_t points = subject->problem.line.points;
+    double *end = calloc(3 * points, sizeof *end), change[2] = {0};
+    bool good = end != NULL;
+    for (size_t k = 0; good && k < 3; k++) {
+        struct gm_field_subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
+        good = gm_field_begin(&part, y);
+        if (good) {
+            good = gm_run_until(part.run, 1) == GM_OK;
+            memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
+            gm_run_close(part.run);
+        }
+    }
+    for (size_t k = 0; good && k < 2; k++) {
+        change[k] = gm_distance(end + k * points, end + (k + 1) * points, points);
+    }
+    free(end);
+    return good ? log2(change[0] / change[1]) : NAN;
+}
+
+/* ---- on finer and finer grids ---- */
+
+enum { LEVELS = 4, STEPS = 16 };
+
+/* The errors of runs, and by how much each differs from the next finer one. */
+struct refined {
+    double dt[LEVELS], error[LEVELS], change[LEVELS]; /* error: NaN where no exact solution is told */
+    size_t count;
+};
+
+/* One level more: the state after the same time, malloc'ed; NULL where a step fails or memory is short. */
+static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                      struct refined *refined)
+{
+    struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
+    const size_t n = subject.problem.n, k = refined->count;
+    double *end = malloc(n * sizeof *end);
+    bool good = end && gm_field_begin(&subject, system->start);
+    if (good) {
+        good = gm_run_advance(subject.run, (long)STEPS << k) == GM_OK;
+        memcpy(end, gm_run_state(subject.run), n * sizeof *end);
+        refined->dt[k] = system->dt;
+        refined->error[k] = system->error ? system->error(system->error_data, subject.run->t, end) : NAN;
+        refined->count++;
+        gm_run_close(subject.run);
+    }
+    if (!good) {
+        free(end);
+        end = NULL;
+    }
+    return end;
+}
+
+/* An exact solution closes on its ring but for a thousandth of its size: where that hides what is left of an error,
+   differences tell the order. */
+static double tell(const struct refined *refined, double by_differences, double wanted, double size,
+                   struct gm_ladder *ladder)
+{
+    const size_t last = refined->count - 1;
+    const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
+    const bool exactly =
+        by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
+    ladder->count = exactly ? last + 1 : last;
+    for (size_t k = 0; k < ladder->count; k++) {
+        ladder->dt[k] = refined->dt[k];
+        ladder->error[k] = exactly ? refined->error[k] : refined->change[k];
+    }
+    ladder->settled = true;
+    return exactly ? by_errors : by_differences;
+}
+
+double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                      struct gm_ladder *ladder, const char **reason)
+{
+    const double wanted = scheme->order - 0.15;
+    struct refined refined = {.count = 0};
+    double *before = NULL, size = 1, order = NAN, slope_before = NAN;
+    const struct gm_problem *coarse = NULL;
+    *reason =
+        "differences between runs on finer and finer grids do not fall by one power: take more points and a "
+        "shorter dt, or a start that closes better on its ring";
+    for (; system && refined.count < LEVELS && isnan(order); system = system->finer) {
+        const size_t k = refined.count;
+        double *state = refine(system, scheme, &refined);
+        if (!state) {
+            *reason = "a run on a finer grid fails";
+            break;
+        }
+        if (k == 0) {
+            size = gm_field_size(system->problem, system->start);
+        } else {
+            const double change = apart(coarse, before, state, 2);
+            const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
+            refined.change[k - 1] = change;
+            if (change < 1e-11 * size) {
+                *reason = "differences between runs on finer grids do not stand clear of round-off";
+                free(state);
+                break;
+            }
+            /* an order above that which is claimed may be one of grids that are too coarse for it */
+            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
+                              fabs(slope - slope_before) < 0.15 ||
+                              (slope > wanted && (k + 1 == LEVELS || !system->finer));
+            if (told) {
+                order = tell(&refined, slope, wanted, size, ladder);
+            }
+            slope_before = slope;
+        }
+        coarse = system->problem;
+        free(before);
+        before = state;
+    }
+    free(before);
+    *reason = isnan(order) ? *reason : NULL;
+    return order;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_CERTIFY_RUNS_H
+#define GM_CORE_FIELD_CERTIFY_RUNS_H
+
+#include "core/certify.h"
+#include "core/run.h"
+
+/* Short runs of a field that tell what a scheme does to it. */
+
+enum { GM_FIELD_STEPS = 61 }; /* that none is longer than, of those from a system's own start */
+
+/* What is certified on an equation. */
+struct gm_field_subject {
+    struct gm_problem problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    struct gm_run *run; /* of gm_field_begin, to be closed */
+};
+
+/* How many numbers of the state the field itself has: u, or all components; the rest is what a scheme of two steps
+   holds. */
+size_t gm_field_numbers(const struct gm_problem *problem);
+
+/* The largest of them; 1 where that is less. */
+double gm_field_size(const struct gm_problem *problem, const double *y);
+
+/* A run from the state y at 0; false where memory is short. */
+bool gm_field_begin(struct gm_field_subject *subject, const double *y);
+
+/* Notes the defects of symmetry, after 8 steps forth and 7 back, of numbers of this size, and of the multisymplectic
+   law after 25 steps, where the scheme has one. */
+void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
+                        double size);
+
+/* The relative change of a quantity from the state after one step over 60 more; INFINITY: a step fails. */
+double gm_field_drift(struct gm_field_subject *subject, const double *y, const struct gm_kept *kept);
+
+/* The order in time on one grid, to t = 1, from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
+double gm_field_order_in_time(struct gm_field_subject *subject, const double *y);
+
+/* The order over 16 steps, by a system and what is finer, as a slope of the error where an exact solution is told that
+   closes on the ring, else of the differences between a run and the next finer one. NaN with the reason where none can
+   be told. */
+double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                      struct gm_ladder *ladder, const char **reason);
+
+#endif
