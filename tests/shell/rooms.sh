@@ -199,6 +199,8 @@ refused 1 'no physical group "dor" of curves; .* door, vent, window, hatch, pill
 refused 1 'on the wall of a hole' run room "mesh=$meshes/hole.msh" inlet=pillar outlet=window steps=1
 refused 3 'must be Delaunay, or star=barycentric$' run room "mesh=$meshes/hole.msh" star=circumcentric inlet=door outlet=window steps=1
 refused 1 'star= has no effect here' run room star=barycentric steps=1
+status 0 run room "mesh=$meshes/hole.msh" star=galerkin inlet=door outlet=window steps=1 --json
+grep -q '"star":"barycentric"' out || fail "galerkin is another star"
 refused 1 'refine= has no effect here' run room refine=2 steps=1
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 refine=1 steps=2 --json
 coarse=$(grep -o '"triangles":[0-9]*' out | cut -d: -f2)
@@ -258,7 +260,7 @@ wrong() {
         printf '%b\n' "$2"; } | sed "${3:-}" >wrong.room
     refused 1 "$1" run ./wrong.room steps=1
 }
-wrong 'wrong.room:5:1: a room has no line inlt:' 'inlt: vent flow = 1'
+wrong 'wrong.room:5:1: a room has no line inlt:.* probe: start:$' 'inlt: vent flow = 1'
 wrong 'wrong.room:5:8: inlet: needs speed = or flow =' 'inlet: vent'
 wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' 'inlet: vent tangential = 1'
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
