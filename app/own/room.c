@@ -74,7 +74,7 @@ static const struct gm_scene *make(struct made *made, const char *word, const ch
         size_t line, column;
         gm_text_place(made->text, fault.offset, &line, &column);
         if (fault.sentence[0] && gm_memory_refusals() == refusals) {
-            gm_refuse(message, "%.150s:%zu:%zu: %.200s", path, line, column, fault.sentence);
+            gm_refuse(message, "%.150s:%zu:%zu: %.300s", path, line, column, fault.sentence);
             gm_place_show(made->text, length, fault.offset, message);
         } else {
             *status = GM_EXIT_MEMORY;

@@ -420,7 +420,7 @@ static bool take_star(struct gm_complex *complex, enum gm_star star, const long 
 {
     struct gm_triangulation_fault obstacle = {.kind = GM_TRIANGULATION_OK};
     complex->star = GM_STAR_CIRCUMCENTRIC;
-    if (star != GM_STAR_BARYCENTRIC && check_stars(complex, tags, &obstacle)) {
+    if ((star == GM_STAR_AUTO || star == GM_STAR_CIRCUMCENTRIC) && check_stars(complex, tags, &obstacle)) {
         return true;
     }
     if (star == GM_STAR_CIRCUMCENTRIC) {

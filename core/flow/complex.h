@@ -52,6 +52,7 @@ enum gm_star {
     GM_STAR_AUTO, /* circumcentric where that is positive, else barycentric */
     GM_STAR_CIRCUMCENTRIC,
     GM_STAR_BARYCENTRIC,
+    GM_STAR_GALERKIN, /* the same, by his name */
 };
 
 /* An oriented two-dimensional simplicial complex with its dual. Triangles run

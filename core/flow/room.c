@@ -298,14 +298,31 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
     return true;
 }
 
+/* Where the line begins that says this. */
+static size_t place_of(const struct gm_room *room, const char *word)
+{
+    struct gm_text_line line;
+    struct gm_fault fault;
+    size_t at = 0;
+    while (gm_lines_next(room->text, strlen(room->text), &at, &line, &fault)) {
+        if (strlen(word) == line.word.end - line.word.begin &&
+            strncmp(room->text + line.word.begin, word, strlen(word)) == 0) {
+            return line.word.begin;
+        }
+    }
+    return 0;
+}
+
 /* What is said in one of two ways, and whether all is said. */
 static bool complete(struct gm_room *room, struct gm_fault *fault)
 {
     if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
-        return gm_fail(fault, 0, "viscosity: and reynolds: say the same; a room has one of them");
+        return gm_fail(fault, place_of(room, "reynolds"),
+                       "viscosity: and reynolds: say the same; a room has one of them");
     }
     if (!isnan(room->diffusivity) && !isnan(room->schmidt)) {
-        return gm_fail(fault, 0, "diffusivity: and schmidt: say the same; a room has one of them");
+        return gm_fail(fault, place_of(room, "schmidt"),
+                       "diffusivity: and schmidt: say the same; a room has one of them");
     }
     room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
     if (!room->mesh || isnan(room->viscosity)) {
@@ -317,7 +334,8 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
                                                    : room->diffusivity;
     const double ratio = room->viscosity / room->diffusivity;
     if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most)) {
-        return gm_fail(fault, 0, "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
+        return gm_fail(fault, place_of(room, "diffusivity"),
+                       "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
                        gm_room_schmidt.least, gm_room_schmidt.most);
     }
     size_t warm = 0, place = 0;
@@ -333,9 +351,10 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
             "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
     if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
-        return gm_fail(fault, 0,
+        const char *word = isnan(room->buoyancy) ? "reference-temperature" : "buoyancy";
+        return gm_fail(fault, place_of(room, word),
                        "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
-                       isnan(room->buoyancy) ? "reference-temperature" : "buoyancy");
+                       word);
     }
     room->reference_temperature =
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;

@@ -49,6 +49,7 @@ static bool list_unknowns(struct gm_flow_solver *solver)
 static bool take_memory(struct gm_flow_solver *solver)
 {
     const struct gm_complex *complex = solver->flow->complex;
+    const bool psi = !solver->vorticity_form;
     const size_t v = complex->vertices, z = solver->unknowns.count + solver->soft;
     const struct {
         double **place;
@@ -63,7 +64,9 @@ static bool take_memory(struct gm_flow_solver *solver)
         {&solver->b, z + solver->warm},
         {&solver->x, z + solver->warm},
         {&solver->small_b, z},
-        {&solver->gmres, solver->vorticity_form ? 0 : gm_gmres_scratch(z)},
+        {&solver->convection.diagonal, psi ? v : 0},
+        {&solver->convection.ring, psi ? 2 * complex->edges : 0},
+        {&solver->gmres, psi ? gm_gmres_scratch(z) : 0},
         {&solver->bicgstab, 8 * v},
     };
     size_t total = 0;
@@ -111,6 +114,7 @@ struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
         return NULL;
     }
     solver->flow = flow->give ? solver->now : flow;
+    solver->convection.complex = solver->flow->complex;
     solver->energy_limit = INFINITY;
     solver->vorticity_form = gm_flow_is_vorticity_form(flow);
     bool good = gm_unknowns_open(&solver->unknowns, flow) && list_unknowns(solver) && take_memory(solver) &&
@@ -200,33 +204,39 @@ static void apply(void *data, const double *z, double *y)
     }
 }
 
+/* The convection C of solver->transport, but for the soft vertices' columns, which keep B. */
+static void take_convection(struct gm_flow_solver *solver)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    const struct gm_transport *transport = &solver->transport;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double spread = 0;
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            const double star = solver->viscosity * complex->star1[complex->ring_edge[k]];
+            const bool soft = solver->flow->kind[complex->ring_vertex[k]] == GM_VERTEX_SOFT;
+            spread += star;
+            solver->convection.ring[k] = transport->ring[k] + (soft ? 0 : star);
+        }
+        solver->convection.diagonal[v] = transport->diagonal[v] - solver->shift * complex->star0[v] - spread;
+    }
+}
+
 static void precondition(void *data, const double *r, double *z)
 {
     struct gm_flow_solver *solver = data;
-    const struct gm_complex *complex = solver->flow->complex;
     const struct gm_unknowns *unknowns = &solver->unknowns;
-    const struct gm_transport *transport = &solver->transport;
     double *b = solver->small_b, *right = solver->rate, *omega = solver->field;
-    for (size_t v = 0; v < complex->vertices; v++) {
+    for (size_t v = 0; v < solver->flow->complex->vertices; v++) {
         right[v] = unknowns->index[v] < 0 ? 0 : r[unknowns->index[v]];
     }
     for (size_t i = 0; i < solver->soft; i++) {
         right[solver->soft_vertex[i]] = r[unknowns->count + i];
     }
-    gm_transport_precondition(transport, right, omega);
-    memcpy(b, r, unknowns->count * sizeof *b);
-    for (size_t i = 0; i < (size_t)unknowns->start[unknowns->count]; i++) {
-        const int v = unknowns->vertex[i];
-        double convected = 0, spread = 0;
-        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-            const int w = complex->ring_vertex[k];
-            const double star = solver->viscosity * complex->star1[complex->ring_edge[k]];
-            spread += star;
-            convected +=
-                (transport->ring[k] + (solver->flow->kind[w] == GM_VERTEX_SOFT ? 0 : star)) * omega[w];
-        }
-        convected += (transport->diagonal[v] - solver->shift * complex->star0[v] - spread) * omega[v];
-        b[unknowns->index[v]] -= convected;
+    gm_transport_precondition(&solver->transport, right, omega);
+    gm_transport_apply(&solver->convection, omega, right);
+    gm_unknowns_gather(unknowns, right, b);
+    for (size_t i = 0; i < unknowns->count; i++) {
+        b[i] = r[i] - b[i];
     }
     for (size_t i = 0; i < solver->soft; i++) {
         z[unknowns->count + i] = omega[solver->soft_vertex[i]];
@@ -476,6 +486,7 @@ bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned
         }
     }
     gm_transport_factor(&solver->transport, solver->held);
+    take_convection(solver);
     const struct gm_system system = {n, apply, precondition, solver};
     return gm_gmres(&system, solver->b, solver->x, tolerance * size, solver->gmres, iterations) ||
            solve_directly(solver, NULL, NULL);

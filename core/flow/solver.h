@@ -24,6 +24,7 @@ struct gm_flow_solver {
     struct gm_cholesky *stokes;
     unsigned long factor_solves;         /* systems solved with poisson and stokes in steps, so far */
     struct gm_transport transport, heat; /* the latter of temperature in steady states */
+    struct gm_transport convection;      /* what the preconditioner takes of transport, as a matrix */
     struct gm_transport carried;         /* of the scalar, which is carried while the flow moves on */
     double *numbers;                     /* the memory of all that follows */
     double *flux, *centre;               /* edges, triangles */

@@ -102,29 +102,29 @@ void gm_transport_precondition(const struct gm_transport *transport, const doubl
 {
     const struct gm_complex *complex = transport->complex;
     const int *start = complex->ring_start, *vertex = complex->ring_vertex;
-    /* each row waits for the one before, whose x is taken before it is in memory */
+    /* each row waits for the one before: for a product and a difference, of an x that is taken before it is in memory */
     double last = 0;
     for (int v = 0; v < (int)complex->vertices; v++) {
-        double sum = r[v];
+        double sum = r[v], next = 0;
         int k = start[v];
         for (; k < start[v + 1] && vertex[k] < v - 1; k++) {
             sum -= transport->ring[k] * x[vertex[k]];
         }
         if (k < start[v + 1] && vertex[k] == v - 1) {
-            sum -= transport->ring[k] * last;
+            next = transport->pivot[v] * transport->ring[k];
         }
-        x[v] = last = transport->pivot[v] * sum;
+        x[v] = last = transport->pivot[v] * sum - next * last;
     }
     for (int v = (int)complex->vertices - 1; v >= 0; v--) {
-        double sum = 0;
+        double sum = 0, next = 0;
         int k = start[v + 1] - 1;
         for (; k >= start[v] && vertex[k] > v + 1; k--) {
             sum += transport->ring[k] * x[vertex[k]];
         }
         if (k >= start[v] && vertex[k] == v + 1) {
-            sum += transport->ring[k] * last;
+            next = transport->pivot[v] * transport->ring[k];
         }
-        x[v] = last = x[v] - transport->pivot[v] * sum;
+        x[v] = last = x[v] - transport->pivot[v] * sum - next * last;
     }
 }
 

@@ -13,8 +13,8 @@ struct gm_cholesky;
 /* Opens the libraries, if they are not yet; NULL, or why they cannot be. Without them nothing is factored. */
 const char *gm_cholesky_missing(void);
 
-/* A rough factor stands in single precision, in half the memory, where a solution keeps three digits then; it
-   preconditions. */
+/* A rough factor stands in single precision or, a large one, in whole numbers of 16 bits, where a solution keeps
+   most of itself then; it preconditions. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 
 /* Rows start[i] .. start[i + 1] of columns, those <= i. NULL when memory is short or the

@@ -1,18 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangular solves in one precision: core/linear/supernodes.c includes this with REAL, the type, LANES, how
-   many of them sums are split into, VALUES, where they stand, and PASS(name). Panels are read once, four
-   columns at a time: it is memory that takes the time. */
+/* Triangular solves in one precision: core/linear/supernodes.c includes this with REAL, the type they are made
+   in, STORED, that of the values, LANES, how many of them sums are split into, VALUES, where they stand, and
+   PASS(name). Panels are read once, four columns at a time: it is memory that takes the time. */
 
 typedef REAL PASS(lanes) __attribute__((vector_size(LANES * sizeof(REAL)), aligned(sizeof(REAL)), may_alias));
+/* Values in the precision that solves are made in. What is wanted after them stands `ahead` bytes from them. */
+static inline __attribute__((always_inline)) const REAL *PASS(read)(const STORED *value, size_t count,
+                                                                    ptrdiff_t ahead, REAL *restrict into)
+{
+    if (sizeof(REAL) == sizeof(STORED)) {
+        return (const REAL *)(const void *)value;
+    }
+    for (size_t i = 0; i < count; i += 64 / sizeof(STORED)) {
+        __builtin_prefetch((const char *)(value + i) + ahead);
+    }
+    for (size_t i = 0; i < count; i++) {
+        into[i] = (REAL)value[i];
+    }
+    return into;
+}
 
 /* L x = b */
-GM_CLONES static void PASS(forward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t)
+GM_CLONES static void PASS(forward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t,
+                                    REAL *restrict buffer)
 {
     for (size_t s = 0; s < triangle->supernodes; s++) {
         const int *row = triangle->row + triangle->row_start[s];
-        const REAL *panel = triangle->VALUES + triangle->value_start[s];
+        const STORED *panel = triangle->VALUES + triangle->value_start[s];
         const size_t rows = (size_t)(triangle->row_start[s + 1] - triangle->row_start[s]),
                      columns = (size_t)(triangle->first[s + 1] - triangle->first[s]);
+        const double *inverse = triangle->inverse + triangle->first[s];
         REAL *mine = x + triangle->first[s];
         for (size_t i = 0; i < columns; i++) {
             t[i] = mine[i];
@@ -22,11 +39,11 @@ GM_CLONES static void PASS(forward)(const struct gm_supernodes *triangle, REAL *
         }
         size_t j = 0;
         for (; j + 4 <= columns; j += 4) {
-            const REAL *restrict a = panel + j * rows, *restrict b = a + rows, *restrict c = b + rows,
-                                 *restrict d = c + rows;
-            const REAL p = t[j] * a[j], q = (t[j + 1] - a[j + 1] * p) * b[j + 1],
-                       r = (t[j + 2] - a[j + 2] * p - b[j + 2] * q) * c[j + 2],
-                       u = (t[j + 3] - a[j + 3] * p - b[j + 3] * q - c[j + 3] * r) * d[j + 3];
+            const REAL *restrict a = PASS(read)(panel + j * rows, 4 * rows, 4096, buffer),
+                                 *restrict b = a + rows, *restrict c = b + rows, *restrict d = c + rows;
+            const REAL p = t[j] * (REAL)inverse[j], q = (t[j + 1] - a[j + 1] * p) * (REAL)inverse[j + 1],
+                       r = (t[j + 2] - a[j + 2] * p - b[j + 2] * q) * (REAL)inverse[j + 2],
+                       u = (t[j + 3] - a[j + 3] * p - b[j + 3] * q - c[j + 3] * r) * (REAL)inverse[j + 3];
             t[j] = p;
             t[j + 1] = q;
             t[j + 2] = r;
@@ -36,8 +53,8 @@ GM_CLONES static void PASS(forward)(const struct gm_supernodes *triangle, REAL *
             }
         }
         for (; j < columns; j++) {
-            const REAL *restrict a = panel + j * rows;
-            const REAL p = t[j] * a[j];
+            const REAL *restrict a = PASS(read)(panel + j * rows, rows, 4096, buffer);
+            const REAL p = t[j] * (REAL)inverse[j];
             t[j] = p;
             for (size_t i = j + 1; i < rows; i++) {
                 t[i] -= a[i] * p;
@@ -62,13 +79,15 @@ static inline __attribute__((always_inline)) REAL PASS(sum)(PASS(lanes) lanes)
 }
 
 /* L' x = b */
-GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t)
+GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t,
+                                     REAL *restrict buffer)
 {
     for (size_t s = triangle->supernodes; s-- > 0;) {
         const int *row = triangle->row + triangle->row_start[s];
-        const REAL *panel = triangle->VALUES + triangle->value_start[s];
+        const STORED *panel = triangle->VALUES + triangle->value_start[s];
         const size_t rows = (size_t)(triangle->row_start[s + 1] - triangle->row_start[s]),
                      columns = (size_t)(triangle->first[s + 1] - triangle->first[s]);
+        const double *inverse = triangle->inverse + triangle->first[s];
         REAL *mine = x + triangle->first[s];
         for (size_t i = 0; i < columns; i++) {
             t[i] = mine[i];
@@ -78,15 +97,16 @@ GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL 
         }
         size_t j = columns;
         for (; j % 4 > 0; j--) {
-            const REAL *a = panel + (j - 1) * rows;
+            const REAL *a = PASS(read)(panel + (j - 1) * rows, rows, -4096, buffer);
             REAL p = 0;
             for (size_t i = j; i < rows; i++) {
                 p += a[i] * t[i];
             }
-            t[j - 1] = (t[j - 1] - p) * a[j - 1];
+            t[j - 1] = (t[j - 1] - p) * (REAL)inverse[j - 1];
         }
         for (; j > 0; j -= 4) {
-            const REAL *a = panel + (j - 4) * rows, *b = a + rows, *c = b + rows, *d = c + rows;
+            const REAL *a = PASS(read)(panel + (j - 4) * rows, 4 * rows, -4096, buffer), *b = a + rows,
+                       *c = b + rows, *d = c + rows;
             PASS(lanes) wide[4] = {{0}};
             REAL p = 0, q = 0, r = 0, u = 0;
             size_t i = j;
@@ -103,13 +123,13 @@ GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL 
                 r += c[i] * t[i];
                 u += d[i] * t[i];
             }
-            t[j - 1] = (t[j - 1] - (u + PASS(sum)(wide[3]))) * d[j - 1];
-            t[j - 2] = (t[j - 2] - (r + PASS(sum)(wide[2])) - c[j - 1] * t[j - 1]) * c[j - 2];
-            t[j - 3] =
-                (t[j - 3] - (q + PASS(sum)(wide[1])) - b[j - 1] * t[j - 1] - b[j - 2] * t[j - 2]) * b[j - 3];
+            t[j - 1] = (t[j - 1] - (u + PASS(sum)(wide[3]))) * (REAL)inverse[j - 1];
+            t[j - 2] = (t[j - 2] - (r + PASS(sum)(wide[2])) - c[j - 1] * t[j - 1]) * (REAL)inverse[j - 2];
+            t[j - 3] = (t[j - 3] - (q + PASS(sum)(wide[1])) - b[j - 1] * t[j - 1] - b[j - 2] * t[j - 2]) *
+                       (REAL)inverse[j - 3];
             t[j - 4] = (t[j - 4] - (p + PASS(sum)(wide[0])) - a[j - 1] * t[j - 1] - a[j - 2] * t[j - 2] -
                         a[j - 3] * t[j - 3]) *
-                       a[j - 4];
+                       (REAL)inverse[j - 4];
         }
         for (size_t i = 0; i < columns; i++) {
             mine[i] = t[i];
@@ -118,6 +138,7 @@ GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL 
 }
 
 #undef REAL
+#undef STORED
 #undef LANES
 #undef VALUES
 #undef PASS

@@ -15,7 +15,7 @@
 const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[] = {SHOWS, "temperature",
                                                                                     NULL};
 
-const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", NULL};
+const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
 /* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
 static void explain(const char *what, const struct gm_triangulation_fault *fault, char *sentence)

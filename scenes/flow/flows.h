@@ -46,7 +46,7 @@ struct gm_flows {
 #define GM_FLOWS_STAR                                                                                        \
     GM_CHOICE_ROW(                                                                                           \
         struct gm_flows, star, "star", "auto", gm_flows_stars,                                               \
-        "Hodge star of a mesh=FILE: circumcentric needs Delaunay triangles, barycentric takes any")
+        "Hodge star of a mesh=FILE: circumcentric needs Delaunay triangles, barycentric, or galerkin, takes any")
 #define GM_FLOWS_REFINE                                                                                      \
     GM_INTEGER_ROW(struct gm_flows, refine, "refine", "1", 1, 64,                                            \
                    "parts that each edge of a mesh=FILE is cut into: 1, 2, 4 ...", .logarithmic = true)

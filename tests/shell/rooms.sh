@@ -199,6 +199,8 @@ refused 1 'no physical group "dor" of curves; .* door, vent, window, hatch, pill
 refused 1 'on the wall of a hole' run room "mesh=$meshes/hole.msh" inlet=pillar outlet=window steps=1
 refused 3 'must be Delaunay, or star=barycentric$' run room "mesh=$meshes/hole.msh" star=circumcentric inlet=door outlet=window steps=1
 refused 1 'star= has no effect here' run room star=barycentric steps=1
+status 0 run room "mesh=$meshes/hole.msh" star=galerkin inlet=door outlet=window steps=1 --json
+grep -q '"star":"barycentric"' out || fail "galerkin is another star"
 refused 1 'refine= has no effect here' run room refine=2 steps=1
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 refine=1 steps=2 --json
 coarse=$(grep -o '"triangles":[0-9]*' out | cut -d: -f2)
@@ -258,7 +260,7 @@ wrong() {
         printf '%b\n' "$2"; } | sed "${3:-}" >wrong.room
     refused 1 "$1" run ./wrong.room steps=1
 }
-wrong 'wrong.room:5:1: a room has no line inlt:' 'inlt: vent flow = 1'
+wrong 'wrong.room:5:1: a room has no line inlt:.* probe: start:$' 'inlt: vent flow = 1'
 wrong 'wrong.room:5:8: inlet: needs speed = or flow =' 'inlet: vent'
 wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' 'inlet: vent tangential = 1'
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
@@ -276,9 +278,9 @@ wrong 'wrong.room:5:21: a temperature or heat needs a line buoyancy:' 'wall: pil
 wrong 'wrong.room:5:7: wall: holds its temperature = or gives heat =, not both' 'wall: pillar heat = 3 temperature = 300'
 wrong 'wrong.room:5:21: the heat is not finite at (' 'wall: pillar heat = log(x - 2)\nbuoyancy: 1'
 wrong 'wrong.room:5:13: inlet: takes speed =' 'inlet: vent heat = 1'
-wrong 'buoyancy: needs a temperature =' 'buoyancy: 0.03'
+wrong 'wrong.room:5:1: buoyancy: needs a temperature =' 'buoyancy: 0.03'
 wrong 'buoyancy: is a finite number' 'wall: pillar temperature = 1\nbuoyancy: inf'
-wrong 'reference-temperature: needs a temperature =' 'reference-temperature: 290'
+wrong 'wrong.room:5:1: reference-temperature: needs a temperature =' 'reference-temperature: 290'
 wrong 'wrong.room:5:28: the temperature is not finite at (1.7, 1.1' 'wall: pillar temperature = 1/0\nbuoyancy: 1'
 wrong 'wrong.room:5:23: the scalar is not finite at (1.7, 1.1' 'wall: pillar scalar = 1/(y - 1.1)'
 wrong 'wrong.room:5:27: the tangential speed is not finite at (' 'wall: pillar tangential = log(x - 2)'
@@ -291,8 +293,8 @@ wrong 'too much for a number' 'inlet: vent flow = 1e308\ninlet: 4 flow = 1e308'
 wrong 'the temperature is not finite at' 'start: temperature = 1/(x-x)\nbuoyancy: 1'
 wrong 'start: needs scalar = or temperature =' 'start:'
 wrong 'start: takes scalar =, temperature =' 'start: rate = 1'
-wrong 'viscosity: and reynolds: say the same' 'reynolds: 100'
-wrong 'diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
+wrong 'wrong.room:5:1: viscosity: and reynolds: say the same' 'reynolds: 100'
+wrong 'wrong.room:6:1: diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
 wrong 'schmidt: is a positive number' 'schmidt: 0'
 wrong 'source: needs rate =' 'source: printer x = 1 y = 1'
 wrong 'source: has x = and y =, or neither' 'source: printer x = 1 rate = 1'
@@ -303,7 +305,7 @@ wrong 'viscosity: is a positive number' '' 's/0.01/-1/'
 wrong 'wrong.room:2:12: viscosity: lies between 1e-12 and 1e+06' '' 's/0.01/1e300/'
 wrong 'wrong.room:5:5: dt: lies between 1e-09 and 1e+06' 'dt: 1e300'
 wrong 'wrong.room:5:8: until: lies between 0 and 1e+12' 'until: 1e13'
-wrong 'viscosity / diffusivity is 1e+08; it lies between 1e-06 and 1e+06' 'diffusivity: 1e-10'
+wrong 'wrong.room:5:1: viscosity / diffusivity is 1e+08; it lies between 1e-06 and 1e+06' 'diffusivity: 1e-10'
 wrong 'wrong.room:4:11: reynolds: lies between 1e-06 and 1e+12' 'reynolds: 1e13' '/viscosity/d'
 wrong 'a room needs a line viscosity:' '' '/viscosity/d'
 wrong 'an inlet but no outlet' '' '/outlet/d'

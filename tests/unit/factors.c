@@ -41,7 +41,7 @@ static struct rows grid(int side, double scale)
         used = 0;
         for (int i = 0; i < n; i++) {
             rows.start[i] = used;
-            for (int j = 0; j < i; j++) {
+            for (int j = i == hub || i < side ? 0 : i - side; j < i; j++) {
                 const int x = i % side, across = i - j;
                 const bool joined = i == hub ? j % 3 == 0
                                              : (across == 1 && x > 0) || across == side ||
@@ -104,6 +104,47 @@ static double error_of(const struct rows *rows, enum gm_cholesky_precision preci
     return error / size;
 }
 
+/* The size of the error of the solution whose values are all 1, relative to it. */
+static double error_of_ones(const struct rows *rows, enum gm_cholesky_precision precision)
+{
+    const size_t n = (size_t)rows->n;
+    double *x = calloc(n, sizeof *x), error = 0;
+    struct gm_cholesky *factor = gm_cholesky_open(n, rows->start, rows->column, rows->value, precision);
+    assert_true(x && factor);
+    for (size_t i = 0; i < n; i++) {
+        for (int k = rows->start[i]; k < rows->start[i + 1]; k++) {
+            x[i] += rows->value[k];
+            x[rows->column[k]] += rows->column[k] < (int)i ? rows->value[k] : 0;
+        }
+    }
+    gm_cholesky_solve(factor, x, x);
+    for (size_t i = 0; i < n; i++) {
+        error += (x[i] - 1) * (x[i] - 1);
+    }
+    free(x);
+    gm_cholesky_close(factor);
+    return sqrt(error / (double)n);
+}
+
+/* More values than a processor keeps near itself. */
+static void large_factors_are_whole_numbers(void **state)
+{
+    (void)state;
+    struct rows rows = grid(220, 1);
+    const double exact = error_of_ones(&rows, GM_CHOLESKY_EXACT),
+                 rough = error_of_ones(&rows, GM_CHOLESKY_ROUGH);
+    rows_close(&rows);
+    if (!(exact <= 1e-9)) {
+        fail_msg("error %.2e", exact);
+    }
+    if (!(rough <= .05)) {
+        fail_msg("rough error %.2e", rough);
+    }
+    if (!(rough > 1e-5)) {
+        fail_msg("not in whole numbers, error %.2e", rough);
+    }
+}
+
 /* From panels of one column to the large ones at the end. */
 static void solutions_agree(void **state)
 {
@@ -153,6 +194,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions_agree),
+        cmocka_unit_test(large_factors_are_whole_numbers),
         cmocka_unit_test(rough_is_exact_where_it_must),
         cmocka_unit_test(indefinite_is_refused),
     };
