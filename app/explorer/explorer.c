@@ -283,16 +283,13 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     gm_console_close();
     gm_measure_close(&explorer.measure);
     gm_explorer_close_own(&explorer);
-    gm_open_close(&explorer.open);
+    gm_open_leave(&explorer.open);
     gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);
     gm_explorer_close_list(&explorer.list);
     fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
     free(explorer.open.partings);
-    gm_console_release();
-    if (explorer.wake >= 0) {
-        close(explorer.wake);
-    }
+    gm_console_release(); /* the eventfd stays: a worker that was left in a long step may yet write to it */
     if (!ok || explorer.status == GM_EXIT_USAGE) {
         gm_complain("%s", explorer.message[0] ? explorer.message : "There is not enough memory.");
         return GM_EXIT_USAGE;

@@ -37,31 +37,23 @@ static void keep_parting(struct gm_open *open, const char *line)
     }
 }
 
-void gm_open_close(struct gm_open *open)
+void gm_open_leave(struct gm_open *open)
 {
-    char parting[GM_MESSAGE];
-    gm_worker_close(open->worker, parting);
-    open->worker = NULL;
-    keep_parting(open, gm_text_tame(parting));
-}
-
-/* Leaves what was open. */
-static void abandon(struct gm_open *open)
-{
-    char parting[GM_MESSAGE];
+    char parting[GM_MESSAGE] = "";
     gm_display_finish(open->display);
     if (open->touring) {
-        gm_open_close(open); /* the tour does not outlive it otherwise */
+        gm_worker_close(open->worker, parting); /* the tour does not outlive it otherwise */
     } else if (open->worker) {
         gm_worker_abandon(open->worker, parting);
-        keep_parting(open, parting);
     }
+    open->worker = NULL;
     open->touring = false;
+    keep_parting(open, gm_text_tame(parting));
 }
 
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message)
 {
-    abandon(open);
+    gm_open_leave(open);
     return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene, NULL);
 }
 
@@ -73,7 +65,7 @@ bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault 
     }
     struct gm_worker *worker = gm_worker_open(&request, open->wake, NULL, fault->sentence);
     if (worker) {
-        abandon(open);
+        gm_open_leave(open);
         take_over(open, worker, request.scene, NULL);
     }
     gm_request_close(&request);
@@ -82,7 +74,7 @@ bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault 
 
 bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message)
 {
-    abandon(open);
+    gm_open_leave(open);
     const size_t schemes = preview ? LOOK_SCHEMES : FIRST_SCHEMES;
     return take_over(open, gm_worker_open_named(name, schemes, preview, open->wake, message), NULL, name);
 }
@@ -110,7 +102,7 @@ bool gm_open_step(struct gm_open *open, char *message)
     const struct gm_order first = {
         .kind = GM_ORDER_TOUR, .amount = !guide->answered, .tour = guide->tour, .step = guide->step};
     const struct gm_request *request = &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request;
-    abandon(open);
+    gm_open_leave(open);
     gm_open_study(open);
     open->touring = true;
     return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene, NULL);

@@ -69,7 +69,7 @@ struct gm_press *gm_press_open(const struct gm_print *print, char *message)
     press->canvas = gm_canvas_open(look, message);
     press->rgb = malloc((size_t)look->width * (size_t)look->height * 3);
     if (!press->canvas || !press->rgb) {
-        if (press->canvas) {
+        if (press->canvas || gm_memory_was_short()) {
             no_memory(look, message);
         }
         gm_press_close(press);

@@ -144,6 +144,7 @@ enum gm_ode_facet {
     GM_NEEDS_GROUP = 1u << 19,      /* the bracket of angular momenta alone, or with a vector */
     GM_NEEDS_PIECES = 1u << 20,     /* a bracket, and an energy in pieces that have exact flows */
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
+    GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */

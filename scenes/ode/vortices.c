@@ -102,6 +102,7 @@ static bool settle(void *parameters_, const char *const *keys, size_t count, cha
 
 /* Pair by pair more take seconds a step. */
 enum { BY_PAIRS = 10000 };
+static const double least_multipole = 1e-15; /* nothing less is kept to by doubles */
 
 static bool setup(const void *parameters_, struct gm_problem *problem, char *sentence)
 {
@@ -121,6 +122,11 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
         return gm_refuse(sentence,
                          "configuration=%s has four vortices; multipole goes with square, random and patches",
                          configurations[own->configuration]);
+    }
+    if (own->multipole > 0 && own->multipole < least_multipole) {
+        return gm_refuse(sentence,
+                         "multipole=%g is less than round-off: it is at least %g, or 0 for pair by pair",
+                         own->multipole, least_multipole);
     }
     if (own->multipole == 0 && own->count > BY_PAIRS) {
         return gm_refuse(sentence, "count=%ld without multipole: more than %d are for multipole=1e-9",

@@ -5,8 +5,12 @@ set -u
 
 . "$(dirname "$0")/tmux.sh"
 
+open_scene() {
+    keys "stty -a >before; \"$geomint\" $*; echo \"left \$?\"; stty -a >after" Enter
+}
+
 open_disc() {
-    keys "stty -a >before; \"$geomint\" disc $*; echo \"left \$?\"; stty -a >after" Enter
+    open_scene disc "$@"
     wait_for 'SCHEMES|A disc|× paused|×'
 }
 
@@ -513,6 +517,14 @@ open_disc scheme=explicit-euler,midpoint dt=2
 for i in 1 2 3 4 5 6 7; do keys ']'; done
 wait_for 'blow-up'
 wait_for 'stands still; the others go on'
+keys q
+clean 0
+
+# ---- who leaves does not wait for a step that takes minutes ----
+
+start 120x36
+open_scene vortices configuration=patches count=1e4 multipole=1e-9 tracers=1e6 scheme=gauss8
+wait_for 'stir a dye'
 keys q
 clean 0
 

@@ -12,6 +12,7 @@
 
 #include "core/count.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -276,6 +277,38 @@ static void moments_keep_the_centre(void **unused)
     assert_true(moved[1] > 1e-4 && fabs(moved[0] - moved[1]) < 1e-2 * moved[1]);
 }
 
+/* Logarithms are summed as products, which go beyond the numbers' ends where vortices lie very near, very far, or both. */
+static void energies_of_any_size(void **unused)
+{
+    (void)unused;
+    static double y[2 * MANY];
+    static const double scales[][2] = {
+        {1, 1}, {1e-120, 1e-120}, {1e120, 1e120}, {1e-30, 1e30}, {1e-70, 1e70}};
+    for (size_t k = 0; k < GM_COUNT(scales); k++) {
+        scatter(DISC, y);
+        long double wanted = 0;
+        for (size_t i = 0; i < MANY; i++) {
+            y[i] *= scales[k][i % 64 < 32];
+            y[MANY + i] *= scales[k][i % 64 < 32];
+            for (size_t j = 0; j < i; j++) {
+                const long double dx = (long double)y[i] - y[j], dy = (long double)y[MANY + i] - y[MANY + j];
+                wanted -= logl(dx * dx + dy * dy) * strength * strength / (4 * M_PI);
+            }
+        }
+        struct gm_problem problem = gm_problem_vortices;
+        problem.n = 2 * (size_t)MANY;
+        problem.parameters = &(const double){strength};
+        for (int isa = 0; isa <= (int)gm_isa_best(); isa++) {
+            const double energy = gm_ode_of(&problem)->loops[isa]->energy(&problem, y);
+            if (!(fabsl(energy - wanted) <= 1e-12L * fabsl(wanted))) {
+                fail_msg("sizes %g and %g: energy %.17g and not %.17Lg", scales[k][0], scales[k][1], energy,
+                         wanted);
+            }
+            assert_true(energy == gm_energy(&problem, y));
+        }
+    }
+}
+
 /* A place that is no number leaves no velocity that looks like one. */
 static void moments_of_what_is_no_place(void **unused)
 {
@@ -319,6 +352,7 @@ int main(void)
         cmocka_unit_test(tracers_keep_area),
         cmocka_unit_test(moments_keep_to_the_tolerance),
         cmocka_unit_test(moments_keep_the_centre),
+        cmocka_unit_test(energies_of_any_size),
         cmocka_unit_test(moments_of_what_is_no_place),
         cmocka_unit_test(what_does_not_fit),
     };

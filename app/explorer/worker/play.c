@@ -167,14 +167,25 @@ static void stop_at_home(struct gm_play *play)
     }
 }
 
+/* No more is due at once than a second makes: a share of that is made before anybody is heard. */
+static double due_at_once(const struct gm_play *play)
+{
+    const struct gm_session *session = &play->session;
+    const double a_second = gm_session_time(session) + gm_session_direction(session) * play->rate;
+    return sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(session)));
+}
+
 static bool step_along(struct gm_play *play)
 {
-    double begun = gm_clock_seconds(), due = gm_play_due(play);
+    const double begun = gm_clock_seconds(), from = gm_session_time(&play->session);
+    const double due = due_at_once(play);
     bool worked = false;
     while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
         worked = true;
     }
     if (worked) {
+        const double covered = fabs(gm_session_time(&play->session) - from);
+        play->rate = covered > 0 ? covered / fmax(gm_clock_seconds() - begun, 1e-9) : play->rate;
         play->changed = true;
     } else {
         stop_at_home(play);

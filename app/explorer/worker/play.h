@@ -19,8 +19,9 @@ struct gm_play {
     double ahead_from, ahead_to, ahead_told;
     bool restart; /* is due */
     double restarted;
-    double stepped;             /* seconds of steps since an engine was last looked for */
-    int speed;                  /* number of the speed */
+    double stepped; /* seconds of steps since an engine was last looked for */
+    double rate;    /* model time that a second of steps covers, as last measured; 0: not known yet */
+    int speed;      /* number of the speed */
     double clock_t, clock_wall; /* model time and wall time at the last change of pace */
     size_t frozen;              /* lanes that are */
     struct gm_agenda agenda;    /* of a tour's step */

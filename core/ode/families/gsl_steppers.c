@@ -56,9 +56,6 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
     (void)t;
     struct workspace *workspace = parameters;
     const struct gm_problem *problem = workspace->problem;
-    if (!gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian) {
-        return GSL_EBADFUNC;
-    }
     gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
     memset(dfdt, 0, problem->n * sizeof *dfdt);
     workspace->solves++;
@@ -267,6 +264,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "gsl_odeiv2_step_msbdf: multistep, chooses its order",
         .reference = "GNU Scientific Library; variable coefficient backward differences in Nordsieck form",
         .coefficients = &msbdf,
+        .needs = GM_NEEDS_JACOBIAN,
         GSL,
     },
 };

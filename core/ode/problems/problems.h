@@ -68,7 +68,7 @@ extern const struct gm_problem gm_problem_ring;
    with kernels. _reduced: four with z3 = -z1, z4 = -z2 built in, (x1, x2, y1, y2), with kernels. The others
    have no kernels and may carry passive particles: set n = 2 N + 2 passive, with N any number, and N = 2
    for _reduced_carrying. _multipole: ((const double *)parameters)[1] is the tolerance, 1e-15 .. 1e-2: a velocity
-   errs by at most so much of the sum of the speeds that the others give it one by one. */
+   errs by at most so much of the sum of the speeds that the others give it one by one, and by round-off. */
 extern const struct gm_problem gm_problem_vortices;
 extern const struct gm_problem gm_problem_vortices_multipole;
 extern const struct gm_problem gm_problem_vortices_four;

@@ -27,8 +27,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/ode/problems/fluids/logarithms.h"
-
 enum {
     LEAF = 80,      /* vortices that a cell of cells has more of */
     MOST_TERMS = 40 /* which leave 3e-19 */
@@ -53,7 +51,7 @@ struct tree {
     double apart;         /* K */
     double *coefficients; /* of each cell: real and imaginary parts of moments, then of b, P each */
     double matrix[MOST_TERMS * MOST_TERMS]; /* C(k+l, l), or C(k+l, l)/(k+l), by k */
-    struct gm_logarithms near;              /* of the energy */
+    struct logarithms near;                 /* of the energy */
     double far;
 };
 
@@ -383,10 +381,7 @@ static void act_singly(struct tree *tree, const struct cell *one, const struct c
         const double x_i = x[i], y_i = y[i];
         size_t j = one == other ? i + 1 : other->at;
         if (of_logarithms) {
-            for (; j < end; j++) {
-                const double dx = x_i - x[j], dy = y_i - y[j];
-                gm_logarithms_add(&tree->near, dx * dx + dy * dy);
-            }
+            add_logarithms(&tree->near, x_i, y_i, x, y, j, end);
             continue;
         }
         lanes mine_x = {0}, mine_y = {0};
@@ -480,7 +475,7 @@ static void close_tree(struct tree *tree)
 static bool open_tree(struct tree *tree, const double *state, size_t count, double tolerance,
                       bool of_logarithms)
 {
-    *tree = (struct tree){.count = 1, .room = 64, .near = {.product = 1}};
+    *tree = (struct tree){.count = 1, .room = 64, .near = {.singly = {.product = 1}}};
     tree->cells = malloc(tree->room * sizeof *tree->cells);
     tree->x = malloc(2 * count * sizeof *tree->x);
     tree->origin = malloc(count * sizeof *tree->origin);
@@ -540,7 +535,7 @@ static double multipole_energy(const struct gm_problem *problem, const double *s
     const double *parameters = problem->parameters;
     struct tree tree;
     const bool opened = open_tree(&tree, state, count, parameters[1], true);
-    const double sum = opened ? gm_logarithms_sum(&tree.near) / 2 + tree.far : NAN;
+    const double sum = opened ? logarithms_sum(&tree.near) / 2 + tree.far : NAN;
     close_tree(&tree);
     return -parameters[0] * factor_of(problem) * sum;
 }

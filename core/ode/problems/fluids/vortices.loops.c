@@ -6,9 +6,14 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
+#include "core/ode/problems/fluids/logarithms.h"
 
-enum { LANES = 8 };
+enum {
+    LANES = 8,
+    STRETCH = 8 * LANES /* pairs whose logarithms are taken, or not, at once */
+};
 typedef double lanes __attribute__((vector_size(LANES * 8)));
+typedef long long answers __attribute__((vector_size(LANES * 8))); /* -1: yes */
 
 static inline lanes load(const double *from)
 {
@@ -45,6 +50,64 @@ static inline void give(double x_i, double y_i, const double *x, const double *y
     store(sum_y + j, load(sum_y + j) - give_y);
 }
 
+/* A sum of logarithms as products, one for each lane. */
+struct logarithms {
+    struct gm_logarithms singly; /* 0, 1 */
+    lanes products;
+    bool begun; /* false: the products are all 1, whatever is written there */
+};
+
+static double logarithms_sum(struct logarithms *sum)
+{
+    for (int k = 0; k < LANES && sum->begun; k++) {
+        gm_logarithms_add(&sum->singly, sum->products[k]);
+    }
+    sum->begun = false;
+    return gm_logarithms_sum(&sum->singly);
+}
+
+/* Times the squares of the distances of (x_i, y_i) from those of j .. end - 1, whole lanes. False: a product came near
+   the numbers' ends, and nothing is changed. */
+static inline bool multiply_squares(struct logarithms *sum, double x_i, double y_i, const double *x,
+                                    const double *y, size_t j, size_t end)
+{
+    lanes product = sum->begun ? sum->products : 1 - (lanes){0};
+    answers of_note = product == product;
+    for (; j < end; j += LANES) {
+        const lanes dx = x_i - load(x + j), dy = y_i - load(y + j);
+        product *= dx * dx + dy * dy;
+        of_note &= (product > 1e-150) & (product < 1e150);
+    }
+    bool all = true;
+    for (int k = 0; k < LANES; k++) {
+        all &= of_note[k] != 0;
+    }
+    if (all) {
+        sum->products = product;
+        sum->begun = true;
+    }
+    return all;
+}
+
+/* ln of the squares of the distances of (x_i, y_i) from those of j .. end - 1 */
+static inline void add_logarithms(struct logarithms *sum, double x_i, double y_i, const double *x,
+                                  const double *y, size_t j, size_t end)
+{
+    while (j < end) {
+        const size_t whole = (end - j) / LANES * LANES, last = j + (whole < STRETCH ? whole : STRETCH);
+        if (last > j && multiply_squares(sum, x_i, y_i, x, y, j, last)) {
+            j = last;
+        } else if (last > j && sum->begun) {
+            logarithms_sum(sum);
+        } else {
+            for (const size_t rest = last > j ? last : end; j < rest; j++) {
+                const double dx = x_i - x[j], dy = y_i - y[j];
+                gm_logarithms_add(&sum->singly, dx * dx + dy * dy);
+            }
+        }
+    }
+}
+
 /* Each pair once. */
 static void pair_sum(const struct gm_problem *problem, const double *state, double *f, size_t m)
 {
@@ -77,6 +140,16 @@ static void pair_sum(const struct gm_problem *problem, const double *state, doub
         sum_y[i] *= -factor;
         sum_x[i] *= factor;
     }
+}
+
+static double pair_energy(const struct gm_problem *problem, const double *state)
+{
+    const size_t count = (problem->n - 2 * problem->passive) / 2;
+    struct logarithms sum = {.singly = {.product = 1}};
+    for (size_t i = 0; i < count; i++) {
+        add_logarithms(&sum, state[i], state[count + i], state, state + count, i + 1, count);
+    }
+    return -*(const double *)problem->parameters * factor_of(problem) / 2 * logarithms_sum(&sum);
 }
 
 #include "core/ode/problems/fluids/multipole.loop.h"
@@ -157,7 +230,8 @@ static void carried_by_four(const struct gm_problem *problem, const double *acti
     }
 }
 
-const struct gm_loops GM_LOOPS_NAME(vortices, GM_ISA) = {.field = pair_sum, .passive = carried};
+const struct gm_loops GM_LOOPS_NAME(vortices,
+                                    GM_ISA) = {.field = pair_sum, .energy = pair_energy, .passive = carried};
 const struct gm_loops GM_LOOPS_NAME(vortices_multipole, GM_ISA) = {
     .field = multipole_field, .energy = multipole_energy, .passive = carried};
 const struct gm_loops GM_LOOPS_NAME(vortices_reduced_carrying, GM_ISA) = {.field = reduced,
