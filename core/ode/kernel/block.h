@@ -130,9 +130,10 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
    read side by side than the machine follows of itself. Beyond the last member nothing is read. */
 GM_INLINE void K(block_ask_ahead)(const struct gm_task *task, size_t first)
 {
-    enum { AHEAD = 256 }; /* numbers */
-    for (int c = 0; c < GM_COMPONENTS; c++) {
-        __builtin_prefetch(task->y + (size_t)c * task->problem->m + first + AHEAD);
+    enum { AHEAD = 256, CACHES = 1 << 22 }; /* numbers */
+    const size_t m = task->problem->m;
+    for (size_t c = 0; GM_COMPONENTS * m > CACHES && c < GM_COMPONENTS; c++) {
+        __builtin_prefetch(task->y + c * m + first + AHEAD);
     }
 }
 
