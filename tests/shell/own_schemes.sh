@@ -151,7 +151,7 @@ grep -q 'symplectic *not claimed *the system has no Hamiltonian' out || fail "no
 [ $? = 4 ] || fail 'a false claim holds on a system'
 refused 1 'verlet does not fit' certify verlet --on ./butterfly.system
 refused 1 'no scene "nowhere"' certify rk4 --on nowhere
-refused 1 'takes ordinary differential equations' certify leapfrog --on sine-gordon
+refused 1 'takes ordinary differential equations' certify steady --on cavity
 refused 1 'one scheme and one value' certify rk4 --on kepler dt=0.1,0.2
 
 # conjugate to Verlet, and stable as it is; the coefficients cancel to noise
