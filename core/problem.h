@@ -16,8 +16,8 @@ struct gm_settings;
 struct gm_problem;
 
 /* What a family's loop is asked to do: `steps` steps of length dt for every member, reading `y` and writing
-   `out` (both n * m, component-major; they do not overlap, but loops over kernels make steps in place as well). Problems
-   are autonomous. */
+   `out` (both n * m, component-major; they do not overlap, but loops over kernels make steps in place as well, and leave
+   no state there if one fails). Problems are autonomous. */
 struct gm_task {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;

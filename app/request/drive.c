@@ -206,21 +206,24 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
                  run->limit);
         return;
     case GM_NO_CONVERGENCE: {
-        const double iterations = gm_run_per_member(run, run->failed_iterations);
+        const unsigned long iterations = run->failed_iterations;
         if (tell_part(lane, "led to no number", text, size)) {
             return;
         }
-        if (iterations < 1) {
+        if (iterations == 0) {
             snprintf(
                 text, size,
                 "the implicit equations of the step after t = %.6g led to no number at the first iteration",
                 run->t);
             return;
         }
+        char made[40] = ""; /* of an ensemble how many the loop has counted depends on the loop */
+        if (run->problem->m == 1) {
+            snprintf(made, sizeof made, " in %lu iteration%s", iterations, iterations == 1 ? "" : "s");
+        }
         snprintf(text, size,
-                 "the implicit equations of the step after t = %.6g were not solved to round-off in %.0f "
-                 "iteration%s",
-                 run->t, iterations, iterations == 1 ? "" : "s");
+                 "the implicit equations of the step after t = %.6g were not solved to round-off%s", run->t,
+                 made);
         return;
     }
     case GM_MESH_CROSSING:

@@ -416,8 +416,64 @@ static void ensembles_are_looked_back_at(void **unused)
     }
     gm_run_advance(run, 2);
     assert_false(gm_run_repeats(run));
+    struct gm_run *next = gm_run_switch(run, gm_scheme_find("rk4"));
+    assert_non_null(next);
+    for (int i = 0; i < 2; i++) {
+        gm_run_advance(next, 1);
+        assert_true(gm_run_repeats(next));
+    }
+    gm_run_close(next);
     gm_run_close(run);
     free(before);
+}
+
+/* Single steps that fail are made again from where the run began anew, not from before: after another step, another
+   state and a snapshot. Of two runs one looks back, so none of its steps is made in place. */
+static void beginnings_are_not_passed(void **unused)
+{
+    (void)unused;
+    enum { MEMBERS = 67, COUNT = MOST * MEMBERS };
+    struct gm_problem problem = gm_problem_oscillator_tangent;
+    problem.m = MEMBERS;
+    double start[COUNT], other[COUNT];
+    for (size_t i = 0; i < COUNT; i++) {
+        start[i] = sin(1.0 + (double)i);
+        other[i] = cos(1.0 + (double)i);
+    }
+    for (int what = 0; what < 3; what++) {
+        struct gm_run *runs[2];
+        for (int i = 0; i < 2; i++) {
+            struct gm_run *run = runs[i] =
+                gm_run_open(&problem, gm_scheme_find("explicit-euler"), &settings_of[1], 0, 3, start);
+            run->looks_back = i == 0;
+            void *snapshot = malloc(gm_run_snapshot_size(run));
+            assert_non_null(snapshot);
+            for (int k = 0; k < 8; k++) {
+                if (k == 5) {
+                    gm_run_save(run, snapshot);
+                    gm_run_set_state(run, other, NULL); /* to where the snapshot does not lead */
+                }
+                gm_run_advance(run, 1);
+            }
+            if (what == 0) {
+                gm_run_set_step(run, 2.5);
+            } else if (what == 1) {
+                gm_run_set_state(run, start, NULL);
+            } else {
+                assert_true(gm_run_load(run, snapshot));
+            }
+            free(snapshot);
+            while (run->status == GM_OK && run->steps < 60) {
+                gm_run_advance(run, 1);
+            }
+            assert_int_equal(run->status, GM_BLOW_UP);
+            expect_same_state(run, runs[0]);
+            assert_int_equal(run->steps, runs[0]->steps);
+            assert_int_equal(run->evaluations, runs[0]->evaluations);
+        }
+        gm_run_close(runs[0]);
+        gm_run_close(runs[1]);
+    }
 }
 
 /* What fails in the middle of single steps is found as that of many at once: the equations of one member have no
@@ -426,13 +482,17 @@ static void one_of_many_is_not_solved(void **unused)
 {
     (void)unused;
     enum { MEMBERS = 67 };
-    struct gm_problem problem = gm_problem_product;
+    struct gm_problem problem = gm_problem_henon_heiles; /* by kernels, so in place */
     problem.m = MEMBERS;
-    double start[2 * MEMBERS] = {0};
-    start[37] = start[MEMBERS + 37] = 0.5;
+    double start[4 * MEMBERS];
+    for (size_t i = 0; i < GM_COUNT(start); i++) {
+        start[i] = 0.1 * sin((double)i);
+    }
+    start[MEMBERS + 37] = 0.7; /* it escapes */
+    start[3 * MEMBERS + 37] = 0.3;
     struct gm_run *runs[2];
     for (int i = 0; i < 2; i++) {
-        runs[i] = gm_run_open(&problem, gm_scheme_find("midpoint"), &settings_of[0], 0, 1.6, start);
+        runs[i] = gm_run_open(&problem, gm_scheme_find("midpoint"), &settings_of[0], 0, 0.4, start);
         while (runs[i]->status == GM_OK && runs[i]->steps < 1000) {
             gm_run_advance(runs[i], i == 0 ? 1000 : 1);
         }
@@ -632,6 +692,7 @@ int main(void)
         cmocka_unit_test(blow_up_is_found_to_the_step),
         cmocka_unit_test(one_of_many_blows_up),
         cmocka_unit_test(ensembles_are_looked_back_at),
+        cmocka_unit_test(beginnings_are_not_passed),
         cmocka_unit_test(one_of_many_is_not_solved),
         cmocka_unit_test(single_steps_are_many_at_once),
         cmocka_unit_test(runs_end_where_they_are_to),

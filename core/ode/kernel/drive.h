@@ -135,9 +135,9 @@ GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, 
 
 /* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
    The last group has members of the one before it as well, so it is made first, and stored when that is done: the
-   steps may be made in place. Every other call takes stretches of groups from the end, each forth, as memory is asked
-   for ahead: what the last call left in the cache is read before it is gone. False: a member failed, and what is stored
-   is void. */
+   steps may be made in place. After an odd number of steps stretches of groups are taken from the end, each forth, as
+   memory is asked for ahead: of single steps each reads first what the last one left in the cache. False: a member
+   failed, and what is stored is void. */
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                       struct gm_progress *progress)
 {
