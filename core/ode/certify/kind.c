@@ -214,8 +214,8 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
                         : GM_KEEPS_QUADRATIC;
 }
 
-/* Whether a field's equations on its grid keep a quantity: what the continuum keeps, derivatives in space may not. By its
-   change along the rates, at the start and further along them, where there are as many mirrors as at the start. */
+/* Whether a field's equations on its grid keep a quantity: what the continuum keeps, derivatives in space may not. By
+   its change along the rates, at the start and further along them, where there are as many mirrors as at the start. */
 static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     enum { STATES = 3 };
