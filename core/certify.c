@@ -3,6 +3,7 @@
    measures. */
 #include "core/certify.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -27,7 +28,9 @@ struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
 {
     struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
-    verdict->reason = verdict->measured || verdict->undecided ? NULL : reason;
+    verdict->reason = verdict->measured || verdict->undecided ? NULL
+                      : verdict->reason                       ? verdict->reason
+                                                              : reason;
 }
 
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
@@ -85,8 +88,14 @@ struct solution {
 static bool solve(void *data)
 {
     const struct solution *solution = data;
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(solution->equations, gsl_odeiv2_step_rk8pd,
-                                                              1e-3, solution->tolerance, solution->tolerance);
+    /* small components beside large ones take part in the round-off of these: no step is short enough for less */
+    double size = 0;
+    for (size_t i = 0; i < solution->equations->dimension; i++) {
+        size = fmax(size, fabs(solution->y[i]));
+    }
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(solution->equations, gsl_odeiv2_step_rk8pd, 1e-3,
+                                      fmax(solution->tolerance, DBL_EPSILON / 2 * size), solution->tolerance);
     if (!driver) {
         return false;
     }

@@ -41,7 +41,7 @@ struct gm_certificate {
     struct gm_ladder ladder; /* of that problem */
     bool order_holds;
     const char *order_problem;
-    const char *order_reason;                 /* why there is no order on a given system; NULL: there is */
+    const char *order_reason; /* why there is none on a given system, or what refutes it there */
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* by bit number */
     /* Of schemes whose rows are coefficients (gm_family.coefficients_open), else not known. It holds where
        the conditions of the claimed order do, and the algebra of what is claimed of structure. */

@@ -304,7 +304,14 @@ grep -q 'L keeps linear invariants *holds' out || fail "heat between walls, cert
 printf 'geomint: 1\nkind: runge-kutta\norder: 1\nclaims: symmetric\na: 0\nb: 1\n' >false.scheme
 status 4 certify false.scheme --on own.system
 grep -q '= symmetric *BROKEN' out || fail "Euler's method as a symmetric one, on a field: $(cat out)"
-rm own.system false.scheme
+# numbers that are large beside others stop no reference, and refute nothing
+printf 'field: u\nrate: u = -u_x - u_xxx\nspace: fourier\nstart: u = 1e6*exp(-x^2)\nhalf_length: 10\npoints: 64\n' >large.system
+printf 'dt: 0.01\nuntil: 1\n' >>large.system
+status 0 certify midpoint --on large.system
+printf 'coordinates: q\nH: p_q^2/2 + (q - 1e6)^2/2\nstart: q = 1000001, p_q = 0\ndt: 0.1\nuntil: 1\n' >shifted.system
+status 0 certify midpoint --on shifted.system
+grep -q 'keeps quadratic invariants  *not measured round-off' out || fail "an energy small beside q: $(cat out)"
+rm own.system false.scheme large.system shifted.system
 status 0 certify box --on kdv
 grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"
 refused 1 'waves on a line or on moving meshes; cavity is none' certify steady --on cavity

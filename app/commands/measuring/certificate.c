@@ -28,10 +28,12 @@ void gm_certificate_print(const struct gm_certificate *certificate)
                                              : "no errors stand clear of round-off",
                    broken);
         } else {
-            printf("%.3f (%s)%s\n", certificate->order, certificate->order_problem,
+            printf("%.3f (%s)%s%s%s\n", certificate->order, certificate->order_problem,
                    !certificate->order_holds                                       ? "  BROKEN"
                    : theory->known && !(certificate->order > 0.95 * scheme->order) ? "  inconclusive"
-                                                                                   : "");
+                                                                                   : "",
+                   certificate->order_reason ? ": " : "",
+                   certificate->order_reason ? certificate->order_reason : "");
         }
     }
     if (theory->known) {

@@ -2,6 +2,7 @@
 /* Short runs of a field: there and back, over what a scheme keeps, and on finer and finer grids. */
 #include "core/field/certify/runs.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,25 +81,55 @@ static double return_defect(struct gm_field_subject *subject, const double *y)
     return largest;
 }
 
+/* What round-off may make of slopes in space and time of a state, with what a scheme's own equations multiply it by. */
+static double round_off(const struct gm_field_subject *subject, const double *y)
+{
+    enum { MULTIPLIED = 100 };
+    const double slopes = 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
+    return MULTIPLIED * DBL_EPSILON * gm_field_size(&subject->problem, y) * slopes;
+}
+
+/* What round-off may make of what is kept refutes no claim. */
+static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, double hidden,
+                 const char *name)
+{
+    if (defect > gm_certificate_claim(certificate, claim)->tolerance && defect < hidden) {
+        gm_certificate_withhold(
+            certificate, claim,
+            "round-off hides it: the numbers are too large for so short a dt or so fine a grid");
+    } else {
+        gm_certificate_note(certificate, claim, defect, name);
+    }
+}
+
 void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
                         double size)
 {
+    /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of steps that
+       are long beside dx add as much as ten times that */
+    const double over = 0.05 / 8 / 10, slopes = 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
     const char *const name = subject->problem.name;
     gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, name);
     if (!gm_field_begin(subject, y)) {
         return;
     }
     gm_run_advance(subject->run, 25);
-    const double defect = gm_form_defect(&subject->problem, subject->scheme, subject->dt,
-                                         gm_run_state(subject->run), gm_run_memory(subject->run));
+    const double *const now = gm_run_state(subject->run);
+    const double defect =
+        gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
     if (!isnan(defect)) {
         gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
-        gm_certificate_note(certificate, GM_MULTISYMPLECTIC, defect, name);
+        note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes / over, name);
+    } else if (subject->scheme->family->form) {
+        gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
+                                "the step has no derivative that could be told at this state");
     }
     gm_run_close(subject->run);
 }
 
-double gm_field_drift(struct gm_field_subject *subject, const double *y, const struct gm_kept *kept)
+void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
+                        struct gm_field_subject *subject, const double *y, const struct gm_kept *kept,
+                        const char *name)
 {
     double change = INFINITY;
     if (gm_field_begin(subject, y)) {
@@ -110,7 +141,7 @@ double gm_field_drift(struct gm_field_subject *subject, const double *y, const s
         }
         gm_run_close(subject->run);
     }
-    return change;
+    note(certificate, claim, change, round_off(subject, y), name);
 }
 
 double gm_field_order_in_time(struct gm_field_subject *subject, const double *y)
@@ -170,7 +201,7 @@ static double *refine(const struct gm_certified_system *system, const struct gm_
 /* An exact solution closes on its ring but for a thousandth of its size: where that hides what is left of an error,
    differences tell the order. */
 static double tell(const struct refined *refined, double by_differences, double wanted, double size,
-                   struct gm_ladder *ladder)
+                   struct gm_ladder *ladder, const char **reason)
 {
     const size_t last = refined->count - 1;
     const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
@@ -182,7 +213,43 @@ static double tell(const struct refined *refined, double by_differences, double 
         ladder->error[k] = exactly ? refined->error[k] : refined->change[k];
     }
     ladder->settled = true;
+    *reason = exactly && by_errors < wanted && by_differences > by_errors + 0.5
+                  ? "runs agree with one another, but not with the solution that exact: tells"
+                  : NULL;
     return exactly ? by_errors : by_differences;
+}
+
+/* The largest difference of so many nodes around the ring, of the start. */
+static double largest_difference(const struct gm_certified_system *system, int order)
+{
+    const struct gm_line *line = &system->problem->line;
+    const size_t points = line->points;
+    double largest = 0;
+    for (size_t c = 0; c < system->problem->n / points; c++) {
+        for (size_t i = 0; i < points && moves(system->problem, c); i++) {
+            double sum = 0, weight = 1;
+            for (int j = 0; j <= order; j++) {
+                const size_t node = i + (size_t)j;
+                sum += weight *
+                       (system->start[c * points + node % points] + line->jump * (double)(node / points));
+                weight *= -(double)(order - j) / (j + 1);
+            }
+            largest = fmax(fabs(sum), largest);
+        }
+    }
+    return largest;
+}
+
+/* Whether a start has the derivatives that an order takes: where one jumps, differences fall by less from grid to
+   grid. */
+static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_certified_system *fine,
+                      int order)
+{
+    const int differences = order + 2;
+    const double on_coarse = largest_difference(coarse, differences),
+                 on_fine = largest_difference(fine, differences),
+                 round_off = ldexp(8 * DBL_EPSILON, differences) * gm_field_size(fine->problem, fine->start);
+    return on_fine <= round_off || log2(on_coarse / on_fine) > differences - 0.5;
 }
 
 double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
@@ -191,7 +258,8 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
     const double wanted = scheme->order - 0.15;
     struct refined refined = {.count = 0};
     double *before = NULL, size = 1, order = NAN, slope_before = NAN;
-    const struct gm_problem *coarse = NULL;
+    const struct gm_certified_system *coarse = NULL;
+    bool smooth = true;
     *reason =
         "differences between runs on finer and finer grids do not fall by one power: take more points and a "
         "shorter dt, or a start that closes better on its ring";
@@ -205,7 +273,7 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
         if (k == 0) {
             size = gm_field_size(system->problem, system->start);
         } else {
-            const double change = apart(coarse, before, state, 2);
+            const double change = apart(coarse->problem, before, state, 2);
             const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
             refined.change[k - 1] = change;
             if (change < 1e-11 * size) {
@@ -219,15 +287,20 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
                               fabs(slope - slope_before) < 0.15 ||
                               (slope > wanted && (k + 1 == LEVELS || !system->finer));
             if (told) {
-                order = tell(&refined, slope, wanted, size, ladder);
+                order = tell(&refined, slope, wanted, size, ladder, reason);
+                smooth = !(order < wanted) || is_smooth(coarse, system, scheme->order);
             }
             slope_before = slope;
         }
-        coarse = system->problem;
+        coarse = system;
         free(before);
         before = state;
     }
     free(before);
-    *reason = isnan(order) ? *reason : NULL;
+    if (!smooth) {
+        *reason = "the start, or the way it closes on its ring, is not as smooth as the order asks for";
+        *ladder = (struct gm_ladder){0};
+        return NAN;
+    }
     return order;
 }

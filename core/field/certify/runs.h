@@ -32,15 +32,19 @@ bool gm_field_begin(struct gm_field_subject *subject, const double *y);
 void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
                         double size);
 
-/* The relative change of a quantity from the state after one step over 60 more; INFINITY: a step fails. */
-double gm_field_drift(struct gm_field_subject *subject, const double *y, const struct gm_kept *kept);
+/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY where a step fails,
+   under the name of what is kept. Like the law it is withheld where round-off alone may have made it. */
+void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
+                        struct gm_field_subject *subject, const double *y, const struct gm_kept *kept,
+                        const char *name);
 
 /* The order in time on one grid, to t = 1, from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
 double gm_field_order_in_time(struct gm_field_subject *subject, const double *y);
 
 /* The order over 16 steps, by a system and what is finer, as a slope of the error where an exact solution is told that
    closes on the ring, else of the differences between a run and the next finer one. NaN with the reason where none can
-   be told. */
+   be told, or where it is low and the start has not the derivatives that the order takes; a reason also where the exact
+   solution alone refutes it, NULL else. */
 double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct gm_ladder *ladder, const char **reason);
 

@@ -4,6 +4,7 @@
    differences between members of an ensemble, so it asks nothing of the scheme. A defect refutes a claim only
    where it stands clear of the error of the measurement: steps that stretch phase space a millionfold stretch
    round-off too. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -365,6 +366,15 @@ double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *sch
     return go_on(subject, scheme, end)
                ? change_of(kept->value(kept->data, subject->start), kept->value(kept->data, end))
                : NAN;
+}
+
+double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    double near[MOST];
+    for (size_t c = 0; c < subject->problem.n; c++) {
+        near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * sin((double)(3 * c + 1));
+    }
+    return change_of(kept->value(kept->data, subject->start), kept->value(kept->data, near));
 }
 
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,

@@ -83,6 +83,8 @@ struct gm_manifold_defects gm_constraint_defects(const struct gm_subject *subjec
                                                  const struct gm_scheme *scheme);
 double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
                    const struct gm_kept *kept);
+/* The change of the same by a hundred times the round-off of the start's largest number, in some direction. */
+double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept);
 double gm_energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme);
 
 #endif
