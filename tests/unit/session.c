@@ -3,6 +3,7 @@
    ways. */
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -10,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -556,6 +558,22 @@ static void what_was_asked_for_is_saved(void **unused)
         assert_int_equal(access(files[i], R_OK), 0);
         assert_non_null(strstr(parting, files[i]));
     }
+    /* where there is no room nothing stays of a file, and that is told */
+    char *typed[] = {"system", "H=p^2/2+q^2", "q=1", "p=0"}, parting[GM_MESSAGE];
+    struct gm_request request;
+    struct rlimit room;
+    assert_true(gm_request_parse(&request, GM_COUNT(typed), typed, 1, message));
+    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    assert_non_null(worker);
+    gm_request_close(&request);
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &room), 0);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &(struct rlimit){.rlim_max = room.rlim_max}), 0);
+    gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
+    gm_worker_close(worker, parting);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &room), 0);
+    assert_int_equal(folder_count("."), GM_COUNT(leave));
+    assert_string_equal(parting, "Not saved: system-0001.system: File too large");
     close(wake);
     assert_int_equal(chdir(before), 0);
     folder_remove(folder);
