@@ -293,7 +293,11 @@ void gm_worker_close(struct gm_worker *worker, char *parting)
     if (owed) {
         snprintf(parting, GM_MESSAGE, "%s", worker->play.message);
     }
-    gm_capture_stop_recording(&worker->capture, parting);
+    char movie[GM_MESSAGE];
+    if (gm_capture_stop_recording(&worker->capture, movie)) {
+        const size_t told = strlen(parting);
+        snprintf(parting + told, GM_MESSAGE - told, "%s%s", told ? " " : "", movie);
+    }
     release(worker);
 }
 

@@ -15,7 +15,7 @@ struct gm_worker;
 struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
                                  char *message);
 /* Writes the files that were asked for and finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of
-   the last, or is empty. */
+   the last file and of the movie, or is empty. */
 void gm_worker_close(struct gm_worker *worker, char *parting);
 
 /* The same for a scene by its name, or that of a system or a room, with its first `schemes` schemes, that the
