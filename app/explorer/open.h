@@ -43,7 +43,8 @@ bool gm_open_step(struct gm_open *open, char *message);
 /* The study of the tour's present step, once its question is answered. */
 void gm_open_study(struct gm_open *open);
 
-/* Leaves what is open. A movie that is being made is finished first; a step that is being made is not waited for. */
+/* Leaves what is open. A movie that is being made, and a file that was asked for, are finished first; otherwise a step
+   that is being made is not waited for. */
 void gm_open_leave(struct gm_open *open);
 
 #endif

@@ -520,6 +520,17 @@ wait_for 'stands still; the others go on'
 keys q
 clean 0
 
+# ---- what a small terminal has no room for ends with one ellipsis ----
+
+start 24x16
+open_scene soliton
+wait_for 'Mesh points'
+keys Down Down Down Down Down
+wait_for 'a mix of both, or…'
+screen | grep '….*…' && fail 'a cut text ends with two ellipses'
+keys q
+clean 0
+
 # ---- who leaves does not wait for a step that takes minutes ----
 
 start 120x36

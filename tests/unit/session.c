@@ -3,6 +3,7 @@
    ways. */
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -10,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -531,6 +533,52 @@ static void long_texts_stay_whole(void **unused)
     folder_remove(folder);
 }
 
+/* Who saves and leaves at once has what was saved, and is told of it; whether it is left for the shell or for another
+   scene. */
+static void what_was_asked_for_is_saved(void **unused)
+{
+    (void)unused;
+    char folder[128], before[4096];
+    folder_make(folder, sizeof folder);
+    assert_non_null(getcwd(before, sizeof before));
+    assert_int_equal(chdir(folder), 0);
+    void (*const leave[])(struct gm_worker *, char *) = {gm_worker_abandon, gm_worker_close};
+    static const char *const files[] = {"disc-0001.png", "disc-0002.png"};
+    const int wake = eventfd(0, 0);
+    for (size_t i = 0; i < GM_COUNT(leave); i++) {
+        char *typed[] = {"disc"}, parting[GM_MESSAGE];
+        struct gm_request request;
+        assert_true(gm_request_parse(&request, 1, typed, 1, message));
+        struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+        assert_non_null(worker);
+        gm_request_close(&request);
+        gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_SAVE});
+        leave[i](worker, parting);
+        assert_int_equal(folder_count("."), i + 1); /* with nothing that is half written */
+        assert_int_equal(access(files[i], R_OK), 0);
+        assert_non_null(strstr(parting, files[i]));
+    }
+    /* where there is no room nothing stays of a file, and that is told */
+    char *typed[] = {"system", "H=p^2/2+q^2", "q=1", "p=0"}, parting[GM_MESSAGE];
+    struct gm_request request;
+    struct rlimit room;
+    assert_true(gm_request_parse(&request, GM_COUNT(typed), typed, 1, message));
+    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    assert_non_null(worker);
+    gm_request_close(&request);
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &room), 0);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &(struct rlimit){.rlim_max = room.rlim_max}), 0);
+    gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
+    gm_worker_close(worker, parting);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &room), 0);
+    assert_int_equal(folder_count("."), GM_COUNT(leave));
+    assert_string_equal(parting, "Not saved: system-0001.system: File too large");
+    close(wake);
+    assert_int_equal(chdir(before), 0);
+    folder_remove(folder);
+}
+
 /* The order of a search's answers: what is called so, what begins so, a word in it that does, any place. */
 static void searches_prefer_names(void **unused)
 {
@@ -566,7 +614,7 @@ int main(void)
         cmocka_unit_test(names_follow_changes),  cmocka_unit_test(sliders_move_finely),
         cmocka_unit_test(sliders_tell_places),   cmocka_unit_test(switches_are_told),
         cmocka_unit_test(searches_prefer_names), cmocka_unit_test(sliders_walk_through_words),
-        cmocka_unit_test(long_texts_stay_whole),
+        cmocka_unit_test(long_texts_stay_whole), cmocka_unit_test(what_was_asked_for_is_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,9 +60,6 @@ void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
     }
     const struct gm_sheet above = gm_sheet_part(whole, 1, first, whole->width - 2, rows);
     gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
-    if (wanted > rows) {
-        gm_sheet_text(&above, above.width - 1, rows - 1, "…", GM_INK, true);
-    }
 }
 
 static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)

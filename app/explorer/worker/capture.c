@@ -13,6 +13,7 @@
 #include "app/output/still.h"
 #include "app/own/now.h"
 #include "render/clock.h"
+#include "render/files/temporary.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
@@ -47,14 +48,12 @@ void gm_capture_save_system(struct gm_play *play)
     }
     char *text = gm_system_now(session->scene, gm_session_owner(session, play->selected, false));
     gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
-    FILE *file = text ? fopen(path, "wx") : NULL;
-    bool good = file && fputs(text, file) >= 0;
-    good = file && fclose(file) == 0 && good;
+    const int error = text ? gm_temporary_write(path, text, strlen(text)) : ENOMEM;
     snprintf(sentence, sizeof sentence,
-             good ? "Saved %.400s: geomint ./%.60s runs it." : "Not saved: %.400s: %.60s", path,
-             good   ? path
-             : text ? strerror(errno)
-                    : "not enough memory");
+             error == 0 ? "Saved %.400s: geomint ./%.60s runs it." : "Not saved: %.400s: %.60s", path,
+             error == 0        ? path
+             : error == ENOMEM ? "not enough memory"
+                               : strerror(error));
     free(text);
     gm_play_say(play, sentence);
 }

@@ -29,6 +29,7 @@ struct gm_worker {
     bool ready;  /* shots[filled] is finished and not yet taken */
     bool leave, orphan, failed;
     bool recorded; /* a movie was asked for, at some time */
+    size_t owed;   /* files that were asked for and are not written yet */
     int filled;    /* the shot that the thread fills; the screen has the other one */
     struct gm_shot shots[2];
 
@@ -119,18 +120,30 @@ static void release(struct gm_worker *worker)
     free(worker);
 }
 
+static bool is_owed(const struct gm_order *order)
+{
+    return order->kind == GM_ORDER_SAVE || order->kind == GM_ORDER_SYSTEM;
+}
+
+/* Called with the lock held. */
+static void obey_next(struct gm_worker *worker)
+{
+    const struct gm_order order = worker->queue[worker->first];
+    worker->first = (worker->first + 1) % QUEUE;
+    worker->count--;
+    pthread_mutex_unlock(&worker->lock);
+    gm_order_obey(&order, &worker->play, &worker->capture);
+    pthread_mutex_lock(&worker->lock);
+    worker->owed -= is_owed(&order);
+}
+
 /* One round: the orders, then some steps, then a shot or a rest. Called with the lock held. */
 static void go_round(struct gm_worker *worker)
 {
     struct gm_play *play = &worker->play;
     struct gm_capture *capture = &worker->capture;
     while (worker->count > 0) {
-        struct gm_order order = worker->queue[worker->first];
-        worker->first = (worker->first + 1) % QUEUE;
-        worker->count--;
-        pthread_mutex_unlock(&worker->lock);
-        gm_order_obey(&order, play, capture);
-        pthread_mutex_lock(&worker->lock);
+        obey_next(worker);
     }
     pthread_mutex_unlock(&worker->lock);
     gm_play_restart_if_due(play);
@@ -171,6 +184,9 @@ static void *work(void *self)
         } else {
             pthread_cond_wait(&worker->news, &worker->lock);
         }
+    }
+    while (ok && worker->owed > 0) {
+        obey_next(worker);
     }
     bool orphan = worker->orphan;
     pthread_mutex_unlock(&worker->lock);
@@ -269,11 +285,19 @@ void gm_worker_close(struct gm_worker *worker, char *parting)
         return;
     }
     pthread_mutex_lock(&worker->lock);
+    const bool owed = worker->owed > 0;
     worker->leave = true;
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);
     pthread_join(worker->thread, NULL);
-    gm_capture_stop_recording(&worker->capture, parting);
+    if (owed) {
+        snprintf(parting, GM_MESSAGE, "%s", worker->play.message);
+    }
+    char movie[GM_MESSAGE];
+    if (gm_capture_stop_recording(&worker->capture, movie)) {
+        const size_t told = strlen(parting);
+        snprintf(parting + told, GM_MESSAGE - told, "%s%s", told ? " " : "", movie);
+    }
     release(worker);
 }
 
@@ -281,7 +305,7 @@ void gm_worker_abandon(struct gm_worker *worker, char *parting)
 {
     parting[0] = '\0';
     pthread_mutex_lock(&worker->lock);
-    if (worker->recorded) {
+    if (worker->recorded || worker->owed > 0) {
         pthread_mutex_unlock(&worker->lock);
         gm_worker_close(worker, parting);
         return;
@@ -297,6 +321,7 @@ void gm_worker_order(struct gm_worker *worker, struct gm_order order)
     pthread_mutex_lock(&worker->lock);
     worker->recorded = worker->recorded || order.kind == GM_ORDER_RECORD;
     if (worker->count < QUEUE) {
+        worker->owed += is_owed(&order);
         worker->queue[(worker->first + worker->count++) % QUEUE] = order;
     }
     pthread_cond_signal(&worker->news);

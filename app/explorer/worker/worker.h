@@ -14,7 +14,8 @@ struct gm_worker;
    `first` is obeyed before the first step; NULL: nothing is. NULL with a sentence (GM_MESSAGE bytes). */
 struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
                                  char *message);
-/* Finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of it, or is empty. */
+/* Writes the files that were asked for and finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of
+   the last file and of the movie, or is empty. */
 void gm_worker_close(struct gm_worker *worker, char *parting);
 
 /* The same for a scene by its name, or that of a system or a room, with its first `schemes` schemes, that the
@@ -23,8 +24,8 @@ struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool pr
                                        char *message);
 /* Whether opening failed; then with a sentence. */
 bool gm_worker_failed(struct gm_worker *worker, char *message);
-/* Lets the thread end by itself, whenever that will be, unless it may be making a movie: that is finished
-   first, and told of as by gm_worker_close. The worker is gone. */
+/* Lets the thread end by itself, whenever that will be, unless it may be making a movie or owes a file: those are
+   finished first, and told of as by gm_worker_close. The worker is gone. */
 void gm_worker_abandon(struct gm_worker *worker, char *parting);
 
 void gm_worker_order(struct gm_worker *worker, struct gm_order order);
