@@ -531,10 +531,10 @@ screen | grep '….*…' && fail 'a cut text ends with two ellipses'
 keys q
 clean 0
 
-# ---- who leaves does not wait for a step that takes minutes ----
+# ---- a step that takes minutes: what is opened is shown before it, and who leaves does not wait for it ----
 
 start 120x36
-open_scene vortices configuration=patches count=1e4 multipole=1e-9 tracers=1e6 scheme=gauss8
+open_scene vortices configuration=patches count=1e4 multipole=1e-9 tracers=1e6 scheme=gauss8 dt=1e-6
 wait_for 'stir a dye'
 keys q
 clean 0

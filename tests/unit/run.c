@@ -395,7 +395,7 @@ static void one_of_many_blows_up(void **unused)
 static void ensembles_are_looked_back_at(void **unused)
 {
     (void)unused;
-    enum { MEMBERS = 67, STEPS = 5 };
+    enum { MEMBERS = 68, STEPS = 5 };
     struct gm_problem problem = gm_problem_oscillator_tangent;
     problem.m = MEMBERS;
     const size_t count = problem.n * MEMBERS;

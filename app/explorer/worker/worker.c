@@ -36,6 +36,7 @@ struct gm_worker {
     /* the thread's own */
     char *name; /* of the scene that is to be opened with so many schemes; NULL: the session was */
     size_t schemes;
+    bool shown; /* a shot was taken: the first comes before the first step, which may take minutes */
     struct gm_play play;
     struct gm_capture capture;
 };
@@ -54,6 +55,7 @@ static void take_shot(struct gm_worker *worker)
     struct gm_play *play = &worker->play;
     const struct gm_capture *capture = &worker->capture;
     worker->wanted = false;
+    worker->shown = true;
     play->changed = false;
     struct gm_shot *shot = &worker->shots[worker->filled];
     pthread_mutex_unlock(&worker->lock);
@@ -147,7 +149,7 @@ static void go_round(struct gm_worker *worker)
     }
     pthread_mutex_unlock(&worker->lock);
     gm_play_restart_if_due(play);
-    bool worked = gm_play_step(play);
+    const bool worked = worker->shown && gm_play_step(play);
     capture->unrecorded = capture->unrecorded || worked;
     gm_capture_take_frame(capture, &play->session);
     gm_play_keep_agenda(play);
