@@ -248,13 +248,14 @@ def never_stopped(pause):
     yield from ends(session, 'SIGTERM')
 
 
-def has_ended(process):
-    """Whether a process is gone, or there for its parent alone to ask after."""
+def ended_by(process):
+    """The signal that ended a process, 0 if its parent has asked after it, None if it has not ended."""
     try:
         with open(f'/proc/{process}/stat', encoding='ascii') as stat:
-            return stat.read().rpartition(')')[2].split()[0] == 'Z'
+            fields = stat.read().rpartition(')')[2].split()
+            return int(fields[-1]) & 0x7f if fields[0] == 'Z' else None
     except (FileNotFoundError, ProcessLookupError):
-        return True
+        return 0
 
 
 def stopped():
@@ -270,10 +271,14 @@ def stopped():
     with open(f'/proc/{session.pid}/task/{session.pid}/children', encoding='ascii') as children:
         child = children.read().split()[0]
     session.keys('kill %1\n')
-    # on a busy machine a shell may not hear at once that it has ended, so that is not asked
-    yield lambda: has_ended(child)
-    session.keys('echo $((6 * 7))\n')
-    yield session.shows('42')
+    numbers = []
+    yield lambda: [numbers.append(number) for number in [ended_by(child)] if number is not None]
+    session.keys('echo $((6 * 7)) and on\n')
+    yield session.shows('42 and on')
+    if numbers[0] == 0:
+        yield session.shows('Terminated')
+    elif numbers[0] != signal.SIGTERM: # on a busy machine a shell may not hear at once that it has ended
+        session.error = f'it was ended by signal {numbers[0]}'
     on = [mode for mode in (1, 1000, 1002, 1003, 1006, 1049) if session.modes.get(mode)]
     if on or not session.modes.get(25, True):
         session.error = f'it leaves the terminal with the modes {session.modes}'

@@ -106,7 +106,7 @@ static void find_axes(const struct gm_orders *orders, struct gm_axis *steps, str
     gm_range_round(&errors->low, &errors->high, GM_LOG);
 }
 
-/* The line of the claimed order */
+/* The line of the claimed order. */
 static void draw_claim(struct gm_picture *picture, struct gm_panel *panel, const struct gm_ladder *ladder,
                        int order)
 {

@@ -81,12 +81,17 @@ static double return_defect(struct gm_field_subject *subject, const double *y)
     return largest;
 }
 
+/* What slopes in space and time may multiply a number by. */
+static double slopes_of(const struct gm_field_subject *subject)
+{
+    return 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
+}
+
 /* What round-off may make of slopes in space and time of a state, with what a scheme's own equations multiply it by. */
 static double round_off(const struct gm_field_subject *subject, const double *y)
 {
     enum { MULTIPLIED = 100 };
-    const double slopes = 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
-    return MULTIPLIED * DBL_EPSILON * gm_field_size(&subject->problem, y) * slopes;
+    return MULTIPLIED * DBL_EPSILON * gm_field_size(&subject->problem, y) * slopes_of(subject);
 }
 
 /* What round-off may make of what is kept refutes no claim. */
@@ -107,7 +112,7 @@ void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subj
 {
     /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of steps that
        are long beside dx add as much as ten times that */
-    const double over = 0.05 / 8 / 10, slopes = 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
+    const double over = 0.05 / 8 / 10;
     const char *const name = subject->problem.name;
     gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, name);
     if (!gm_field_begin(subject, y)) {
@@ -119,7 +124,8 @@ void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subj
         gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
     if (!isnan(defect)) {
         gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
-        note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes / over, name);
+        note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes_of(subject) / over,
+             name);
     } else if (subject->scheme->family->form) {
         gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
                                 "the step has no derivative that could be told at this state");
