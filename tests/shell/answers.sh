@@ -10,6 +10,9 @@ cd "$folder" || exit 1
 unset DISPLAY
 failures=0
 
+# The system's own Python starts ten times as fast as one behind a version manager.
+[ -x /usr/bin/python3 ] && python3() { /usr/bin/python3 "$@"; }
+
 fail() {
     printf 'FAILED: %s\n' "$*"
     failures=$((failures + 1))
@@ -18,14 +21,34 @@ fail() {
 # What else every answer is looked at for, with the command as its words; a test may bring its own.
 inspect() { :; }
 
+# Reads err into `said`, its lines that are not indented counted in `sentences`, its first line in `sentence`: by the
+# shell itself, since thousands of answers are looked at.
+read_answer() {
+    said=
+    sentence=
+    sentences=0
+    while IFS= read -r line || [ -n "$line" ]; do
+        sentence=${sentence:-$line}
+        said="$said$line
+"
+        case $line in
+        '  '*) ;;
+        *) sentences=$((sentences + 1)) ;;
+        esac
+    done <err
+}
+
 # status STATUS WORDS...: the exit status, without a sign of a crash; what it said is in out and err
 status() {
     wanted=$1
     shift
     timeout 600 "$geomint" "$@" >out 2>err </dev/null
     got=$?
+    read_answer
     [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 300 err)"
-    grep -qiE 'sanitizer|assert|segmentation' err && fail "geomint $*: $(head -n 3 err)"
+    case $said in
+    *[Ss]anitizer* | *[Aa]ssert* | *[Ss]egmentation*) fail "geomint $*: $(head -n 3 err)" ;;
+    esac
     inspect "$@"
     return 0
 }
@@ -37,6 +60,6 @@ refused() {
     pattern=$2
     shift 2
     status "$wanted" "$@"
-    [ "$(grep -vc '^  ' err)" = 1 ] || fail "geomint $*: not one sentence: $(cat err)"
-    head -n 1 err | grep -q -- "$pattern" || fail "geomint $*: says \"$(cat err)\", not \"$pattern\""
+    [ "$sentences" = 1 ] || fail "geomint $*: not one sentence: $said"
+    printf '%s\n' "$sentence" | grep -q -- "$pattern" || fail "geomint $*: says \"$said\", not \"$pattern\""
 }
