@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The soliton scene from the command line: soliton.sh PROGRAM
+# The soliton scene from the command line: soliton.sh PROGRAM all|third
 set -u
+which=$2
 . "$(dirname "$0")/answers.sh"
 
 # ends STATUS-WORD EXIT WORDS...: how a run ends; its numbers are printed all the same
@@ -60,8 +61,9 @@ grep -q '^soliton,multiplier-lobatto4,0.2.*,bounded,ok,' "$folder/soliton-stabil
     fail "a short step is not bounded"
 grep -q 'M mesh-crossing' "$folder/out" || fail "the letters are not told"
 
-# every figure of the document
+# the figures of the document
 for number in 2 3 4 5 6 7 8 9 10 11 12 13 14; do
+    turn $number "$which" || continue
     "$geomint" figures tyranowski-$number --quick --out "$folder" >/dev/null 2>"$folder/err" ||
         fail "figure $number: $(cat "$folder/err")"
     [ -s "$folder/tyranowski-$number.png" ] || fail "no picture of figure $number"

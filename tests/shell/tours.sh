@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Tours: every one is rendered small; broken ones are refused in one sentence. tours.sh GEOMINT TOURS
+# Tours are rendered small; broken ones are refused in one sentence. tours.sh GEOMINT TOURS all|third
 set -u
+which=$3
 GEOMINT_TOURS=$2
 GEOMINT_SYSTEMS=$2/../systems
 export GEOMINT_TOURS GEOMINT_SYSTEMS
@@ -22,7 +23,9 @@ for title in 'Area' 'Energy' 'Chaos or error?' 'Both directions of space-time' '
     'Chaos that the scheme made'; do
     grep -qF "$title" list || fail "no tour is called $title"
 done
+number=0
 for file in "$GEOMINT_TOURS"/*.tour; do
+    number=$((number + 1))
     name=$(basename "$file" .tour)
     steps=$(grep -c '^step:' "$file")
     questions=$(grep -c '^ask:' "$file")
@@ -31,6 +34,7 @@ for file in "$GEOMINT_TOURS"/*.tour; do
     fi
     "$geomint" tour "$name" --list >text || fail "$name: --list"
     [ "$(grep -cE '^[0-9]+\. ' text)" = "$steps" ] || fail "$name: --list has other steps"
+    turn $number "$which" || continue
     timeout 600 "$geomint" tour "$name" --out pages --size 480x300 2>err || fail "$name: $(cat err)"
     [ "$(find pages -name "$name-??.png" | wc -l)" = "$steps" ] || fail "$name: not a picture a step"
     [ "$(find pages -name "$name-??-question.png" | wc -l)" = "$questions" ] || fail "$name: not one a question"
