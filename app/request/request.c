@@ -498,18 +498,19 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     if (!request->scene) {
         return false;
     }
-    /* without a word a scene is shown by its own lanes */
+    /* a scene is shown by its own lanes, but for what is typed */
     struct gm_arguments own = {0};
-    const bool shown = count == 1 && schemes > 1 && request->scene->lanes;
-    if (shown && !gm_arguments_split(&own, request->scene->lanes)) {
+    const struct gm_arguments given = {.words = (char **)typed, .count = count};
+    const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;
+    if (shown && !gm_words_complete(&own, request->scene, &given, request->scene->lanes)) {
         gm_arguments_close(&own);
         return gm_refuse(message, "not enough memory");
     }
-    char *const *given = shown ? own.words : typed + 1;
-    const int given_count = shown ? own.count : count - 1;
+    char *const *read = shown ? own.words : typed;
     struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
-    bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
+    bool good =
+        gm_words_read(&words, request->scene, (shown ? own.count : count) - 1, read + 1, schemes, message);
     if (!good && words.count > 0) {
         snprintf(request->refused, sizeof request->refused, "%s", words.list[words.count - 1].key);
     }
@@ -525,8 +526,10 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     }
     gm_words_close(&words);
     gm_arguments_close(&own);
-    if (!good && shown) { /* what nobody typed stands in a file */
-        char sentence[GM_MESSAGE];
+    char key[sizeof request->refused + 1];
+    snprintf(key, sizeof key, "%s=", request->refused);
+    if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
+        char sentence[GM_MESSAGE]; /* what nobody typed stands in a file */
         snprintf(sentence, sizeof sentence, "%s", message);
         gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
     }
@@ -538,6 +541,11 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     }
     return good;
 }
+    size_t lanes;
+    if (good && shown && !gm_arguments_have(&given, "overlay=") &&
+        !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
+        good = gm_words_separate(&words) || gm_refuse(message, "not enough memory");
+    }
 
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message)

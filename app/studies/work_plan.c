@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/request/chosen.h"
+#include "app/request/words.h"
 #include "app/studies/work.h"
 #include "core/certify.h"
 #include "core/count.h"
@@ -25,7 +26,7 @@ static struct gm_timing *timing_of(const struct gm_work_table *table)
 static bool complete(struct gm_arguments *words, const struct gm_arguments *typed, int *status, char *message)
 {
     const struct gm_scene *scene = gm_request_scene(typed->count, typed->words, status, message);
-    return scene && (gm_arguments_complete(words, typed, scene->work ? scene->work->arguments : "") ||
+    return scene && (gm_words_complete(words, scene, typed, scene->work ? scene->work->arguments : "") ||
                      gm_refuse(message, "not enough memory"));
 }
 
