@@ -595,6 +595,18 @@ void gm_changes_drop(struct gm_request *request,
 }
 
 void gm_request_close(struct gm_request *request)
+bool gm_request_ends_together(const struct gm_request *request, char *message)
+{
+    for (size_t i = 1; i < request->count; i++) {
+        if (isnan(request->lanes[i].until) && request->lanes[i].end != request->lanes[0].end) {
+            return gm_refuse(message,
+                             "steps= ends the runs at t = %.6g and t = %.6g; until= ends them together",
+                             request->lanes[0].end, request->lanes[i].end);
+        }
+    }
+    return true;
+}
+
 {
     for (size_t i = 0; i < request->count; i++) {
         free(request->lanes[i].parameters);

@@ -60,6 +60,10 @@ bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *sce
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
 void gm_request_close(struct gm_request *request);
 
+/* Whether the runs of a comparison end together, as they do not where steps= is typed beside several steps; a
+   sentence if not. */
+bool gm_request_ends_together(const struct gm_request *request, char *message);
+
 /* The exit status for a request that gm_request_parse refused. */
 int gm_request_refusal(const struct gm_request *request);
 

@@ -121,7 +121,8 @@ bool gm_backward_open(struct gm_backward_table *table, const struct gm_arguments
         return false;
     }
     table->lines = calloc(table->request.count + 1, sizeof *table->lines);
-    good = (table->lines || gm_refuse(message, "not enough memory")) && place_points(table, message);
+    good = (table->lines || gm_refuse(message, "not enough memory")) &&
+           gm_request_ends_together(&table->request, message) && place_points(table, message);
     if (!good) {
         gm_backward_close(table);
     }

@@ -321,6 +321,9 @@ static bool plan(struct gm_work_table *table, const struct gm_arguments *words,
         table->ratio =
             gm_arguments_have(typed, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
     }
+    if (!gm_request_ends_together(&table->request, message)) {
+        return false;
+    }
     if (!alike(table, typed)) {
         return gm_refuse(message,
                          "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
