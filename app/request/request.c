@@ -25,9 +25,12 @@ static const char *scheme_name(size_t i, const void *data)
     return ((const struct gm_scheme *const *)data)[i]->name;
 }
 
-static bool set_parameter(const struct gm_parameter *row, void *owner, const char *text, char *message)
+bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message)
 {
-    switch (gm_parameter_set(row, owner, text)) {
+    _Alignas(max_align_t) char place[GM_TEXT_SIZE];
+    struct gm_parameter alone = *row;
+    alone.offset = 0;
+    switch (gm_parameter_set(owner ? row : &alone, owner ? owner : place, text)) {
     case GM_PARSED:
         return true;
     case GM_NOT_UNDERSTOOD:
@@ -101,7 +104,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
     const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
     const struct gm_parameter *row = own ? own : gm_setting_find(list->key);
     void *owner = own ? spec->parameters : (void *)&spec->settings;
-    if (!row || set_parameter(row, owner, text, message)) {
+    if (!row || gm_value_read(row, owner, text, message)) {
         return true;
     }
     char number[48];

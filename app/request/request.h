@@ -84,6 +84,9 @@ bool gm_change_add(struct gm_request *request, size_t lane, long step, const cha
 void gm_changes_drop(struct gm_request *request,
                      bool (*drops)(const struct gm_change *change, const void *data), const void *data);
 
+/* Reads a value as gm_parameter_set does, without an owner to judge it alone; false with a sentence. */
+bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message);
+
 /* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
 void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);
 
