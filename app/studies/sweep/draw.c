@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/output/csv.h"
 #include "app/studies/edges.h"
 #include "app/studies/sweep.h"
 #include "core/schemes.h"
@@ -128,25 +129,16 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
     return &chart->cells[(observable * chart->lines + line) * chart->bins[0] * chart->bins[1]];
 }
 
-/* The cell number `index` of a row; "" where it has fewer. No cell holds a comma. */
-static const char *cell_of(const char *row, size_t index)
-{
-    while (index > 0 && *row) {
-        index -= *row++ == ',';
-    }
-    return row;
-}
-
 static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
-    enum { OBSERVABLES = 6 }; /* cells behind the status: t, steps, evaluations, solves, seconds */
-    if (strncmp(cell_of(row, chart->status), "ok,", 3) != 0) {
+    enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
+    if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
     }
     for (size_t i = 0; i < chart->shown; i++) {
         char *end = NULL;
-        const char *cell = cell_of(row, chart->status + OBSERVABLES + i);
+        const char *cell = gm_csv_cell(row, chart->status + OBSERVABLES + i);
         const double value = strtod(cell, &end);
         struct bin *bin = &bins_of(
             chart, i, line_of(chart, run))[bin_of(chart, 1, run) * chart->bins[0] + bin_of(chart, 0, run)];
