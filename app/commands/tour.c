@@ -12,6 +12,7 @@
 #include "app/request/interrupt.h"
 #include "app/tours/movie.h"
 #include "app/tours/tour.h"
+#include "core/formula/number.h"
 
 int gm_list_tours(bool json)
 {

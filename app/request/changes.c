@@ -10,6 +10,7 @@
 #include "app/ground/arguments.h"
 #include "app/own/scheme.h"
 #include "app/request/request.h"
+#include "core/formula/number.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -207,8 +208,8 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
     if (change->step > spec->steps) {
-        return gm_refuse(message, "a change after %ld steps comes too late: lane %zu makes %ld", change->step,
-                         change->lane, spec->steps);
+        return gm_refuse(message, "a change after %ld step%s comes too late: lane %zu makes %ld",
+                         change->step, gm_plural((double)change->step), change->lane, spec->steps);
     }
     void *parameters = gm_parameters_copy(request->scene, spec->parameters);
     if (!parameters) {

@@ -217,7 +217,7 @@ static void print_texts(const struct report *report)
     }
     char line[200];
     snprintf(line, sizeof line, "%s of %zu component%s%s", titles[system->kind], system->n,
-             system->n == 1 ? "" : "s", system->timed ? " and the time" : "");
+             gm_plural((double)system->n), system->timed ? " and the time" : "");
     gm_print_wrapped(line, 0, 0);
 }
 

@@ -10,6 +10,7 @@
 #include "app/output/csv.h"
 #include "app/studies/edges.h"
 #include "app/studies/sweep.h"
+#include "core/formula/number.h"
 #include "core/schemes.h"
 #include "scenes/frame/graph.h"
 #include "scenes/frame/symbol.h"
@@ -518,7 +519,8 @@ void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *
                                      chart->shown == 1 ? short_title(chart, 0, picture) : "what comes out",
                                      key_label(chart, 0, picture), last > 0 ? " and " : "",
                                      last > 0 ? key_label(chart, last, picture) : "");
-    picture->subtitle = gm_picture_text(picture, "%zu runs%s", sweep->count, fixed_words(sweep, picture));
+    picture->subtitle = gm_picture_text(picture, "%zu run%s%s", sweep->count, gm_plural((double)sweep->count),
+                                        fixed_words(sweep, picture));
     const bool binned = sweep->words.list[chart->keys[0]].count > chart->bins[0] ||
                         (last > 0 && sweep->words.list[chart->keys[last]].count > chart->bins[last]);
     picture->clock = "";

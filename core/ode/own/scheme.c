@@ -8,6 +8,7 @@
    (2006), sections II.3, II.4, V.2, V.3.3. */
 #include "core/ode/own/scheme.h"
 #include "core/count.h"
+#include "core/formula/number.h"
 
 #include <math.h>
 #include <stdarg.h>
