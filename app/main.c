@@ -124,12 +124,13 @@ static int run(int argc, char *argv[])
         if (is_one_of(argv[1], (const char *const[]){"--version", "-V", "version", NULL})) {
             return gm_version();
         }
-        command = gm_command_find(argv[1]);
+        const bool option = argv[1][0] == '-'; /* the explorer's */
+        command = option ? command : gm_command_find(argv[1]);
         if (!command) {
             return unknown_command(argv[1]);
         }
         /* a scene's name opens the explorer, and is its first word */
-        first = strcmp(command->name, argv[1]) == 0 ? 2 : 1;
+        first = !option && strcmp(command->name, argv[1]) == 0 ? 2 : 1;
     }
     if (command->raw) {
         return command->raw(argc - first, argv + first);

@@ -46,7 +46,12 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
     if (scheme->family->kind != problem->kind) {
         return gm_scheme_problems(scheme);
     }
-    const struct gm_facet_words *words = words_of(problem->kind, scheme->needs & ~facets_of(problem));
+    const unsigned lacking = scheme->needs & ~facets_of(problem);
+    const char *obstacle = problem->kind->obstacle ? problem->kind->obstacle(problem, lacking) : NULL;
+    if (obstacle) {
+        return obstacle;
+    }
+    const struct gm_facet_words *words = words_of(problem->kind, lacking);
     const char *alone =
         scheme->family->own_time && problem->m > 1 ? "a single member, for its time is its own" : NULL;
     return words ? words->structure : alone;

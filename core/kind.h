@@ -26,6 +26,8 @@ struct gm_kind {
     const struct gm_facet_words *words;
     /* The facets that a problem of this kind has, as bits. NULL: none have names. */
     unsigned (*facets)(const struct gm_problem *problem);
+    /* What is in the way of those that it lacks, as words of them; NULL, or it returns NULL: nothing is. */
+    const char *(*obstacle)(const struct gm_problem *problem, unsigned lacking);
     /* The loop over the problem's own kernels; NULL, or it returns NULL: the family's own. */
     gm_loop *(*loop)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     /* Makes what steps of this scheme ask the problem for, where it is made late; NULL: nothing is. */

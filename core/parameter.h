@@ -36,7 +36,7 @@ struct gm_parameter {
     bool file;      /* a text that is the path of a file */
     bool names;     /* a text whose commas part names, and not lanes, unless all that they part are choices */
     bool automatic; /* a real that may also be "auto": NaN, until its owner settles it */
-    bool required;  /* the default is what was given once: it is always told */
+    bool required;  /* always told: its default is what was given once, or it follows from another */
 };
 
 enum gm_parse {

@@ -42,6 +42,35 @@ const struct gm_scheme *gm_scheme_at(size_t index)
     return NULL;
 }
 
+const char *gm_scheme_known_as(const char *word)
+{
+    static const char *const names[][2] = {
+        {"leapfrog", "verlet"},
+        {"velocity-verlet", "verlet"},
+        {"stormer-verlet", "verlet"},
+        {"kick-drift-kick", "verlet"},
+        {"position-verlet", "verlet-position"},
+        {"drift-kick-drift", "verlet-position"},
+        {"euler", "explicit-euler"},
+        {"forward-euler", "explicit-euler"},
+        {"backward-euler", "implicit-euler"},
+        {"semi-implicit-euler", "symplectic-euler"},
+        {"euler-cromer", "symplectic-euler"},
+        {"implicit-midpoint", "midpoint"},
+        {"implicit-trapezoidal", "trapezoidal"},
+        {"crank-nicolson", "trapezoidal"},
+        {"heun", "rk2"},
+        {"runge-kutta", "rk4"},
+        {"preissmann", "box"},
+    };
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        if (strcmp(names[i][0], word) == 0) {
+            return names[i][1];
+        }
+    }
+    return NULL;
+}
+
 /* Those that were brought along, which any thread may do. */
 static struct {
     pthread_mutex_t lock;

@@ -15,6 +15,9 @@ const struct gm_scheme *gm_scheme_find(const char *name);
    fit if there is none that does; NULL if there is no scheme of that name. */
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
 
+/* The name here of a scheme that others call `word`; NULL if there is none. */
+const char *gm_scheme_known_as(const char *word);
+
 /* Takes a scheme that was brought along among those that are found by their name, or by their word: it stays
    for good. False: out of memory. */
 bool gm_scheme_bring(const struct gm_scheme *scheme);

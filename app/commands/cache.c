@@ -9,6 +9,7 @@
 #include "app/ground/exit.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
+#include "core/formula/number.h"
 #include "core/memory.h"
 
 static int command_cache(const struct gm_options *options)
@@ -47,7 +48,7 @@ static int command_cache(const struct gm_options *options)
         strftime(used, sizeof used, "%Y-%m-%d %H:%M", localtime_r(&entries[i].used, &date));
         gm_say("%s  %8zu bytes  %s", entries[i].key.text, entries[i].size, used);
     }
-    gm_say("%zu %s of %zu bytes in %s", count, count == 1 ? "kernel" : "kernels", bytes, folder);
+    gm_say("%zu kernel%s of %zu bytes in %s", count, gm_plural((double)count), bytes, folder);
     free(entries);
     return gm_finish(GM_EXIT_OK);
 }

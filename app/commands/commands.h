@@ -21,4 +21,7 @@ extern const size_t gm_command_count;
 /* The command of that name; for the name of a scene the explorer; or NULL. */
 const struct gm_command_row *gm_command_find(const char *word);
 
+/* The tours, as `tour` and `list tours` print them. */
+int gm_list_tours(bool json);
+
 #endif

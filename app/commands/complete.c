@@ -278,6 +278,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
         offer(&stem, "rooms", "");
         offer(&stem, "schemes", "");
         offer(&stem, "figures", "");
+        offer(&stem, "tours", "");
         offer_scenes(&stem);
         return;
     case GM_FIGURES:

@@ -20,6 +20,7 @@
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
+#include "core/formula/number.h"
 #include "render/clock.h"
 #include "render/message.h"
 
@@ -436,8 +437,9 @@ static void print_sum(const struct series *series)
             fail += !series->outcomes[i].verdicts[k].holds;
         }
     }
-    gm_say("%zu of %zu figures made; %zu statements hold, %zu do not; %s/figures.html", made, series->count,
-           hold, fail, series->output.folder);
+    gm_say("%zu of %zu figure%s made; %zu statement%s %s, %zu %s not; %s/figures.html", made, series->count,
+           gm_plural((double)series->count), hold, gm_plural((double)hold), hold == 1 ? "holds" : "hold",
+           fail, fail == 1 ? "does" : "do", series->output.folder);
 }
 
 static int command_figures(const struct gm_options *options)

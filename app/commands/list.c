@@ -366,7 +366,7 @@ static bool list_scene(const struct gm_scene *scene, const char *name, const str
 }
 
 /* The lists beside those of a scene. */
-enum { LISTS = 5 };
+enum { LISTS = 6 };
 
 static int list_markdown(const char *what)
 {
@@ -383,7 +383,7 @@ static int list_markdown(const char *what)
 
 static const char *list_name(size_t i, const void *data)
 {
-    static const char *const lists[LISTS] = {"scenes", "systems", "rooms", "schemes", "figures"};
+    static const char *const lists[LISTS] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
     return (void)data, lists[i];
 }
 
@@ -406,7 +406,7 @@ static int command_list(const struct gm_options *options)
     }
     if (options->arguments.count > 1) {
         gm_complain(
-            "list takes one name: scenes, systems, rooms, schemes, figures, a scene, a system or a room");
+            "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system or a room");
         return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
@@ -433,6 +433,8 @@ static int command_list(const struct gm_options *options)
         list_schemes(options);
     } else if (strcmp(what, "figures") == 0) {
         list_figures(options);
+    } else if (strcmp(what, "tours") == 0) {
+        return gm_list_tours(options->json);
     } else if (scene) {
         if (!list_scene(scene, what, options)) {
             return GM_EXIT_USAGE;
@@ -442,7 +444,7 @@ static int command_list(const struct gm_options *options)
         const char *list = gm_nearest(what, LISTS, list_name, NULL);
         const char *near = list ? list : gm_system_near(what, found);
         gm_complain(
-            "list knows scenes, systems, rooms, schemes, figures and the names of scenes, systems and "
+            "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems and "
             "rooms, not \"%.60s\"%s%s",
             what, near ? "; did you mean " : "", near ? near : "");
         return GM_EXIT_USAGE;
@@ -452,7 +454,7 @@ static int command_list(const struct gm_options *options)
 
 const struct gm_command_row gm_command_list = {
     .name = "list",
-    .synopsis = "[scenes|systems|rooms|schemes|figures|SCENE|SYSTEM|ROOM]",
+    .synopsis = "[scenes|systems|rooms|schemes|figures|tours|SCENE|SYSTEM|ROOM]",
     .help = "what there is",
     .bit = GM_LIST,
     .function = command_list,

@@ -13,6 +13,7 @@
 #include "app/output/still.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
+#include "core/formula/number.h"
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/sink.h"
@@ -349,7 +350,8 @@ static void tell_written(const struct work *work)
         gm_complain("wrote %s", options->movie);
     }
     if (made > 0 && (options->out || !options->movie)) {
-        gm_complain("wrote %ld frames, %s/%s-*.png", made, frames->folder, frames->name);
+        gm_complain("wrote %ld frame%s, %s/%s-*.png", made, gm_plural((double)made), frames->folder,
+                    frames->name);
     }
 }
 
@@ -374,7 +376,8 @@ static int paint_all(struct work *work, const char *name)
     }
     good = good && open_sinks(work, name, message);
     if (good && work->frames.found > 0) {
-        gm_complain("%ld of %ld frames are there already", work->frames.found, work->schedule.ours);
+        gm_complain("%ld of %ld frame%s %s there already", work->frames.found, work->schedule.ours,
+                    gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
     }
     good = good && resume(work, message) && make_frames(work, message);
     const bool closed = close_sinks(work, good, message);
@@ -385,8 +388,8 @@ static int paint_all(struct work *work, const char *name)
         }
     }
     if (gm_interrupted) {
-        gm_complain("stopped at %ld of %ld frames; the same command goes on from there", work->done,
-                    work->schedule.ours);
+        gm_complain("stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
+                    work->schedule.ours, gm_plural((double)work->schedule.ours));
         return GM_EXIT_INTERRUPTED;
     }
     const int status = tell_end(work);

@@ -7,18 +7,31 @@
 #include "app/commands/commands.h"
 #include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
+#include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
 #include "app/tours/movie.h"
 #include "app/tours/tour.h"
+#include "core/formula/number.h"
 
-static int list_tours(void)
+int gm_list_tours(bool json)
 {
     char message[GM_MESSAGE];
     size_t count = 0;
     struct gm_tour *tours = gm_tours_read(&count, message);
     for (size_t i = 0; i < count; i++) {
-        gm_say("%-16s %s (%zu steps)", tours[i].name, tours[i].title, tours[i].count);
+        if (json) {
+            printf("{");
+            gm_json_pair("tour", tours[i].name);
+            printf(",");
+            gm_json_pair("title", tours[i].title);
+            printf(",");
+            gm_json_pair("about", tours[i].about ? tours[i].about : "");
+            printf(",\"steps\":%zu}\n", tours[i].count);
+            continue;
+        }
+        gm_say("%-16s %s (%zu step%s)", tours[i].name, tours[i].title, tours[i].count,
+               gm_plural((double)tours[i].count));
         printf("%-16s %s\n", "", tours[i].about ? tours[i].about : "");
     }
     gm_tours_close(tours, count);
@@ -85,7 +98,7 @@ static int command_tour(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     if (options->arguments.count == 0) {
-        return list_tours();
+        return gm_list_tours(false);
     }
     const bool found = gm_tour_find(options->arguments.words[0], path, sizeof path, &file, message);
     if (!found || !gm_tour_read(&tour, path, message)) {

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/formula/number.h"
 #include "core/memory.h"
 #include "render/files/base64.h"
 
@@ -357,9 +358,11 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
             "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, made again</h1>\n",
             GM_VERSION, style);
     fprintf(page,
-            "<p class=\"sum\">%zu of %zu figures made. Of %zu statements that were measured, "
-            "<span class=\"good\">✓ %zu hold</span> and <span class=\"bad\">✗ %zu do not</span>.</p>\n",
-            sum->made, count, sum->hold + sum->fail, sum->hold, sum->fail);
+            "<p class=\"sum\">%zu of %zu figure%s made. Of %zu statement%s measured, "
+            "<span class=\"good\">✓ %zu hold%s</span> and <span class=\"bad\">✗ %zu do%s not</span>.</p>\n",
+            sum->made, count, gm_plural((double)count), sum->hold + sum->fail,
+            gm_plural((double)(sum->hold + sum->fail)), sum->hold, sum->hold == 1 ? "s" : "", sum->fail,
+            sum->fail == 1 ? "es" : "");
     fputs(
         "<p class=\"soft\">Each figure comes with what its document says of it, the number that was found here, "
         "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "

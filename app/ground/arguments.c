@@ -63,33 +63,28 @@ bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
     return good;
 }
 
-bool gm_arguments_have(const struct gm_arguments *arguments, const char *word)
+/* How long a word's key is; both keys of a run's end count as one. */
+static size_t key_of(const char *word, const char **key)
 {
-    const size_t length = strcspn(word, "=") + 1;
-    for (int i = 0; i < arguments->count; i++) {
-        if (strncmp(arguments->words[i], word, length) == 0) {
-            return true;
-        }
-    }
-    return false;
+    *key = strncmp(word, "steps=", 6) == 0 ? "until=" : word;
+    return strcspn(*key, "=") + 1;
 }
 
-bool gm_arguments_complete(struct gm_arguments *arguments, const struct gm_arguments *typed,
-                           const char *usual)
+const char *gm_arguments_find(const struct gm_arguments *arguments, const char *word)
 {
-    struct gm_arguments own = {0};
-    bool good = gm_arguments_split(&own, usual);
-    if (typed->count > 0) {
-        good = good && gm_arguments_add(arguments, typed->words[0]);
+    const char *key, *other;
+    const size_t length = key_of(word, &key);
+    for (int i = 0; i < arguments->count; i++) {
+        if (key_of(arguments->words[i], &other) == length && strncmp(other, key, length) == 0) {
+            return arguments->words[i];
+        }
     }
-    for (int i = 0; good && i < own.count; i++) {
-        good = gm_arguments_have(typed, own.words[i]) || gm_arguments_add(arguments, own.words[i]);
-    }
-    for (int i = 1; good && i < typed->count; i++) {
-        good = gm_arguments_add(arguments, typed->words[i]);
-    }
-    gm_arguments_close(&own);
-    return good;
+    return NULL;
+}
+
+bool gm_arguments_have(const struct gm_arguments *arguments, const char *word)
+{
+    return gm_arguments_find(arguments, word) != NULL;
 }
 
 void gm_arguments_put(FILE *stream, const char *word)

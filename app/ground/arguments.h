@@ -23,13 +23,10 @@ bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
 /* Puts a NULL behind the last word, which it does not count. */
 bool gm_arguments_end(struct gm_arguments *arguments);
 
-/* Whether one of the words sets the key that `word` sets: "dt=" or "dt=0.1". */
+/* The first of the words that sets what `word` sets, "dt=" or "dt=0.1"; NULL. Both steps= and until= set the
+   end of a run. */
+const char *gm_arguments_find(const struct gm_arguments *arguments, const char *word);
 bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
-
-/* Fills an empty list with the first word that was typed, a scene; the words of the text `usual` that set no
-   key that was typed; and the other words typed. False when memory is short. */
-bool gm_arguments_complete(struct gm_arguments *arguments, const struct gm_arguments *typed,
-                           const char *usual);
 
 /* Writes one word as gm_arguments_split reads it. */
 void gm_arguments_put(FILE *stream, const char *word);

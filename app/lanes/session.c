@@ -383,14 +383,9 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
         timing->dt = fabs(timing->dt); /* a start is forwards */
     }
     void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
-    if (gm_parameter_set(row, owner, text) == GM_PARSED) {
-        char sentence[GM_MESSAGE];
-        if (of_scheme || !session->scene->settle ||
-            session->scene->settle(wanted->parameters, &row->key, 1, sentence)) {
-            return true;
-        }
-    }
-    return gm_refuse(message, "%s cannot be %s.", row->key, text);
+    gm_parameter_set(row, owner, text);
+    return of_scheme || !session->scene->settle ||
+           session->scene->settle(wanted->parameters, &row->key, 1, message);
 }
 
 /* Makes a change on a lane now, and keeps its course right where that turns its time. */
@@ -438,16 +433,12 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
 }
 
 /* Sets how a lane is looked at, for its whole run: it is as if it had been typed. */
-static bool look(struct gm_session *session, size_t i, const struct gm_parameter *row, const char *text,
-                 char *message)
+static void look(struct gm_session *session, size_t i, const struct gm_parameter *row, const char *text)
 {
-    if (gm_parameter_set(row, session->lanes[i]->parameters, text) != GM_PARSED) {
-        return gm_refuse(message, "%s cannot be %s.", row->key, text);
-    }
+    gm_parameter_set(row, session->lanes[i]->parameters, text);
     gm_parameter_set(row, session->log.lanes[i].parameters, text);
     gm_past_set(&session->pasts[i], row, text);
     forget_arguments(session);
-    return true;
 }
 
 /* A name that tells lanes apart by what has just been changed. */
@@ -467,6 +458,9 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
     bool alone = gm_session_differs(session, row, of_scheme), now = row->live && !of_scheme;
     bool step = !of_scheme && row->offset == offsetof(struct gm_timing, dt);
     char change[GM_MESSAGE];
+    if (!gm_value_read(row, NULL, text, message)) {
+        return false;
+    }
     /* a step is set by its size; which way it goes is another matter */
     snprintf(change, sizeof change, "%s=%s%s%s", row->key,
              step && gm_session_direction(session) < 0 ? "-(" : "", text,
@@ -478,8 +472,9 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
         if (alone && i != lane) {
             continue;
         }
-        if (now &&
-            !(row->looks ? look(session, i, row, text, message) : make_change(session, i, change, message))) {
+        if (now && row->looks) {
+            look(session, i, row, text);
+        } else if (now && !make_change(session, i, change, message)) {
             return false;
         }
         /* a restart that is already due keeps a live change too */

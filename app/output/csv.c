@@ -15,3 +15,15 @@ void gm_csv_put_text(FILE *stream, const char *text)
     }
     fputs(quoted ? "\"" : "", stream);
 }
+
+const char *gm_csv_cell(const char *row, size_t index)
+{
+    for (bool quoted = false; index > 0; row++) {
+        if (*row == '\0') {
+            return row;
+        }
+        quoted ^= *row == '"';
+        index -= !quoted && *row == ',';
+    }
+    return row;
+}

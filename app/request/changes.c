@@ -10,6 +10,7 @@
 #include "app/ground/arguments.h"
 #include "app/own/scheme.h"
 #include "app/request/request.h"
+#include "core/formula/number.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -197,25 +198,31 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
         return true;
     }
     const struct gm_parameter *row = gm_scene_parameter(scene, key);
-    if (!row || !row->live || gm_parameter_set(row, parameters, value) != GM_PARSED) {
+    if (!row || !row->live) {
         return gm_refuse(message, "%.60s cannot be changed in flight", text);
     }
-    return true;
+    return gm_value_read(row, parameters, value, message);
 }
 
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message)
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
     if (change->step > spec->steps) {
-        return gm_refuse(message, "a change after %ld steps comes too late: lane %zu makes %ld", change->step,
-                         change->lane, spec->steps);
+        return gm_refuse(message, "a change after %ld step%s comes too late: lane %zu makes %ld",
+                         change->step, gm_plural((double)change->step), change->lane, spec->steps);
     }
     void *parameters = gm_parameters_copy(request->scene, spec->parameters);
     if (!parameters) {
         return gm_refuse(message, "not enough memory");
     }
     struct meaning meaning;
-    const bool good = understand(request->scene, parameters, change->text, &meaning, message);
+    bool good = understand(request->scene, parameters, change->text, &meaning, message);
+    const double usual = ((const struct gm_timing *)parameters)->dt;
+    if (good && !isnan(meaning.dt) && fabs(meaning.dt) != fabs(usual)) { /* its sign may turn */
+        char size[64];
+        good = gm_value_read(gm_scene_parameter(request->scene, "dt"), NULL,
+                             gm_number_format(fabs(meaning.dt), size, sizeof size), message);
+    }
     free(parameters);
     return good;
 }

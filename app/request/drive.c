@@ -9,6 +9,7 @@
 
 #include "app/native/engine.h"
 #include "app/request/interrupt.h"
+#include "core/formula/number.h"
 #include "render/clock.h"
 
 /* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
@@ -219,7 +220,7 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         }
         char made[40] = ""; /* of an ensemble how many the loop has counted depends on the loop */
         if (run->problem->m == 1) {
-            snprintf(made, sizeof made, " in %lu iteration%s", iterations, iterations == 1 ? "" : "s");
+            snprintf(made, sizeof made, " in %lu iteration%s", iterations, gm_plural((double)iterations));
         }
         snprintf(text, size,
                  "the implicit equations of the step after t = %.6g were not solved to round-off%s", run->t,

@@ -25,9 +25,12 @@ static const char *scheme_name(size_t i, const void *data)
     return ((const struct gm_scheme *const *)data)[i]->name;
 }
 
-static bool set_parameter(const struct gm_parameter *row, void *owner, const char *text, char *message)
+bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message)
 {
-    switch (gm_parameter_set(row, owner, text)) {
+    _Alignas(max_align_t) char place[GM_TEXT_SIZE];
+    struct gm_parameter alone = *row;
+    alone.offset = 0;
+    switch (gm_parameter_set(owner ? row : &alone, owner ? owner : place, text)) {
     case GM_PARSED:
         return true;
     case GM_NOT_UNDERSTOOD:
@@ -70,7 +73,8 @@ static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, co
     }
     if (!spec->scheme) {
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
-        const char *near = gm_nearest(name, gm_fitting_elsewhere(scene, fitting), scheme_name, fitting);
+        const char *near = gm_scheme_known_as(name);
+        near = near ? near : gm_nearest(name, gm_fitting_elsewhere(scene, fitting), scheme_name, fitting);
         char words[256];
         gm_arguments_tell_scene(scene, words, sizeof words);
         return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,
@@ -101,7 +105,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
     const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
     const struct gm_parameter *row = own ? own : gm_setting_find(list->key);
     void *owner = own ? spec->parameters : (void *)&spec->settings;
-    if (!row || set_parameter(row, owner, text, message)) {
+    if (!row || gm_value_read(row, owner, text, message)) {
         return true;
     }
     char number[48];
@@ -292,7 +296,7 @@ static bool find_schemes(struct gm_request *request, char *message)
 {
     const struct gm_scene *scene = request->scene;
     const struct gm_scheme *unfit = NULL;
-    const char *lacks = NULL;
+    const char *lacks = NULL, *known = NULL;
     for (size_t i = 0; i < request->count && !unfit; i++) {
         struct gm_problem problem = {0};
         if (is_repeated(request, i)) {
@@ -311,6 +315,8 @@ static bool find_schemes(struct gm_request *request, char *message)
                 spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
                 unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
                 lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
+                known = unfit ? gm_scheme_known_as(unfit->name) : NULL;
+                known = known && gm_scheme_fits(gm_scheme_find(known), &problem) ? known : NULL;
             }
         }
         if (scene->close) {
@@ -319,9 +325,10 @@ static bool find_schemes(struct gm_request *request, char *message)
     }
     char words[256];
     gm_arguments_tell_scene(scene, words, sizeof words);
-    return !unfit ||
-           gm_refuse(message, "scheme %s does not fit scene %s%s%s; geomint list %s names those that do",
-                     unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
+    return !unfit || gm_refuse(message, "scheme %s does not fit scene %s%s%s; %s%s%s", unfit->name,
+                               scene->name, lacks ? ": it needs " : "", lacks ? lacks : "",
+                               known ? "did you mean " : "geomint list ", known ? known : words,
+                               known ? "" : " names those that do");
 }
 
 /* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
@@ -428,6 +435,24 @@ static bool equalise(struct gm_request *request, const struct gm_words *words, c
     return true;
 }
 
+/* Both steps= and until= were typed; the step that both mean, where each is one number. */
+static bool refuse_two_ends(const struct gm_scene *scene, const struct gm_words *words, char *message)
+{
+    char text[2][GM_TEXT_SIZE], both[128] = "";
+    const struct gm_word *ends[] = {gm_words_find(words, "steps"), gm_words_find(words, "until")};
+    const char *const typed[] = {gm_word_value(ends[0], 0, text[0]), gm_word_value(ends[1], 0, text[1])};
+    double steps, until;
+    void *usual = gm_scene_defaults(scene);
+    if (usual && ends[0]->count == 1 && ends[1]->count == 1 && gm_number_parse(typed[0], &steps) &&
+        gm_number_parse(typed[1], &until)) {
+        snprintf(both, sizeof both, ", or until=%.40s dt=%.6g for both", typed[1],
+                 (until - gm_scene_t0(scene, usual)) / steps);
+    }
+    free(usual);
+    return gm_refuse(message, "steps=%.40s and until=%.40s are both given; type one of them%s", typed[0],
+                     typed[1], both);
+}
+
 static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
 {
     size_t count = 0;
@@ -443,7 +468,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
         return gm_refuse(message, "not enough memory");
     }
     if (gm_words_find(words, "steps") && gm_words_find(words, "until")) {
-        return gm_refuse(message, "steps= and until= are both given; one of them follows from the other");
+        return refuse_two_ends(request->scene, words, message);
     }
     if (!apply_words(request, words, count, message) ||
         !(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
@@ -498,20 +523,26 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     if (!request->scene) {
         return false;
     }
-    /* without a word a scene is shown by its own lanes */
+    /* a scene is shown by its own lanes, but for what is typed */
     struct gm_arguments own = {0};
-    const bool shown = count == 1 && schemes > 1 && request->scene->lanes;
-    if (shown && !gm_arguments_split(&own, request->scene->lanes)) {
+    const struct gm_arguments given = {.words = (char **)typed, .count = count};
+    const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;
+    if (shown && !gm_words_complete(&own, request->scene, &given, request->scene->lanes)) {
         gm_arguments_close(&own);
         return gm_refuse(message, "not enough memory");
     }
-    char *const *given = shown ? own.words : typed + 1;
-    const int given_count = shown ? own.count : count - 1;
+    char *const *read = shown ? own.words : typed;
     struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
-    bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
+    bool good =
+        gm_words_read(&words, request->scene, (shown ? own.count : count) - 1, read + 1, schemes, message);
     if (!good && words.count > 0) {
         snprintf(request->refused, sizeof request->refused, "%s", words.list[words.count - 1].key);
+    }
+    size_t lanes;
+    if (good && shown && !gm_arguments_have(&given, "overlay=") &&
+        !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
+        good = gm_words_separate(&words) || gm_refuse(message, "not enough memory");
     }
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, recalled, message);
@@ -525,8 +556,10 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     }
     gm_words_close(&words);
     gm_arguments_close(&own);
-    if (!good && shown) { /* what nobody typed stands in a file */
-        char sentence[GM_MESSAGE];
+    char key[sizeof request->refused + 1];
+    snprintf(key, sizeof key, "%s=", request->refused);
+    if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
+        char sentence[GM_MESSAGE]; /* what nobody typed stands in a file */
         snprintf(sentence, sizeof sentence, "%s", message);
         gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
     }
@@ -560,6 +593,18 @@ bool gm_request_recall(struct gm_request *request, const char *arguments, char *
                           : gm_refuse(message, "not enough memory");
     gm_arguments_close(&words);
     return good;
+}
+
+bool gm_request_ends_together(const struct gm_request *request, char *message)
+{
+    for (size_t i = 1; i < request->count; i++) {
+        if (isnan(request->lanes[i].until) && request->lanes[i].end != request->lanes[0].end) {
+            return gm_refuse(message,
+                             "steps= ends the runs at t = %.6g and t = %.6g; until= ends them together",
+                             request->lanes[0].end, request->lanes[i].end);
+        }
+    }
+    return true;
 }
 
 int gm_request_refusal(const struct gm_request *request)

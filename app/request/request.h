@@ -60,6 +60,10 @@ bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *sce
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
 void gm_request_close(struct gm_request *request);
 
+/* Whether the runs of a comparison end together, as they do not where steps= is typed beside several steps; a
+   sentence if not. */
+bool gm_request_ends_together(const struct gm_request *request, char *message);
+
 /* The exit status for a request that gm_request_parse refused. */
 int gm_request_refusal(const struct gm_request *request);
 
@@ -79,6 +83,9 @@ bool gm_change_add(struct gm_request *request, size_t lane, long step, const cha
 /* Closes those for which `drops` says so; NULL: all. */
 void gm_changes_drop(struct gm_request *request,
                      bool (*drops)(const struct gm_change *change, const void *data), const void *data);
+
+/* Reads a value as gm_parameter_set does, without an owner to judge it alone; false with a sentence. */
+bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message);
 
 /* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
 void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/ground/arguments.h"
 #include "core/count.h"
 #include "core/formula/nearest.h"
 #include "core/schemes.h"
@@ -335,6 +334,49 @@ static bool says(const struct gm_words *words, const char *text)
     return false;
 }
 
+/* Whether the typed words leave a usual one without effect, as a mesh file does rows, or bring schemes. */
+static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
+{
+    char key[64];
+    void *own = gm_scene_defaults(scene);
+    bool idle = false;
+    for (int i = 1; own && i < typed->count; i++) {
+        const char *value = strchr(typed->words[i], '=');
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
+        const struct gm_parameter *row = gm_scene_parameter(scene, key);
+        if (row && value) {
+            gm_parameter_set(row, own, value + 1); /* a list, or nonsense, is the request's to judge */
+        }
+        for (const struct gm_preference *preference = scene->preferences; preference && preference->word;
+             preference++) {
+            idle |= strcmp(preference->word, typed->words[i]) == 0 && strncmp(word, "scheme=", 7) == 0;
+        }
+    }
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    idle |= own && gm_scene_idle(scene, own, key);
+    free(own);
+    return idle;
+}
+
+bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
+                       const struct gm_arguments *typed, const char *usual)
+{
+    struct gm_arguments own = {0};
+    bool good = gm_arguments_split(&own, usual) && gm_arguments_add(words, typed->words[0]);
+    for (int i = 0; good && i < own.count; i++) {
+        const char *word = gm_arguments_find(typed, own.words[i]);
+        good = (!word && is_idle(scene, typed, own.words[i])) ||
+               gm_arguments_add(words, word ? word : own.words[i]);
+    }
+    for (int i = 1; good && i < typed->count; i++) { /* those without a place yet, or given twice */
+        const bool placed = gm_arguments_have(&own, typed->words[i]) &&
+                            gm_arguments_find(typed, typed->words[i]) == typed->words[i];
+        good = placed || gm_arguments_add(words, typed->words[i]);
+    }
+    gm_arguments_close(&own);
+    return good;
+}
+
 /* The schemes that a scene prefers where these words are typed. */
 static const char *const *preferred(const struct gm_words *words, const struct gm_scene *scene)
 {
@@ -379,6 +421,21 @@ static bool check_choices(const struct gm_words *words, char *message)
         }
     }
     return true;
+}
+
+bool gm_words_separate(struct gm_words *words)
+{
+    char *no = strdup("no");
+    for (size_t i = 0; no && i < words->count; i++) {
+        struct gm_word *word = &words->list[i];
+        if (strcmp(word->key, "overlay") == 0) {
+            free(word->pieces[0].text);
+            word->pieces[0].text = no;
+            return true;
+        }
+    }
+    free(no);
+    return no != NULL;
 }
 
 bool gm_words_chosen(const struct gm_words *words, const char *key)

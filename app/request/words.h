@@ -2,6 +2,7 @@
 #ifndef GM_APP_REQUEST_WORDS_H
 #define GM_APP_REQUEST_WORDS_H
 
+#include "app/ground/arguments.h"
 #include "app/request/range.h"
 #include "scenes/frame/scene.h"
 
@@ -44,6 +45,11 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
                    size_t schemes, char *message);
 void gm_words_close(struct gm_words *words);
 
+/* Fills an empty list with a scene's words, "SCENE key=value": those of the text `usual`, but for those that the
+   typed ones replace or leave without effect, and the typed ones. False when memory is short. */
+bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
+                       const struct gm_arguments *typed, const char *usual);
+
 /* NULL if the key was not typed. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
@@ -51,6 +57,9 @@ const struct gm_word *gm_words_find(const struct gm_words *words, const char *ke
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
+
+/* Makes an overlay=yes among them overlay=no: there are more lanes than colours. False when memory is short. */
+bool gm_words_separate(struct gm_words *words);
 
 /* Whether a common key that has choices was given its second one: yes, cost. */
 bool gm_words_chosen(const struct gm_words *words, const char *key);

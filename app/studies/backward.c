@@ -10,6 +10,7 @@
 
 #include "app/output/csv.h"
 #include "app/request/fitting.h"
+#include "app/request/words.h"
 
 enum { LOOKS = 400 /* at a run, at most */ };
 
@@ -112,7 +113,7 @@ bool gm_backward_open(struct gm_backward_table *table, const struct gm_arguments
     struct gm_arguments words = {0};
     char usual[512];
     bool good =
-        (usual_words(scene, usual, sizeof usual) && gm_arguments_complete(&words, arguments, usual)) ||
+        (usual_words(scene, usual, sizeof usual) && gm_words_complete(&words, scene, arguments, usual)) ||
         gm_refuse(message, "not enough memory");
     good = good && gm_request_parse(&table->request, words.count, words.words, 1, message);
     gm_arguments_close(&words);
@@ -120,7 +121,8 @@ bool gm_backward_open(struct gm_backward_table *table, const struct gm_arguments
         return false;
     }
     table->lines = calloc(table->request.count + 1, sizeof *table->lines);
-    good = (table->lines || gm_refuse(message, "not enough memory")) && place_points(table, message);
+    good = (table->lines || gm_refuse(message, "not enough memory")) &&
+           gm_request_ends_together(&table->request, message) && place_points(table, message);
     if (!good) {
         gm_backward_close(table);
     }

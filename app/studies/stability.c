@@ -8,53 +8,24 @@
 #include <string.h>
 
 #include "app/cores/pool.h"
+#include "app/request/words.h"
 #include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
 static const double most_seconds = 10;
 
-/* Whether what the user typed leaves a word of the plan without effect, as a mesh file does its rows. */
-static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
+/* The plan's arguments and schemes, as a text; malloc'ed, NULL when memory is short. */
+static char *usual_words(const struct gm_scene *scene)
 {
-    char key[64];
-    void *own = gm_scene_defaults(scene);
-    if (!own) {
-        return false;
-    }
-    for (int i = 1; i < typed->count; i++) {
-        const char *value = strchr(typed->words[i], '=');
-        snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
-        const struct gm_parameter *row = gm_scene_parameter(scene, key);
-        if (row && value) {
-            gm_parameter_set(row, own, value + 1); /* a list, or nonsense, is the request's to judge */
-        }
-    }
-    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
-    const bool idle = gm_scene_idle(scene, own, key) != NULL;
-    free(own);
-    return idle;
-}
-
-/* The plan's arguments that have an effect, and its schemes, as a text; malloc'ed, NULL when memory is
-   short. */
-static char *usual_words(const struct gm_scene *scene, const struct gm_arguments *typed)
-{
-    struct gm_arguments all = {0}, kept = {0};
-    const char *const *schemes = scene->stability->schemes;
-    char list[512] = "scheme=";
-    bool good = gm_arguments_split(&all, scene->stability->arguments);
-    for (int i = 0; good && i < all.count; i++) {
-        good = is_idle(scene, typed, all.words[i]) || gm_arguments_add(&kept, all.words[i]);
-    }
-    for (size_t i = 0; schemes && schemes[i]; i++) {
+    enum { MOST = 6 }; /* of the scene's schemes, where the plan names none */
+    const bool planned = scene->stability->schemes != NULL;
+    const char *const *schemes = planned ? scene->stability->schemes : scene->schemes;
+    char list[512] = "", *text = NULL;
+    for (size_t i = 0; schemes[i] && (planned || i < MOST); i++) {
         const size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", i ? "," : "", schemes[i]);
     }
-    good = good && (!schemes || gm_arguments_add(&kept, list));
-    char *text = good ? gm_arguments_join("", &kept) : NULL;
-    gm_arguments_close(&all);
-    gm_arguments_close(&kept);
-    return text;
+    return asprintf(&text, "%s scheme=%s", scene->stability->arguments, list) < 0 ? NULL : text;
 }
 
 /* The scene, what is usual for this purpose unless overridden, and the user's words. */
@@ -69,10 +40,11 @@ static bool parse(struct gm_stability_table *table, const struct gm_arguments *t
         return gm_refuse(message, "scene %s has no stability map", scene->name);
     }
     struct gm_arguments words = {0};
-    char *usual = usual_words(scene, typed);
+    char *usual = usual_words(scene);
     const bool good =
-        (usual && gm_arguments_complete(&words, typed, usual)) || gm_refuse(message, "not enough memory");
-    const bool parsed = good && gm_request_parse(&table->request, words.count, words.words, 6, message);
+        (usual && gm_words_complete(&words, scene, typed, usual)) || gm_refuse(message, "not enough memory");
+    const bool parsed =
+        good && gm_request_parse(&table->request, words.count, words.words, GM_RUN_SCHEMES, message);
     gm_arguments_close(&words);
     free(usual);
     return parsed;

@@ -55,7 +55,7 @@ void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row
    them. */
 double gm_sweep_seconds(const struct gm_sweep *sweep);
 
-/* The words that a row's status may be, as a list. */
+/* The words that a row's status may be, and `warning`, of one that is ok with a warning: as a list. */
 extern const char gm_sweep_statuses[];
 
 /* ---- the table ---- */

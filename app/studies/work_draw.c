@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/studies/work.h"
+#include "core/formula/number.h"
 #include "scenes/frame/graph.h"
 
 enum { NAMED = GM_LANE_COLOURS };
@@ -241,9 +242,10 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle = gm_picture_text(picture, "%s at t = %s,  %s%s%zu schemes%s", table->measure_title,
+    picture->subtitle = gm_picture_text(picture, "%s at t = %s,  %s%s%zu scheme%s%s", table->measure_title,
                                         gm_step_text(picture, timing->until), table->settings,
                                         table->settings[0] ? ",  " : "", table->line_count,
+                                        gm_plural((double)table->line_count),
                                         count < table->line_count ? ";  grey: those without a name" : "");
 
     picture->clock = "";

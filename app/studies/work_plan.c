@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/request/chosen.h"
+#include "app/request/words.h"
 #include "app/studies/work.h"
 #include "core/certify.h"
 #include "core/count.h"
@@ -25,7 +26,7 @@ static struct gm_timing *timing_of(const struct gm_work_table *table)
 static bool complete(struct gm_arguments *words, const struct gm_arguments *typed, int *status, char *message)
 {
     const struct gm_scene *scene = gm_request_scene(typed->count, typed->words, status, message);
-    return scene && (gm_arguments_complete(words, typed, scene->work ? scene->work->arguments : "") ||
+    return scene && (gm_words_complete(words, scene, typed, scene->work ? scene->work->arguments : "") ||
                      gm_refuse(message, "not enough memory"));
 }
 
@@ -319,6 +320,9 @@ static bool plan(struct gm_work_table *table, const struct gm_arguments *words,
         snprintf(word, sizeof word, "%s=", work->ratio);
         table->ratio =
             gm_arguments_have(typed, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
+    }
+    if (!gm_request_ends_together(&table->request, message)) {
+        return false;
     }
     if (!alike(table, typed)) {
         return gm_refuse(message,

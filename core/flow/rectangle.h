@@ -23,6 +23,8 @@ bool gm_rectangle_is_acute(const struct gm_rectangle *rectangle);
 
 /* The even number of strips whose triangles are best for this number of edges. */
 long gm_rectangle_strips(double width, double height, long edges, bool transposed);
+/* The number of edges, at least 4, that is best for the rectangle's number of strips. */
+long gm_rectangle_edges(const struct gm_rectangle *rectangle);
 
 /* NULL with a fault when it cannot be made. */
 struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle,

@@ -49,6 +49,9 @@ static bool split(const char *text, struct gm_span span, struct gm_text_line *li
     while (colon < span.end && text[colon] != ':' && !is_blank(text[colon]) && text[colon] != '#') {
         colon++;
     }
+    if (memchr(text + span.begin, '\'', colon - span.begin)) {
+        return gm_fail(fault, span.begin, "x' = -x is written rate: x = -x");
+    }
     if (colon == span.end || text[colon] != ':') {
         return gm_fail(fault, colon,
                        "a line begins with a word and a colon, or with a blank where it goes on");

@@ -14,4 +14,10 @@ bool gm_number_parse(const char *text, double *value);
    otherwise the shortest decimal. Returns text. */
 char *gm_number_format(double value, char *text, size_t size);
 
+/* The ending of a noun that stands behind its number. */
+static inline const char *gm_plural(double number)
+{
+    return number == 1 ? "" : "s";
+}
+
 #endif

@@ -183,10 +183,19 @@ static const char *candidate(size_t i, const void *data)
 /* What is called otherwise elsewhere; NULL: nothing. */
 static const char *other_name(const char *word)
 {
-    static const char *const names[][2] = {{"ln", "log"},      {"arcsin", "asin"},   {"arccos", "acos"},
-                                           {"arctan", "atan"}, {"arctan2", "atan2"}, {"fabs", "abs"},
-                                           {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
-                                           {"th", "tanh"},     {"pow", "^"}};
+    static const char *const names[][2] = {{"ln", "log"},
+                                           {"arcsin", "asin"},
+                                           {"arccos", "acos"},
+                                           {"arctan", "atan"},
+                                           {"arctan2", "atan2"},
+                                           {"fabs", "abs"},
+                                           {"tg", "tan"},
+                                           {"sh", "sinh"},
+                                           {"ch", "cosh"},
+                                           {"th", "tanh"},
+                                           {"pow", "^"},
+                                           {"log10", "log(x)/log(10)"},
+                                           {"log2", "log(x)/log(2)"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(word, names[i][0]) == 0) {
             return names[i][1];
@@ -437,6 +446,19 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
 
+/* Whether the parenthesis that comes next begins with the time, and goes on. */
+static bool is_at_time(const struct reader *reader)
+{
+    size_t at = reader->at + 1;
+    while (at < reader->end && reader->text[at] == ' ') {
+        at++;
+    }
+    if (gm_name_length(reader->text + at, reader->end - at) != 1 || reader->text[at] != 't') {
+        return false;
+    }
+    return at + 1 < reader->end && reader->text[at + 1] != ')';
+}
+
 static gm_node_id read_name(struct reader *reader)
 {
     const size_t begin = reader->at, length = gm_name_length(reader->text + begin, reader->end - begin);
@@ -482,6 +504,11 @@ static gm_node_id read_name(struct reader *reader)
         if (meaning != GM_KNOWN) {
             return fail(reader, begin, "%s", sentence);
         }
+    }
+    if (!reader->failed && peek(reader) == '(' && is_at_time(reader)) {
+        return fail(reader, reader->at,
+                    "%.*s(t...) is %.*s at another time: delays are not known; a product is written with *",
+                    brief, name.text, brief, name.text);
     }
     if (!reader->failed && peek(reader) == '(') {
         return fail(reader, reader->at, "%.*s is no function; a product is written with *: %.*s*(", brief,

@@ -153,6 +153,7 @@ struct gm_ode {
     bool quadratic; /* f is a polynomial of degree 2 */
     bool rough;     /* f is not smooth: no order can be told */
     bool written;   /* it was written by somebody: core/ode/own/own.h knows more of it */
+    bool forced;    /* a force acts beside what an energy gives */
     const struct gm_split *split; /* NULL: it has none, and so on */
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_lagrangian *lagrangian;

@@ -426,8 +426,8 @@ bool gm_declared_state(struct gm_reading *reading)
         if (momenta &&
             add_all_names(reading, momenta->value, GM_ENTRY_COMPONENT, &reading->component_count) &&
             reading->component_count != 2 * n) {
-            gm_fail_first(&reading->fault, momenta->place, "%zu momenta for %zu coordinates",
-                          reading->component_count - n, n);
+            gm_fail_first(&reading->fault, momenta->place, "%zu momenta for %zu coordinate%s",
+                          reading->component_count - n, n, gm_plural((double)n));
         }
         if (!momenta) {
             add_derived(reading, "p_", "", GM_ENTRY_COMPONENT, &reading->component_count, n);

@@ -453,7 +453,11 @@ bool gm_reading_target(struct gm_reading *reading, struct gm_span *rest, struct 
     const size_t length = gm_name_length(reading->text + rest->begin, rest->end - rest->begin);
     *target = (struct gm_target){.name = {rest->begin, rest->begin + length}};
     if (length == 0) {
-        return gm_fail_first(&reading->fault, rest->begin, "a name was expected");
+        const char c = rest->begin < rest->end ? reading->text[rest->begin] : '\0';
+        return gm_fail_first(&reading->fault, rest->begin,
+                             c == '\'' || c == '/'
+                                 ? "the left side is a name alone: rate: x = -x gives x' = -x"
+                                 : "a name was expected");
     }
     rest->begin += length;
     *rest = gm_span_trimmed(reading->text, *rest);

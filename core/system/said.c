@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/formula/number.h"
 #include "core/system/declared.h"
 
 static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_system_line *line,
@@ -337,8 +338,8 @@ static bool read_view(struct gm_reading *reading, const struct gm_system_line *l
                                                              : dimensions;
         if (of_other != dimensions) {
             return gm_fail_first(&reading->fault, line->value.begin,
-                                 "%zu coordinates, and those of the lines before are %zu", dimensions,
-                                 of_other);
+                                 "%zu coordinate%s, and those of the lines before are %zu", dimensions,
+                                 gm_plural((double)dimensions), of_other);
         }
     }
     return !reading->fault.failed;

@@ -77,7 +77,9 @@ def load():
         installed = ""
     ffi = cffi.FFI()
     ffi.cdef(DECLARATIONS)
-    path = os.environ.get("GEOMINT_LIBRARY") or (installed if os.path.exists(installed) else "libgeomint.so.1")
+    built = os.path.join(os.path.dirname(__file__), "..", "..", "build", "library", "libgeomint.so.1")
+    there = [path for path in (installed, built) if os.path.exists(path)]
+    path = os.environ.get("GEOMINT_LIBRARY") or (there[0] if there else "libgeomint.so.1")
     try:
         library = ffi.dlopen(path)
         found = ffi.string(library.geomint_version()).decode()

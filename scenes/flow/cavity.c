@@ -18,9 +18,9 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1000", 0.01, 1e5, "Reynolds number U L / ν",
                 .logarithmic = true),
     GM_INTEGER_ROW(struct gm_flows, columns, "columns", "128", 4, 2000, "edges at the bottom and on the lid",
-                   .logarithmic = true),
+                   .logarithmic = true, .required = true),
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "168", 0, 3000, "strips of triangles along y; 0: the best",
-                   .logarithmic = true),
+                   .logarithmic = true, .required = true),
     GM_FLOWS_IRREGULAR,
     GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the lid, with mesh= alone"),
     GM_TEXT_ROW(
@@ -31,6 +31,14 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
+
+/* Rows and columns agree. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
+    return true;
+}
 
 static unsigned char side_at(const double middle[2])
 {
@@ -251,6 +259,7 @@ const struct gm_scene gm_scene_cavity = {
     .observable_count = GM_COUNT(observables),
     .stability = &stability,
     .idle = gm_flows_idle,
+    .settle = settle,
     .setup = setup,
     .readable = gm_flows_readable,
     .chosen = gm_flows_chosen,

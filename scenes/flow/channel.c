@@ -21,15 +21,24 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", "1", 1e-3, 1e4, "Prandtl number ν / κ",
                 .logarithmic = true),
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "14", 3, 1000, "edges on each of the walls x = 0 and x = L",
-                   .logarithmic = true),
+                   .logarithmic = true, .required = true),
     GM_INTEGER_ROW(struct gm_flows, columns, "columns", "98", 0, 6000,
-                   "strips of triangles along x; 0: the best", .logarithmic = true),
+                   "strips of triangles along x; 0: the best", .logarithmic = true, .required = true),
     GM_FLOWS_IRREGULAR,
     GM_TEXT_ROW(struct gm_flows, outlet, "outlet", "free", "soft, dirichlet or free",
                 .choices = gm_flows_outlets),
     GM_FLOWS_TRACERS("150"),
     GM_FLOWS_LOOKS("scalar", "yes"),
 };
+
+/* Rows and columns agree. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = length, .height = 1, .transposed = true}, keys,
+                    count);
+    return true;
+}
 
 static double velocity(double y)
 {
@@ -204,6 +213,7 @@ const struct gm_scene gm_scene_channel = {
     .observable_count = GM_COUNT(observables),
     .figures = figures,
     .figure_count = GM_COUNT(figures),
+    .settle = settle,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -108,6 +108,19 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     }
 }
 
+void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *const *keys, size_t count)
+{
+    long *edges = r.transposed ? &own->rows : &own->columns;
+    long *strips = r.transposed ? &own->columns : &own->rows;
+    const bool rows = gm_is_given("rows", keys, count), columns = gm_is_given("columns", keys, count);
+    r.strips = *strips;
+    if (rows != columns && rows == r.transposed) {
+        *strips = gm_rectangle_strips(r.width, r.height, *edges, r.transposed);
+    } else if (rows != columns && r.strips > 0) {
+        *edges = gm_rectangle_edges(&r);
+    }
+}
+
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     const long best =

@@ -66,6 +66,10 @@ struct gm_flows {
 
 extern const char *const gm_flows_shows[], *const gm_flows_warm_shows[], *const gm_flows_stars[];
 
+/* For settle: of rows and columns the one that is not among the keys follows from the one that is. Transposed, the
+   rows are edges, and the columns strips; else the other way round. */
+void gm_flows_follow(struct gm_flows *own, struct gm_rectangle rectangle, const char *const *keys,
+                     size_t count);
 /* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 

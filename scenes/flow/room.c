@@ -25,9 +25,9 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", "1", 1e-3, 1e4, "Schmidt number ν / κ",
                 .logarithmic = true),
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "50", 10, 1000,
-                   "edges on each of the walls x = 0 and x = 5", .logarithmic = true),
+                   "edges on each of the walls x = 0 and x = 5", .logarithmic = true, .required = true),
     GM_INTEGER_ROW(struct gm_flows, columns, "columns", "66", 0, 2000,
-                   "strips of triangles along x; 0: the best", .logarithmic = true),
+                   "strips of triangles along x; 0: the best", .logarithmic = true, .required = true),
     GM_FLOWS_IRREGULAR,
     GM_TEXT_ROW(struct gm_flows, outlet, "outlet", "soft",
                 "soft, dirichlet or free; of a mesh also GROUP,GROUP or GROUP,GROUP:free",
@@ -45,6 +45,18 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_TRACERS("350"),
     GM_FLOWS_LOOKS("scalar", "yes"),
 };
+
+/* Rows and columns agree. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = side, .height = side, .transposed = true}, keys,
+                    count);
+    struct gm_flows *flows = own;
+    flows->rows =
+        gm_is_given("rows", keys, count) ? flows->rows : 5 * ((flows->rows + 2) / 5); /* for the lips */
+    return true;
+}
 
 static unsigned char side_at(const double middle[2])
 {
@@ -262,6 +274,7 @@ const struct gm_scene gm_scene_room = {
     .figure_count = GM_COUNT(figures),
     .stability = &stability,
     .idle = gm_flows_idle,
+    .settle = settle,
     .setup = setup,
     .readable = gm_flows_readable,
     .chosen = gm_flows_chosen,

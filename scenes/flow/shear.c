@@ -69,13 +69,21 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1", 0.01, 1e5, "Reynolds number U H / ν",
                 .logarithmic = true),
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "24", 3, 1000, "edges at the bottom and at the top",
-                   .logarithmic = true),
+                   .logarithmic = true, .required = true),
     GM_INTEGER_ROW(struct gm_flows, columns, "columns", "0", 0, 2000,
-                   "strips of triangles along y; 0: the best", .logarithmic = true),
+                   "strips of triangles along y; 0: the best", .logarithmic = true, .required = true),
     GM_FLOWS_IRREGULAR,
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("speed", "yes"),
 };
+
+/* Rows and columns agree. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
+    return true;
+}
 
 /* A mesh of the square with psi and theta given all round. */
 static bool make(const struct gm_flows *own, const struct shear *shear, struct gm_problem *problem,
@@ -366,6 +374,7 @@ const struct gm_scene gm_scene_couette = {
         "The flow between a wall at rest and one that moves, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
     .figures = couette_figures,
     .figure_count = GM_COUNT(couette_figures),
+    .settle = settle,
     .setup = setup_couette,
     FIELDS_OF_BOTH,
 };
@@ -377,6 +386,7 @@ const struct gm_scene gm_scene_poiseuille = {
         "The flow that a pressure drives between two walls, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
     .figures = poiseuille_figures,
     .figure_count = GM_COUNT(poiseuille_figures),
+    .settle = settle,
     .setup = setup_poiseuille,
     FIELDS_OF_BOTH,
 };

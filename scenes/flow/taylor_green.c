@@ -21,13 +21,22 @@ static const struct gm_parameter parameters[] = {
     GM_CHOICE_ROW(struct gm_flows, domain, "domain", "torus", domains,
                   "opposite sides are one, or walls without friction"),
     GM_REAL_ROW(struct gm_flows, speed, "speed", "0", 0, 10, "strength of other waves that are mixed in"),
-    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "32", 4, 1000, "edges along x", .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "32", 4, 1000, "edges along x", .logarithmic = true,
+                   .required = true),
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "0", 0, 2000, "strips of triangles along y; 0: the best",
-                   .logarithmic = true),
+                   .logarithmic = true, .required = true),
     GM_FLOWS_IRREGULAR,
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
+
+/* Rows and columns agree. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
+    return true;
+}
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
@@ -183,6 +192,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .observables = observables,
     .observable_count = GM_COUNT(observables),
     .work = &work,
+    .settle = settle,
     .setup = setup,
     .close = gm_flows_close,
     .start = start,

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/formula/number.h"
 #include "scenes/frame/graph.h"
 #include "scenes/mesh/observed.h"
 
@@ -233,7 +234,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
                later = lanes[0]->run->t != lanes[0]->t0;
     return gm_picture_text(
         picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
-        one_size ? gm_picture_text(picture, ",  %zu node%s", points, points == 1 ? "" : "s") : "",
+        one_size ? gm_picture_text(picture, ",  %zu node%s", points, gm_plural((double)points)) : "",
         one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
         one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",
         fields && exact ? "  grey: exact" : "", fields && exact && later ? "," : "",

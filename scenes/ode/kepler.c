@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/formula/number.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
 #include "scenes/ode/asked.h"
@@ -232,9 +233,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         end = fabs(lanes[i]->run->t) > fabs(end) ? lanes[i]->run->t : end;
     }
     const double periods = end / (2 * M_PI);
-    picture->title =
-        gm_picture_text(picture, "A Kepler orbit, followed by %s for %.4g %s",
-                        gm_counted_schemes(lanes, count), periods, periods == 1 ? "period" : "periods");
+    picture->title = gm_picture_text(picture, "A Kepler orbit, followed by %s for %.4g period%s",
+                                     gm_counted_schemes(lanes, count), periods, gm_plural(periods));
     const double part = 2 * M_PI / dt;
     const char *step = fabs(part - round(part)) < 1e-9 * part
                            ? gm_picture_text(picture, "T/%.0f", round(part))

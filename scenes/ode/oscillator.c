@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/formula/number.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/own_time/variational_time.h"
 #include "core/ode/problems/problems.h"
@@ -144,8 +145,9 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
         const enum gm_role role = gm_lane_role(lane->shown.colour);
         if (walk.first) {
             const double again = gm_lane_observe(lane, RESTARTS);
-            panel = gm_walk_panel(picture, &walk,
-                                  again > 0 ? gm_picture_text(picture, "%.0f restarts", again) : "");
+            panel = gm_walk_panel(
+                picture, &walk,
+                again > 0 ? gm_picture_text(picture, "%.0f restart%s", again, gm_plural(again)) : "");
             panel->axes = true;
             panel->x = time;
             panel->y = (struct gm_axis){.label = "q", .low = -1.15 * reach, .high = 1.15 * reach};

@@ -7,10 +7,14 @@ set -u
 refused 1 "which scene" backward
 refused 1 "no scene" backward keplar
 refused 1 "no modified energy" backward room
+refused 1 "steps= ends the runs at t = 1 and t = 0.5; until= ends them together" backward kepler steps=10 dt=.1,.05
 refused 1 "RK4 is not symplectic" backward kepler scheme=rk4
 refused 1 "only scheme and dt" backward kepler eccentricity=.1,.2 dt=.1 scheme=verlet
 refused 1 "not smooth" backward system "H=p^2/2 + abs(q)" q=1 p=0 dt=.1 until=1 scheme=midpoint
 refused 1 "did you mean modified_energy4_error" run kepler until=1 --measure modified_energy_4_error
+
+status 0 backward kepler steps=10 dt=.1 --size 160x90 -o steps.png
+grep -q '^kepler, up to t = 1:' out || fail "backward with steps=: $(cat out)"
 
 # null with the reason, and in the order that was asked for; what is not asked for is not told
 modified=modified_energy2_error,modified_energy4_error,modified_energy6_error

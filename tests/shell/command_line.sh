@@ -77,7 +77,51 @@ refused 1 'the nearest is 3' run disc points=0
 refused 1 'the nearest is 1e6' run disc points=1e12
 refused 1 'whole number' run disc points=3.5
 refused 1 'none of: oscillator, pendulum' run disc system=spring
-refused 1 'one of them follows' run disc steps=3 until=4
+refused 1 'steps=3 and until=4 are both given; type one of them, or until=4 dt=1.33333 for both$' run disc steps=3 until=4
+refused 1 'or until=1e5 dt=100 for both$' run kepler steps=1000 until=1e5
+refused 1 'are both given; type one of them$' run kepler steps=1000,2000 until=1e5
+# of rows and columns the one that is not typed follows from the one that is
+triangles() {
+    status 0 run "$@" steps=0 --json
+    sed -n 's/.*"triangles":\([0-9]*\).*/\1/p' out
+}
+while read -r scene typed same; do
+    [ "$(triangles "$scene" "$typed")" = "$(triangles "$scene" $same)" ] || fail "$scene $typed is not $scene $same: $(cat out)"
+done <<'END'
+room rows=30 rows=30 columns=40
+room columns=40 rows=30 columns=40
+room rows=50 rows=50 columns=66
+room columns=0 rows=50 columns=66
+cavity columns=64 columns=64 rows=84
+cavity rows=84 columns=64 rows=84
+channel rows=20 rows=20 columns=166
+channel columns=166 rows=20 columns=166
+couette columns=32 rows=24 columns=32
+poiseuille columns=32 rows=24 columns=32
+taylor-green rows=42 columns=32 rows=42
+END
+[ "$(triangles channel)" = "$(triangles channel rows=14 columns=98)" ] || fail 'without either the mesh is the usual one'
+refused 1 'acute triangles' run room rows=30 columns=66
+status 0 sweep cavity columns=8,16 steps=0 --measure triangles
+[ "$(grep -c ',ok,' out)" = 2 ] || fail "a sweep over columns: $(cat out)"
+# names that others use
+refused 1 'did you mean symplectic-euler$' run kepler scheme=semi-implicit-euler
+refused 1 'it needs wave equations; did you mean verlet$' run kepler scheme=leapfrog
+refused 1 'did you mean rk2$' run kepler scheme=heun
+refused 1 'did you mean explicit-euler$' certify forward-euler
+# a word of options opens the explorer too
+status 1 tui --theme light
+cp err tui.err
+status 1 --theme light
+cmp -s err tui.err || fail "--theme without a command: $(cat err)"
+refused 1 'there is no option --foo' --foo
+# a number and its noun
+status 0 render disc scheme=rk4 until=1 --frames 1 --size 64x64 --out one
+[ "$(cat err)" = 'geomint: wrote 1 frame, one/disc-render-*.png' ] || fail "1 frame: $(cat err)"
+status 0 render disc scheme=rk4 until=1 --frames 1 --size 64x64 --out one
+grep -q '1 of 1 frame is there already' err || fail "1 frame is there: $(cat err)"
+status 0 sweep disc scheme=rk4 until=1 --table one.csv
+grep -q '1 of 1 run made now' err || fail "1 run: $(cat err)"
 refused 1 'whole number' run disc steps=-1
 refused 1 'equal length' run disc scheme=rk2,rk4 dt=1,2,3 zip=yes
 refused 1 'one of: no, yes' run disc zip=maybe

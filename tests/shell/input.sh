@@ -187,6 +187,7 @@ refused 1 'LANE:STEP:KEY=VALUE' render disc --changes 0:-1:dt=1
 refused 1 'LANE:STEP:KEY=VALUE' render disc --changes '0:1:dt'
 refused 1 'comes too late' render disc --changes 0:1000000:dt=1
 refused 1 'is not a step' render disc --changes 0:1:dt=1e308*10
+refused 1 'dt=5e9 is out of range: it lies between' render kepler --changes 0:1:dt=5e9
 refused 1 'no scheme' render disc --changes 0:1:scheme=nothing
 refused 1 'cannot be changed' render disc --changes 0:1:points=7
 refused 1 'whole number from 0 to 1e15' run disc steps=99999999999999999999

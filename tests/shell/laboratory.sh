@@ -10,11 +10,18 @@ refused 1 "only scheme and dt" work-precision kepler eccentricity=.1,.2
 refused 1 "no observable" work-precision kepler --measure energy-error
 refused 1 "says nothing" work-precision kepler perturbation=.01 --measure position_error
 refused 1 "nothing to measure" work-precision kepler until=0
+refused 1 "until= ends them together" work-precision kepler steps=10 dt=.1,.05
 refused 1 "which scene" stability
 refused 1 "no stability map" stability disc
 refused 1 "did you mean" stability --region rk44
 refused 1 "no linear stability region" stability --region logh2
 refused 1 "no scene" stability kepler --region rk4
+
+# steps= is another way to say where a run ends
+"$geomint" work-precision kepler scheme=rk4 steps=5 --size 160x90 --out "$folder" >"$folder/out" 2>"$folder/err" &&
+    grep -q 'at t = 0.314159$' "$folder/out" || fail "work-precision with steps=: $(cat "$folder/out" "$folder/err")"
+"$geomint" stability stiff scheme=verlet steps=10 --size 160x90 --out "$folder" >"$folder/out" 2>"$folder/err" &&
+    grep -q '^stiff after t = 0.3:' "$folder/out" || fail "stability with steps=: $(cat "$folder/out" "$folder/err")"
 
 # a small ladder: files, table, sentence
 "$geomint" work-precision kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi --size 320x180 \

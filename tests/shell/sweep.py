@@ -90,7 +90,7 @@ def test_sweep(folder):
     check(len(found) == 140 and bare(one) == bare(two), "140 rows, the same with one and with two at once")
     check([row["scheme"] for row in found[:4]] == ["verlet", "rk4"] * 2, "the first list changes slowest")
     check(content(one).splitlines()[0].decode().startswith(
-        "scene,scheme,eccentricity,dt,status,t,steps,evaluations,solves,seconds,energy_error,"), "the columns")
+        "scene,scheme,eccentricity,dt,status,warning,t,steps,evaluations,solves,seconds,energy_error,"), "the columns")
     for row in found[5::15]:
         alone = subprocess.run([geomint, "run", "kepler", "--json",
                                 *(f"{key}={row[key]}" for key in ("eccentricity", "dt", "scheme"))],
@@ -237,6 +237,27 @@ def test_statuses(folder):
     check("1 of 4 runs made now" in done.stderr and len(rows(table)) == 4 and bare(table) == found_without(found),
           f"only what failed is made anew: {done.stderr}")
     check(first.splitlines()[0] == content(table).splitlines()[0], "the head stays")
+    # a run that is ok and yet lost what it should keep has its warning beside its status
+    alone = subprocess.run([geomint, "run", *words[:1], "scheme=explicit-euler", "dt=0.1", "until=100", "points=3",
+                            "--json"], capture_output=True, text=True)
+    warnings = [row["warning"] for row in found]
+    check(warnings[0] == json.loads(alone.stdout)["warning"] != "" and warnings[1:] == [""] * 3, f"{warnings}")
+    done = sweep(*words, "--retry", "warning")
+    check("1 of 4 runs made now" in done.stderr and bare(table) == found_without(found),
+          f"only what has a warning is made anew: {done.stderr}")
+    older = content(table)
+    with open(table, "wb") as file:
+        file.write(older.replace(b",warning,", b",", 1))
+    says("it has no column warning", "sweep", *words, status=3)
+    with open(table, "wb") as file:
+        file.write(older)
+    # a warning with commas, and a scheme with one, are a cell each
+    with tempfile.TemporaryDirectory() as other:
+        comma = ["kepler", "scheme=composition(verlet; 1/2, 1/2),verlet", "eccentricity=0.9999", "steps=30", "--table",
+                 os.path.join(other, "comma.csv")]
+        sweep(*comma)
+        check("0 of 2 runs made now" in sweep(*comma).stderr, "a table with commas in its cells is gone on with")
+        check(all(row["warning"].startswith("energy_error is") for row in rows(comma[-1])), f"{rows(comma[-1])}")
     with open(table, "a", encoding="utf-8") as file:
         file.write("disc,of,another,sweep\n")
     first = content(table)

@@ -106,6 +106,27 @@ misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'
 misplaced '4:8: exact: x would begin at 2, and it starts at 1' 'exact: x = 2*x(0)*cos(t)'
 misplaced '3:8: p_x has no value at the start' '' 'x = 1'
 misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
+misplaced '4:14: there is no function log10; did you mean log(x)/log(10)' 'observe: r = log10(x)'
+misplaced '4:15: x(t...) is x at another time: delays are not known' 'observe: r = x(t - 17)/2'
+# the derivative's own notation, and a force where a scheme needs an energy alone
+printf "x' = -x\nstart: x = 1\n" >prime.system
+refused 1 "prime.system:1:1: x' = -x is written rate: x = -x" run ./prime.system
+for left in "x'" dx/dt; do
+    printf "rate: %s = -x\nstart: x = 1\n" "$left" >prime.system
+    refused 1 "prime.system:1:.*a name alone: rate: x = -x gives x' = -x" run ./prime.system
+done
+printf 'coordinates: q\nH: p_q^2/2 + q^2/2\nforce: q = -0.1*p_q\nstart: q = 1, p_q = 0\n' >forced.system
+refused 1 'does not fit scene forced: it needs a Hamiltonian without the force: that acts here' run ./forced.system scheme=verlet
+# what is derived is printed in lowest terms, and what is typed as it was typed
+printf 'parameter: m = 2\ncoordinates: a r\nH: p_r^2/(2*m) + p_a^2/(2*m*r^2) + 2*r^2/4\nstart: a = 0, r = 1, p_a = 1, p_r = 0\n' >polar.system
+"$geomint" list ./polar.system >out || fail 'a system in polar coordinates'
+for line in "a' = p_a/(m\*r^2)" "p_r' = p_a^2/(m\*r^3) - r" 'H = p_r^2/(2\*m) + p_a^2/(2\*m\*r^2) + 2\*r^2/4'; do
+    grep -q "^  $line\$" out || fail "no line $line: $(cat out)"
+done
+"$geomint" list ./polar.system --latex >out || fail 'the same for a paper'
+grep -qF '\dot{a} &= \frac{p_{a}}{m\,r^{2}} \\' out || fail "the same for a paper: $(cat out)"
+"$geomint" list kepler-space >out || fail 'a system of three dimensions'
+grep -q "^  p_x' = -x/r^3\$" out || fail "a root with a name: $(cat out)"
 # how dense steps are: above 0, of the state alone; where it falls too fast the run says so
 misplaced '4:10: the monitor is -1 at the start: how dense steps are is a number above 0' 'monitor: x - 2'
 misplaced '4:10: a monitor holds coordinates, momenta and parameters alone' 'monitor: 1 + t'

@@ -18,6 +18,11 @@ broken() {
 
 "$geomint" tour >list 2>err || fail "the list: $(cat err)"
 [ -s err ] && fail "the list complains: $(cat err)"
+"$geomint" list tours >same || fail 'list tours'
+cmp -s list same || fail 'list tours and tour differ'
+"$geomint" list tours --json >same || fail 'list tours --json'
+[ "$(grep -c '^{"tour":".*","title":".*","about":".*","steps":[0-9]*}$' same)" = "$(find "$GEOMINT_TOURS" -name '*.tour' | wc -l)" ] ||
+    fail "list tours --json: $(cat same)"
 for title in 'Area' 'Energy' 'Chaos or error?' 'Both directions of space-time' 'Let the mesh run' \
     'Moving with the flow' 'A room with no leaks' 'What is it worth?' \
     'Chaos that the scheme made'; do

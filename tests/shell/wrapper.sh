@@ -195,6 +195,15 @@ if [ -e "$top/bin/script" ]; then
     check "--yes answers" says log 'apt-get -q install'
 fi
 
+run "$folder/geomint" demo
+check "the demonstration is made" same "$status" 0
+check "with the library, for Python" says log '/build -n app/geomint library/libgeomint.so.1'
+check "it says how long it takes" says err 'which take about a minute'
+check "and what each picture shows" says err 'RK4 loses energy'
+check "as it makes it" says out '<render><kepler><scheme=rk4,rk4sym>'
+check "in its folder" says out "$folder/demo"
+check "and what to do next" says err './geomint tour'
+
 run "$folder/geomint" test --fast
 check "a wrong option is told" same "$status" 1
 

@@ -17,7 +17,9 @@
 #include "core/formula/derivative.h"
 #include "core/formula/identity.h"
 #include "core/formula/reader.h"
+#include "core/formula/tidied.h"
 #include "core/formula/writer.h"
+#include "tests/common/random_formula.h"
 #include "tests/common/reference.h"
 
 static const char *const names[] = {"x",     "y",    "z",    "w",    "omega", "p_theta", "x1",
@@ -166,11 +168,55 @@ static void a_slope(const char *formula, const char *expected, const char *unuse
     gm_formula_close(&graph);
 }
 
+/* The value for these numbers, on the scale of the largest part, is that of the formula as it was derived. */
+static void same_value(const char *formula, const struct gm_formula *graph, gm_node_id derived,
+                       gm_node_id tidied)
+{
+    double values[2], scale = 1;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, derived, &count);
+    assert_non_null(parts);
+    for (size_t i = 0; i < count; i++) {
+        const double part = fabs(value_of(graph, parts[i], numbers));
+        scale = isfinite(part) ? fmax(scale, part) : scale;
+    }
+    free(parts);
+    values[0] = value_of(graph, derived, numbers);
+    values[1] = value_of(graph, tidied, numbers);
+    /* where parts are huge, sines of them are any number */
+    if (isfinite(values[0]) && scale < 1e4 && !(fabs(values[0] - values[1]) <= 1e-10 * scale)) {
+        char *before = gm_formula_text(graph, derived, &naming),
+             *after = gm_formula_text(graph, tidied, &naming);
+        fail_msg("%s: %s = %.17g is tidied as %s = %.17g", formula, before, values[0], after, values[1]);
+    }
+}
+
+/* The derivative over x as it is printed. */
+static void a_tidy(const char *formula, const char *plain, const char *latex)
+{
+    struct gm_formula graph;
+    struct gm_fault fault;
+    gm_node_id node, gradient[NAMES];
+    const bool marked[NAMES] = {true};
+    gm_formula_open(&graph);
+    assert_true(read_formula(&graph, formula, &node, &fault));
+    assert_true(gm_gradient(&graph, node, marked, NAMES, gradient));
+    const gm_node_id tidied = gm_formula_tidied(&graph, gradient[0], &naming);
+    expect_text(formula, gm_formula_text(&graph, tidied, &naming), plain);
+    expect_text(formula, gm_formula_latex(&graph, tidied, &naming), latex);
+    same_value(formula, &graph, gradient[0], tidied);
+    gm_formula_close(&graph);
+}
+
 static const struct {
     const char *word;
     void (*test)(const char *first, const char *second, const char *third);
     int count;
-} kinds[] = {{"value", a_value, 100}, {"error", an_error, 50}, {"text", a_text, 20}, {"slope", a_slope, 15}};
+} kinds[] = {{"value", a_value, 100},
+             {"error", an_error, 50},
+             {"text", a_text, 20},
+             {"slope", a_slope, 15},
+             {"tidy", a_tidy, 12}};
 
 static void lines_hold(void **unused)
 {
@@ -497,10 +543,44 @@ static void identities_are_found(void **unused)
     }
 }
 
+static void tidied_formulas_have_their_values(void **unused)
+{
+    (void)unused;
+    const bool marked[NAMES] = {true, true};
+    srand(16);
+    for (int i = 0; i < 2000; i++) {
+        struct gm_formula graph;
+        struct gm_fault fault;
+        gm_node_id node, gradient[NAMES];
+        char *text = NULL;
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        gm_random_formula(out, "xyzw", 5);
+        fclose(out);
+        gm_formula_open(&graph);
+        if (read_formula(&graph, text, &node, &fault) && gm_gradient(&graph, node, marked, NAMES, gradient)) {
+            for (size_t k = 0; k < 2; k++) {
+                same_value(text, &graph, gradient[k], gm_formula_tidied(&graph, gradient[k], &naming));
+            }
+        }
+        gm_formula_close(&graph);
+        free(text);
+    }
+    /* a product that is too long stays, and takes no time */
+    struct gm_formula graph;
+    struct gm_fault fault;
+    gm_node_id node;
+    gm_formula_open(&graph);
+    assert_true(read_formula(&graph, "prod(i = 1 .. 20000, sin(i*x))", &node, &fault));
+    assert_true(gm_formula_tidied(&graph, node, &naming) != GM_NO_NODE);
+    gm_formula_close(&graph);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_hold),
+        cmocka_unit_test(tidied_formulas_have_their_values),
         cmocka_unit_test(derivatives_are_exact),
         cmocka_unit_test(jacobians_are_sparse),
         cmocka_unit_test(constants_are_folded_by_the_library),

@@ -306,6 +306,38 @@ static void names_follow_changes(void **unused)
     gm_session_close(&session);
 }
 
+/* What is out of range is refused as on the command line, by the same sentence. */
+static void ranges_hold(void **unused)
+{
+    (void)unused;
+    char *words[] = {"kepler", "dt=5e9"}, typed[GM_MESSAGE];
+    struct gm_request request;
+    struct gm_session session;
+    bool restart = false;
+    assert_false(gm_request_parse(&request, 2, words, 1, typed));
+    assert_string_equal(typed, "dt=5e9 is out of range: it lies between 1e-7 and 1000; the nearest is 1000");
+    assert_true(gm_request_parse(&request, 1, words, 1, message));
+    assert_true(gm_session_open(&session, &request, message));
+    static const char *const wrong[][2] = {{"dt", "5e9"},     {"dt", "-0.1"},        {"dt", "abc"},
+                                           {"until", "1e13"}, {"eccentricity", "2"}, {"show", "no"}};
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
+        char word[64], *line[] = {"kepler", word};
+        snprintf(word, sizeof word, "%s=%s", wrong[i][0], wrong[i][1]);
+        struct gm_request refused;
+        assert_false(gm_request_parse(&refused, 2, line, 1, typed));
+        const struct gm_parameter *row = gm_scene_parameter(session.scene, wrong[i][0]);
+        assert_false(gm_session_set(&session, 0, row, false, wrong[i][1], &restart, message));
+        assert_string_equal(message, typed);
+    }
+    assert_true(session.lanes[0]->run->dt == ((const struct gm_timing *)request.lanes[0].parameters)->dt);
+    /* and so in changes of a picture's run */
+    assert_true(gm_change_add(&request, 0, 1, "dt=5e9"));
+    assert_false(gm_change_check(&request, &request.changes[0], message));
+    assert_non_null(strstr(message, "is out of range: it lies between 1e-7 and 1000"));
+    gm_session_close(&session);
+    gm_request_close(&request);
+}
+
 /* Vertical lines at t, over the whole of a graph. */
 static int marks_at(const struct gm_picture *picture, double t)
 {
@@ -526,7 +558,7 @@ static void long_texts_stay_whole(void **unused)
     memset(longer, 'x', sizeof longer - 1);
     longer[sizeof longer - 1] = '\0';
     shot = type_value(worker, &face, "mesh", longer);
-    assert_non_null(strstr(shot->message, "mesh cannot be xxx"));
+    assert_non_null(strstr(shot->message, "is not a word of at most 255 bytes"));
     assert_string_equal(shot->parameters[place_of(shot, "mesh")].value, other);
     gm_worker_close(worker, message);
     close(wake);
@@ -609,12 +641,19 @@ static void searches_prefer_names(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(past_is_visited),       cmocka_unit_test(forks_share_the_past),
-        cmocka_unit_test(time_runs_both_ways),   cmocka_unit_test(lanes_are_overlaid),
-        cmocka_unit_test(names_follow_changes),  cmocka_unit_test(sliders_move_finely),
-        cmocka_unit_test(sliders_tell_places),   cmocka_unit_test(switches_are_told),
-        cmocka_unit_test(searches_prefer_names), cmocka_unit_test(sliders_walk_through_words),
-        cmocka_unit_test(long_texts_stay_whole), cmocka_unit_test(what_was_asked_for_is_saved),
+        cmocka_unit_test(past_is_visited),
+        cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways),
+        cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(names_follow_changes),
+        cmocka_unit_test(ranges_hold),
+        cmocka_unit_test(sliders_move_finely),
+        cmocka_unit_test(sliders_tell_places),
+        cmocka_unit_test(switches_are_told),
+        cmocka_unit_test(searches_prefer_names),
+        cmocka_unit_test(sliders_walk_through_words),
+        cmocka_unit_test(long_texts_stay_whole),
+        cmocka_unit_test(what_was_asked_for_is_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,7 @@
 #include "app/own/system.h"
 #include "app/request/request.h"
 #include "app/request/typed.h"
+#include "core/count.h"
 #include "core/run.h"
 
 /* The words with a bar between them. */
@@ -173,11 +174,58 @@ static void saved(void **unused)
     free(now);
 }
 
+/* A typed word replaces that of its key among a scene's own lanes, and no other. */
+static void lanes(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *typed, *read;
+    } rows[] = {
+        {"kepler", "kepler scheme=rk2,rk4,verlet,rk4sym"},
+        {"kepler until=20", "kepler scheme=rk2,rk4,verlet,rk4sym until=20"},
+        {"nls until=1", "nls scheme=box,split-step2 until=1"},
+        {"burgers dt=.01",
+         "burgers scheme=ftcs,lax-wendroff,ftcs-invariant,lax-wendroff-invariant lambda=0,0.5,1 dt=.01"},
+        {"burgers scheme=ftcs", "burgers scheme=ftcs lambda=0,0.5,1"},
+        {"burgers show=frame", "burgers scheme=ftcs-invariant lambda=0,0.5,1 show=frame"},
+        {"kdv until=5", "kdv scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes until=5"},
+        {"kdv dt=0.01", "kdv scheme=box,zabusky-kruskal dt=0.01 points=501 zip=yes"},
+        {"taylor-green steps=9",
+         "taylor-green scheme=crank-nicolson,semi-implicit viscosity=0 speed=1 steps=9"},
+        {"henon-heiles dt=.1", "henon-heiles scheme=verlet q2=0,.1,.2,.3 energy=1/8 overlay=yes dt=.1"},
+        {"henon-heiles scheme=verlet,rk4", /* more lanes than colours */
+         "henon-heiles scheme=verlet,rk4 q2=0,.1,.2,.3 energy=1/8 overlay=no"},
+        {"waves c=2", "waves scheme=verlet,rk4 b=1,2 c=2"},
+    };
+    static const char text[] = "parameter: b = 1\nparameter: c = 1\ncoordinates: q\nH: p_q^2/2 + b*c*q^2/2\n"
+                               "start: q = 1, p_q = 0\nlanes: scheme=verlet,rk4 b=1,2\n";
+    char message[GM_MESSAGE];
+    struct gm_request request;
+    assert_true(gm_system_recall("waves", text));
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_arguments words = {0};
+        assert_true(gm_arguments_split(&words, rows[i].typed));
+        assert_true(gm_request_parse(&request, words.count, words.words, GM_RENDER_SCHEMES, message));
+        assert_string_equal(request.arguments, rows[i].read);
+        gm_request_close(&request);
+        gm_arguments_close(&words);
+    }
+    char *longer[] = {"kdv", "dt=0.01,0.02,0.03"}, *twice[] = {"kdv", "dt=1", "dt=2"};
+    assert_false(gm_request_parse(&request, 2, longer, GM_RENDER_SCHEMES, message));
+    assert_string_equal(message, "zip=yes pairs lists of equal length; dt= has 3 values, not 2");
+    assert_false(gm_request_parse(&request, 3, twice, GM_RENDER_SCHEMES, message));
+    assert_string_equal(message, "dt= is given twice");
+    /* a run takes the first scheme alone */
+    assert_true(gm_request_parse(&request, 1, longer, GM_RUN_SCHEMES, message));
+    assert_string_equal(request.arguments, "kdv scheme=box");
+    gm_request_close(&request);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words),    cmocka_unit_test(places), cmocka_unit_test(schemes),
-        cmocka_unit_test(formulas), cmocka_unit_test(saved),
+        cmocka_unit_test(formulas), cmocka_unit_test(saved),  cmocka_unit_test(lanes),
     };
     return cmocka_run_group_tests_name("typed", tests, NULL, NULL);
 }

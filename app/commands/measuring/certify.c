@@ -18,6 +18,7 @@
 #include "app/studies/certified_lane.h"
 #include "app/studies/listener.h"
 #include "core/certify.h"
+#include "core/formula/number.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "render/files/temporary.h"
@@ -169,8 +170,8 @@ static int polish(const struct gm_options *options)
     } else {
         printf("%zu condition%s of order %d and of what is claimed: the largest residual was %.1e, is %.1e\n"
                "%zu decimal%s, moved by at most %.1e\n",
-               polish.conditions, polish.conditions == 1 ? "" : "s", polish.order, polish.before,
-               polish.after, polish.decimals, polish.decimals == 1 ? "" : "s", polish.change);
+               polish.conditions, gm_plural((double)polish.conditions), polish.order, polish.before,
+               polish.after, polish.decimals, gm_plural((double)polish.decimals), polish.change);
     }
     gm_complain("wrote %s", out);
     return gm_finish(GM_EXIT_OK);

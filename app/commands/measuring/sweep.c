@@ -11,6 +11,7 @@
 #include "app/request/interrupt.h"
 #include "app/studies/sweep.h"
 #include "core/count.h"
+#include "core/formula/number.h"
 #include "core/memory.h"
 
 /* More runs than these are made if that is confirmed. */
@@ -114,12 +115,13 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
         gm_complain("a run was refused: %s", sum->refusal);
     }
     if (sum->warned > 0) {
-        gm_complain("%zu of %zu runs made now %s ok, but with a warning; the first, run %zu: %s", sum->warned,
-                    sum->made, sum->warned == 1 ? "is" : "are", sum->first_warned, sum->warning);
+        gm_complain("%zu of %zu run%s made now %s ok, but with a warning; the first, run %zu: %s",
+                    sum->warned, sum->made, gm_plural((double)sum->made), sum->warned == 1 ? "is" : "are",
+                    sum->first_warned, sum->warning);
     }
     if (path) {
-        gm_complain("%zu of %zu runs made now, %zu of them not ok", sum->made, gm_sweep_share(sweep),
-                    sum->failed);
+        gm_complain("%zu of %zu run%s made now, %zu of them not ok", sum->made, gm_sweep_share(sweep),
+                    gm_plural((double)gm_sweep_share(sweep)), sum->failed);
         gm_complain("wrote %s", path);
     }
 }
@@ -202,8 +204,8 @@ static int join(const struct gm_options *options)
     if (!good) {
         gm_complain("%s", message);
     } else if (missing > 0) {
-        gm_complain("%s has %zu of %zu rows; give the shares that end early again, and join once more",
-                    options->join, sweep.count - missing, sweep.count);
+        gm_complain("%s has %zu of %zu row%s; give the shares that end early again, and join once more",
+                    options->join, sweep.count - missing, sweep.count, gm_plural((double)sweep.count));
     } else {
         gm_complain("wrote %s", options->join);
     }

@@ -17,6 +17,7 @@
 #include "core/field/own/potential.h"
 #include "core/formula/derivative.h"
 #include "core/formula/number.h"
+#include "core/formula/tidied.h"
 #include "core/memory.h"
 #include "core/mesh/own/potential.h"
 #include "core/ode/own/evolution.h"
@@ -216,7 +217,7 @@ static void print_texts(const struct report *report)
     }
     char line[200];
     snprintf(line, sizeof line, "%s of %zu component%s%s", titles[system->kind], system->n,
-             system->n == 1 ? "" : "s", system->timed ? " and the time" : "");
+             gm_plural((double)system->n), system->timed ? " and the time" : "");
     gm_print_wrapped(line, 0, 0);
 }
 
@@ -532,6 +533,16 @@ static void print_json(const struct report *report)
     printf("]}\n");
 }
 
+/* What was derived as it is to be printed; what was typed stays. False: out of memory. */
+static bool tidy(struct report *report, gm_node_id *node)
+{
+    const struct gm_naming naming = gm_system_naming(&report->system);
+    if (*node != GM_NO_NODE && report->system.graph.places[*node] == GM_NO_PLACE) {
+        *node = gm_formula_tidied(&report->system.graph, *node, &naming);
+    }
+    return !report->system.graph.failed;
+}
+
 /* -lambda_k times the derivative of each constraint over a coordinate: the forces that hold them. */
 static void print_forces(struct report *report, size_t coordinate)
 {
@@ -545,7 +556,7 @@ static void print_forces(struct report *report, size_t coordinate)
         }
         marked[coordinate] = true;
         if (gm_gradient(&system->graph, item->nodes[0], marked, system->variable_count, gradient) &&
-            !gm_is_constant(&system->graph, gradient[coordinate], 0)) {
+            !gm_is_constant(&system->graph, gradient[coordinate], 0) && tidy(report, &gradient[coordinate])) {
             char *text = formula_of(report, gradient[coordinate], true);
             const bool sum = text && strpbrk(text, "+-");
             printf(sum ? " - \\lambda_{%zu}\\left(%s\\right)" : " - \\lambda_{%zu}\\,%s", k,
@@ -666,6 +677,23 @@ static bool open_problem(struct report *report)
     return good;
 }
 
+/* What was derived, and not typed, is only printed from here on. False: out of memory. */
+static bool tidy_all(struct report *report)
+{
+    struct gm_own_system *system = &report->system;
+    bool good = true;
+    for (size_t i = 0; good && i < system->n; i++) {
+        good = tidy(report, &system->rates[i]) &&
+               (system->kind != GM_LAGRANGIAN || i >= system->n / 2 || tidy(report, &system->momenta[i]));
+    }
+    for (size_t i = 0; good && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        good = item->word != GM_WORD_SYMMETRY || system->kind > GM_LAGRANGIAN ||
+               tidy(report, &item->nodes[system->n / 2]);
+    }
+    return good;
+}
+
 /* The system of a file with other values, or of words alone: NULL. An exit status, told. */
 static int open_system(struct report *report, const struct gm_arguments *arguments, const char *path)
 {
@@ -708,7 +736,7 @@ int gm_list_system(const struct gm_arguments *arguments, const char *path, enum 
     struct report report = {.problem = {0}};
     int status = open_system(&report, arguments, path);
     status = status == GM_EXIT_OK ? check_scene(arguments) : status;
-    if (status == GM_EXIT_OK && open_problem(&report)) {
+    if (status == GM_EXIT_OK && open_problem(&report) && tidy_all(&report)) {
         if (telling == GM_TELL_JSON) {
             print_json(&report);
         } else if (telling == GM_TELL_LATEX) {

@@ -6,12 +6,13 @@
 #include <stdio.h>
 
 #include "app/output/json.h"
+#include "core/formula/number.h"
 
 static void print_order(const struct gm_theory *theory)
 {
     printf("order %d%s", theory->order, theory->at_least ? " at least" : "");
     if (theory->digits > 0) {
-        printf(", to the %d digit%s written", theory->digits, theory->digits == 1 ? "" : "s");
+        printf(", to the %d digit%s written", theory->digits, gm_plural(theory->digits));
     }
     printf(": %d condition%s", theory->conditions, theory->conditions == 1 ? " holds" : "s hold");
     if (theory->failing > 0) {

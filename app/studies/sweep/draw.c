@@ -7,8 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/output/csv.h"
 #include "app/studies/edges.h"
 #include "app/studies/sweep.h"
+#include "core/formula/number.h"
 #include "core/schemes.h"
 #include "scenes/frame/graph.h"
 #include "scenes/frame/symbol.h"
@@ -128,25 +130,16 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
     return &chart->cells[(observable * chart->lines + line) * chart->bins[0] * chart->bins[1]];
 }
 
-/* The cell number `index` of a row; "" where it has fewer. No cell holds a comma. */
-static const char *cell_of(const char *row, size_t index)
-{
-    while (index > 0 && *row) {
-        index -= *row++ == ',';
-    }
-    return row;
-}
-
 static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
-    enum { OBSERVABLES = 6 }; /* cells behind the status: t, steps, evaluations, solves, seconds */
-    if (strncmp(cell_of(row, chart->status), "ok,", 3) != 0) {
+    enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
+    if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
     }
     for (size_t i = 0; i < chart->shown; i++) {
         char *end = NULL;
-        const char *cell = cell_of(row, chart->status + OBSERVABLES + i);
+        const char *cell = gm_csv_cell(row, chart->status + OBSERVABLES + i);
         const double value = strtod(cell, &end);
         struct bin *bin = &bins_of(
             chart, i, line_of(chart, run))[bin_of(chart, 1, run) * chart->bins[0] + bin_of(chart, 0, run)];
@@ -526,7 +519,8 @@ void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *
                                      chart->shown == 1 ? short_title(chart, 0, picture) : "what comes out",
                                      key_label(chart, 0, picture), last > 0 ? " and " : "",
                                      last > 0 ? key_label(chart, last, picture) : "");
-    picture->subtitle = gm_picture_text(picture, "%zu runs%s", sweep->count, fixed_words(sweep, picture));
+    picture->subtitle = gm_picture_text(picture, "%zu run%s%s", sweep->count, gm_plural((double)sweep->count),
+                                        fixed_words(sweep, picture));
     const bool binned = sweep->words.list[chart->keys[0]].count > chart->bins[0] ||
                         (last > 0 && sweep->words.list[chart->keys[last]].count > chart->bins[last]);
     picture->clock = "";

@@ -15,7 +15,7 @@
 #include "render/clock.h"
 
 const char gm_sweep_statuses[] =
-    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused";
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused, warning";
 
 static const struct gm_parameter *row_of(const struct gm_scene *scene, const char *key)
 {
@@ -265,7 +265,7 @@ char *gm_sweep_head(const struct gm_sweep *sweep)
             fprintf(stream, ",%s", strcmp(key, "steps") == 0 ? "steps_asked" : key);
         }
     }
-    fputs(",status,t,steps,evaluations,solves,seconds", stream);
+    fputs(",status,warning,t,steps,evaluations,solves,seconds", stream);
     for (size_t i = 0; i < sweep->chosen.count; i++) {
         fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
     }
@@ -311,16 +311,18 @@ char *gm_sweep_front(const struct gm_sweep *sweep, size_t run)
 
 /* The cells behind the front, of a run that has ended or could not begin (no lane). */
 static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
-                    const double *values, FILE *stream)
+                    const char *warning, const double *values, FILE *stream)
 {
     const struct gm_lane *lane = drive->lane;
+    fprintf(stream, "%s,", status);
+    gm_csv_put_text(stream, warning);
     if (lane) {
         const struct gm_run *run = lane->run;
-        fprintf(stream, "%s,%.17g,%ld,%.0f,%.0f,%.6g", status, run->t, run->steps,
+        fprintf(stream, ",%.17g,%ld,%.0f,%.0f,%.6g", run->t, run->steps,
                 gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
                 drive->seconds);
     } else {
-        fprintf(stream, "%s,,,,,", status);
+        fputs(",,,,,", stream);
     }
     for (size_t i = 0; i < sweep->chosen.count; i++) {
         fputc(',', stream);
@@ -373,7 +375,7 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     }
     if (stream) {
         put_front(sweep, run, stream);
-        put_end(sweep, &drive, status, values, stream);
+        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, stream);
         if (fclose(stream) != 0) {
             free(row->text);
             row->text = NULL;

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "app/cores/pool.h"
+#include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/request/interrupt.h"
 #include "app/studies/sweep.h"
@@ -56,8 +57,8 @@ char *gm_sweep_share_path(const char *path, size_t shard, size_t shards)
 static size_t commas_of(const char *line)
 {
     size_t commas = 0;
-    for (; *line; line++) {
-        commas += *line == ',';
+    while (*(line = gm_csv_cell(line, 1))) {
+        commas++;
     }
     return commas;
 }
@@ -71,14 +72,24 @@ static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line
     return same && commas_of(line) == commas;
 }
 
-/* The status of a row, behind the front. */
+/* Whether a row has this status, behind the front, or any warning, which comes next. */
 static bool has_status(const struct gm_sweep *sweep, size_t run, const char *line, const char *status)
 {
     char *front = gm_sweep_front(sweep, run);
-    const char *cell = front ? line + strlen(front) : "";
+    const char *cell = front ? line + strlen(front) : "", *warning = gm_csv_cell(cell, 1);
     const bool has = strncmp(cell, status, strlen(status)) == 0 && cell[strlen(status)] == ',';
     free(front);
-    return has;
+    return has || (strcmp(status, "warning") == 0 && *warning && *warning != ',');
+}
+
+/* Whether a head is this one but for the column of warnings, which older tables have not. */
+static bool is_older_head(const char *line, const char *head)
+{
+    static const char column[] = "warning,";
+    const char *at = strstr(head, ",status,");
+    const size_t before = at ? (size_t)(at - head) + strlen(",status,") : 0;
+    return at && strncmp(line, head, before) == 0 &&
+           strcmp(line + before, head + before + sizeof column - 1) == 0;
 }
 
 /* A row that is not that of the next run: of a later one in a table that was joined before its shares had all
@@ -116,8 +127,9 @@ static bool read_rows(struct gm_sweep_table *table, FILE *stream, const char *he
     bool good = length <= 0 || strcmp(line, head) == 0;
     const bool torn = length > 0 && line[length - 1] != '\n' && strncmp(line, head, (size_t)length) == 0;
     if (!good && !torn) {
-        gm_refuse(message, "%.360s is not a table of this sweep: its columns are others; it is left as it is",
-                  table->path);
+        gm_refuse(message, "%.360s is not a table of this sweep: %s; it is left as it is", table->path,
+                  is_older_head(line, head) ? "it has no column warning, so another geomint made it"
+                                            : "its columns are others");
     }
     table->size = good && length > 0 ? length : 0;
     while (good && (length = getline(&line, &room, stream)) > 0 && line[length - 1] == '\n') {

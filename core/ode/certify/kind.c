@@ -47,6 +47,15 @@ static unsigned facets(const struct gm_problem *problem)
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
 
+static const char *obstacle(const struct gm_problem *problem, unsigned lacking)
+{
+    const unsigned energy = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM | GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY |
+                            GM_NEEDS_INSEPARABLE | GM_NEEDS_ATTRACTION;
+    return gm_ode_of(problem)->forced && (lacking & energy)
+               ? "a Hamiltonian without the force: that acts here"
+               : NULL;
+}
+
 static const struct gm_facet_words words[] = {
     {GM_NEEDS_FREE_BODY, "the bracket of angular momenta and the energy of a free rigid body",
      "free rigid bodies"},
@@ -410,6 +419,7 @@ const struct gm_kind gm_kind_ode = {
     .problems = "ordinary differential equations",
     .words = words,
     .facets = facets,
+    .obstacle = obstacle,
     .loop = loop,
     .prepare = prepare,
     .certify = certify,

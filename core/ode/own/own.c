@@ -613,7 +613,8 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         own->ode.loops[isa] = &own->loops;
     }
-    if (system->kind <= GM_LAGRANGIAN && !is_forced(system)) {
+    own->ode.forced = system->kind <= GM_LAGRANGIAN && is_forced(system);
+    if (system->kind <= GM_LAGRANGIAN && !own->ode.forced) {
         /* what moves with the time generates no field of the whole state: it splits, and that is all */
         own->split.nystrom = holds(model, values, GM_FACT_NYSTROM);
         own->split.unit_mass = !lagrangian && is_unit_mass(model);

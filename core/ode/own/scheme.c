@@ -8,6 +8,7 @@
    (2006), sections II.3, II.4, V.2, V.3.3. */
 #include "core/ode/own/scheme.h"
 #include "core/count.h"
+#include "core/formula/number.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -685,7 +686,8 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
     } else {
         scheme = gm_scheme_find(name);
         if (!scheme || scheme->family->kind != &gm_kind_ode) {
-            const char *near = scheme ? NULL : gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
+            const char *near = gm_scheme_known_as(name);
+            near = near || scheme ? near : gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
             fail(making, span.begin,
                  scheme ? "%.40s is no scheme for ordinary differential equations%s%s"
                         : "there is no scheme \"%.40s\"%s%s",
@@ -808,8 +810,7 @@ static char *title_of(const struct gm_written_scheme *written,
     char numbers[64], others[64];
     switch (written->kind) {
     case GM_WRITTEN_COMPOSITION:
-        return text_of("%d step%s of %s (%s)", steps, steps == 1 ? "" : "s",
-                       schemes[GM_SCHEME_WORD_BASE]->title,
+        return text_of("%d step%s of %s (%s)", steps, gm_plural(steps), schemes[GM_SCHEME_WORD_BASE]->title,
                        numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
     case GM_WRITTEN_ADJOINT:
         return text_of("adjoint of %s", schemes[GM_SCHEME_WORD_BASE]->title);
@@ -821,7 +822,7 @@ static char *title_of(const struct gm_written_scheme *written,
                        numbers_of(&lines[GM_SCHEME_WORD_KICKS], others));
     default:
         return text_of("own %s, %d stage%s (b: %s)", gm_written_kind_name(written->kind), stages,
-                       stages == 1 ? "" : "s", numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
+                       gm_plural(stages), numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
     }
 }
 
