@@ -49,6 +49,7 @@ struct gm_explorer {
     bool editing;          /* the present system is asked for, to be edited */
     int64_t held_until;    /* keys wait for what is not there yet; 0: they do not */
     bool behind;           /* some of them may have left the terminal */
+    int late;              /* how many rounds of the terminal's answers are still to come */
     bool dirty;            /* the screen has to be composed again */
     bool fresh;            /* with a new picture */
     double draw_cost;      /* seconds that composing it took the last time */

@@ -35,6 +35,30 @@ static void read_cell_size(struct gm_explorer *explorer)
     }
 }
 
+/* Answers that come late, after a second, still lead to pixels: the terminal is asked for their limits then, and how
+   pictures are shown is decided again unless the user has chosen something else. */
+static void read_late_answers(struct gm_explorer *explorer)
+{
+    struct gm_terminal *terminal = &explorer->terminal;
+    struct gm_face *face = &explorer->face;
+    if (explorer->late == 0 || !terminal->answers.attributes || !gm_writer_idle(&explorer->display.writer)) {
+        return;
+    }
+    if (--explorer->late > 0 && (terminal->answers.sixel || terminal->answers.kitty)) {
+        terminal->answers.attributes = false;
+        gm_writer_tell(&explorer->display.writer, GM_ASK_LIMITS);
+        return;
+    }
+    const struct gm_graphics before = terminal->graphics;
+    gm_terminal_reconsider(terminal);
+    explorer->late = 0;
+    if (face->pixels == before.pixels && face->blocks == before.blocks) {
+        face->pixels = terminal->graphics.pixels;
+        face->blocks = terminal->graphics.blocks;
+        explorer->dirty = true;
+    }
+}
+
 /* Whether what is typed now is for what is not there yet: a scene, or what its worker is to tell. A tour goes on
    without its picture. */
 static bool is_early(const struct gm_explorer *explorer)
@@ -196,6 +220,7 @@ static void run(struct gm_explorer *explorer)
     const struct gm_writer *writer = &explorer->display.writer;
     gm_explorer_resize(explorer);
     while (!explorer->leave) {
+        read_late_answers(explorer);
         int wait = gm_explorer_output(explorer);
         const int hold = hold_keys(explorer);
         struct pollfd watched[COUNT] = {
@@ -254,6 +279,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
                                      .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .studies = &explorer.open.studies};
+    explorer.late = explorer.terminal.asked >= 0 && !explorer.terminal.answers.attributes ? 2 : 0;
     explorer.face.own = &explorer.own;
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     explorer.open.wake = explorer.wake;

@@ -92,7 +92,9 @@ void gm_open_study(struct gm_open *open)
     const struct gm_tour_step *step = &guide->tour->steps[guide->step];
     open->studies.shown = GM_STUDY_NONE;
     if (step->study != GM_STUDY_NONE && guide->answered) {
-        gm_studies_open(&open->studies, step->study, step->study_words, open->wake);
+        const struct gm_request *request =
+            &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request;
+        gm_studies_open(&open->studies, step->study, request->scene, step->study_words, open->wake);
     }
 }
 

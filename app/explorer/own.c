@@ -225,7 +225,8 @@ static bool take_map(struct gm_explorer *explorer)
     struct gm_own_prompt *prompt = &explorer->own;
     struct gm_open *open = &explorer->open;
     char *words = sweep_words(prompt->line.text);
-    const bool good = words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, words, open->wake);
+    const bool good =
+        words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
     if (!good) {
         snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
                  words ? open->studies.notice : "There is not enough memory.");

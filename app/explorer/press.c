@@ -63,7 +63,9 @@ static void press_in_tour(struct gm_explorer *explorer, int key)
 static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
+    const bool said = press->shot->message[0] && press->shot->message_number != face->read;
     face->read = press->shot->message_number;
+    face->watch_until = 0;
     if (press->key == GM_KEY_REDRAW) {
         return GM_KEY_REPAINT;
     }
@@ -76,7 +78,14 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
     if (face->choosing != GM_CHOOSE_NOTHING) {
         return gm_chooser_press(press);
     }
-    return face->prompt != GM_PROMPT_NONE ? gm_prompt_press(press) : gm_key_press(press);
+    if (face->prompt != GM_PROMPT_NONE) {
+        return gm_prompt_press(press);
+    }
+    if (gm_key_is_escape(press->key) && (said || face->explaining)) { /* first away with what is said */
+        face->explaining = false;
+        return GM_KEY_DONE;
+    }
+    return gm_key_press(press);
 }
 
 void gm_explorer_press(struct gm_explorer *explorer, int key)
@@ -92,7 +101,7 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
     if (!explorer->open.shot) { /* before the first picture there is only leaving */
         if (key == 'q') {
             gm_explorer_leave(explorer, GM_EXIT_OK);
-        } else if (key == 'l') {
+        } else if (key == 'l' || gm_key_is_escape(key)) {
             gm_explorer_show_start(explorer);
         } else if (key == 'n' || key == 'N' || key == 'a') {
             press_in_tour(explorer, key);

@@ -20,6 +20,17 @@ void gm_explorer_resize(struct gm_explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
+/* A scene that was opened says for a while what to watch. */
+static void begin_watch(struct gm_explorer *explorer)
+{
+    enum { WATCH_MILLISECONDS = 8000 };
+    struct gm_face *face = &explorer->face;
+    if (face->watched != explorer->open.shot->scene) {
+        face->watched = explorer->open.shot->scene;
+        face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
+    }
+}
+
 /* A page about a scheme wants it measured. */
 static void ask_measure(struct gm_explorer *explorer)
 {
@@ -43,6 +54,7 @@ static void draw(struct gm_explorer *explorer)
                              looked ? explorer->open.said : "");
     } else if (explorer->open.shot) {
         ask_measure(explorer);
+        begin_watch(explorer);
         gm_screen_draw_scene(screen, &explorer->face, explorer->open.shot, explorer->fresh);
     } else {
         return;

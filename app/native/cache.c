@@ -130,7 +130,7 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     return file;
 }
 
-bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key)
+bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key, char *sentence)
 {
     char path[GM_CACHE_PATH];
     struct gm_digest digest;
@@ -148,7 +148,11 @@ bool gm_cache_keep(const char *folder, const char *library, const struct gm_cach
     if (file >= 0) {
         good = close(file) == 0 && good;
     }
-    good = good && rename(library, path) == 0;
+    if (!good) {
+        gm_refuse(sentence, "the compiler wrote nothing that can be kept");
+    } else if (rename(library, path) != 0) {
+        good = gm_refuse(sentence, "%.400s could not be written: %s", path, strerror(errno));
+    }
     size_t count = 0, kept = good ? 1 : 0, bytes = 0;
     struct gm_cache_entry *entries = NULL;
     gm_cache_list(folder, &entries, &count); /* where it cannot be read, nothing is dropped */

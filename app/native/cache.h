@@ -34,8 +34,8 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key);
 /* Of an entry that was found: it goes. */
 void gm_cache_drop(const char *folder, const struct gm_cache_key *key);
 /* Makes an entry of a library in the folder, which is renamed; the oldest go where there are too many. False:
-   it could not be written. */
-bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key);
+   it could not be written, the sentence says why. */
+bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key, char *sentence);
 /* What is no entry in the folder and older than an hour: left by a program that was killed. */
 void gm_cache_sweep(const char *folder);
 

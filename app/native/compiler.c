@@ -21,7 +21,7 @@
 #include "render/clock.h"
 #include "render/message.h"
 
-enum { MOST_BYTES = 1 << 24, COULD_NOT_START = 127, LONGEST = 12 };
+enum { MOST_BYTES = 1 << 24, MOST_COMPLAINTS = 1 << 20, COULD_NOT_START = 127, LONGEST = 12 };
 
 /* Of a processor in all, and by the clock in which none is used; LONGEST times as many by the clock in all. */
 static double most_seconds(void)
@@ -196,17 +196,37 @@ static unsigned long ticks_of(pid_t group)
     return all;
 }
 
+/* The first line that it complained with. */
+static void first_line(const struct gm_compilation *compilation, char *line, size_t size)
+{
+    const ssize_t length = pread(compilation->complaints, line, size - 1, 0);
+    line[length > 0 ? length : 0] = '\0';
+    line[strcspn(line, "\n")] = '\0';
+    gm_text_tame(line);
+}
+
 /* Whether it is to be ended, with a sentence. One that has to wait for a processor, since the machine has much else to
-   do, is not. */
+   do, is not. The limit that the system keeps counts each process by itself: here all that it has started count. */
 static bool is_overdue(struct gm_compilation *compilation, char *sentence)
 {
     const double now = gm_clock_seconds(), most = most_seconds();
+    struct stat complaints;
+    if (fstat(compilation->complaints, &complaints) == 0 && complaints.st_size > MOST_COMPLAINTS) {
+        char line[200];
+        first_line(compilation, line, sizeof line);
+        gm_refuse(sentence, "the compiler complained without end: %s", line);
+        return true;
+    }
     if (now < compilation->seen + most) {
         return false;
     }
     const unsigned long ticks = ticks_of(compilation->process), before = compilation->ticks;
     compilation->seen = now;
     compilation->ticks = ticks;
+    if ((double)ticks > most * (double)sysconf(_SC_CLK_TCK)) {
+        gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most);
+        return true;
+    }
     if (now > compilation->begin + LONGEST * most) {
         gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
         return true;
@@ -215,15 +235,6 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
         gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
     }
     return ticks == before;
-}
-
-/* The first line that it complained with. */
-static void first_line(const struct gm_compilation *compilation, char *line, size_t size)
-{
-    const ssize_t length = pread(compilation->complaints, line, size - 1, 0);
-    line[length > 0 ? length : 0] = '\0';
-    line[strcspn(line, "\n")] = '\0';
-    gm_text_tame(line);
 }
 
 static double seconds_of(const struct rusage *used)

@@ -330,13 +330,11 @@ static void look(struct build *build)
         return;
     }
     snprintf(library, sizeof library, "%.3900s/%s", folder, build->library_name);
-    if (how == GM_COMPILED && gm_cache_keep(folder, library, &build->key)) {
+    if (how == GM_COMPILED && gm_cache_keep(folder, library, &build->key, build->sentence)) {
+        gm_refuse(build->sentence, "what was compiled is gone from the cache");
         load(build, folder);
     }
     if (build->state == COMPILING) {
-        if (how == GM_COMPILED) {
-            gm_refuse(build->sentence, "the compiler wrote nothing that can be kept");
-        }
         refuse(build);
     }
     remove_aside(folder, build);

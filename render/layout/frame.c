@@ -288,7 +288,8 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
         title = gm_picture_text(list->picture, "%s", values);
         count = gm_labels_wrap(list, size, title, fill->title_width, most, lines);
     }
-    const char *note = gm_labels_shorten_number(list, GM_TEXT_LABEL, panel->note, fill->title_width);
+    size_t words = fill->note_words;
+    const char *note = gm_labels_shorten_number(list, GM_TEXT_LABEL, panel->note, fill->title_width, &words);
     double wider = fill->detail < GM_DETAIL_NO_NOTE ? gm_labels_width(list, GM_TEXT_LABEL, note) : 0.0;
     for (size_t i = 0; i < count; i++) {
         wider = fmax(wider, gm_labels_width(list, size, lines[i]));

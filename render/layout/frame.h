@@ -41,6 +41,7 @@ struct gm_fill {
     enum gm_detail detail;
     bool x_label;       /* names the x axis */
     size_t note_lines;  /* of the group's notes and keys: titles stand above so many in all panels */
+    size_t note_words;  /* most of those before a note's number */
     bool small_title;   /* where the group's titles are too long for their usual size */
     size_t title_lines; /* that there is room for */
     size_t title_skip;  /* bytes at the front of the title that all of the group share and that it can do

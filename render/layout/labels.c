@@ -171,32 +171,60 @@ static bool is_number(const char *text)
     return is_digit(*text) || (*text == '.' && is_digit(text[1]));
 }
 
-const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_size size, const char *text,
-                                     double width)
+size_t gm_before_number(const char *text)
 {
-    if (!text || gm_labels_width(list, size, text) <= width) {
-        return text ? text : "";
+    size_t at = 0;
+    if (!text || strstr(text, " at t = ")) {
+        return 0;
     }
-    const char *when = strstr(text, " at t = "), *number = text;
-    while (number && !is_number(number)) {
-        const char *blank = strchr(number, ' ');
-        number = blank ? blank + 1 : NULL;
+    while (text[at] && !is_number(text + at)) {
+        at += strcspn(text + at, " ");
+        at += text[at] == ' ';
     }
-    if (when || !number) {
-        const size_t length = when ? (size_t)(when - text) : strlen(text);
-        return gm_labels_shorten(list, size, gm_picture_text(list->picture, "%.*s", (int)length, text),
-                                 width);
+    return text[at] ? at : 0;
+}
+
+/* The first words of those before a text's number, and the number. */
+static const char *some_words(const struct gm_label_list *list, const char *text, size_t words)
+{
+    const size_t front = gm_before_number(text), digits = strcspn(text + front, " ");
+    size_t length = 0;
+    for (; words > 0 && length < front; words--) {
+        length += strcspn(text + length, " ") + 1;
+    }
+    if (length == 0 || length == front) {
+        return gm_picture_text(list->picture, "%.*s", (int)(length + digits), text + front - length);
+    }
+    while (strchr(" ,:", text[length - 1])) {
+        length--;
+    }
+    return gm_picture_text(list->picture, "%.*s… %.*s", (int)length, text, (int)digits, text + front);
+}
+
+const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_size size, const char *text,
+                                     double width, size_t *words)
+{
+    const size_t front = gm_before_number(text);
+    if (!text || (front == 0 && !is_number(text))) {
+        const char *when = text ? strstr(text, " at t = ") : NULL;
+        const bool whole = !when || gm_labels_width(list, size, text) <= width;
+        const char *what = whole ? text : gm_picture_text(list->picture, "%.*s", (int)(when - text), text);
+        return gm_labels_shorten(list, size, what, width);
+    }
+    size_t all = 0;
+    for (size_t at = 0; at < front; at += strcspn(text + at, " ") + 1) {
+        all++;
     }
     /* what follows the number goes before what stands ahead of it */
-    const char *end = strchr(number, ' ');
-    const char *whole =
-        gm_picture_text(list->picture, "%.*s", (int)(end ? (size_t)(end - text) : strlen(text)), text);
-    for (size_t at = 0; at <= (size_t)(number - text); at += strcspn(whole + at, " ") + 1) {
-        if (gm_labels_width(list, size, whole + at) <= width) {
-            return whole + at;
+    for (*words = *words > all ? all + 1 : *words;; --*words) {
+        const char *shown = *words > all ? text : some_words(list, text, *words);
+        if (gm_labels_width(list, size, shown) <= width) {
+            return shown;
+        }
+        if (*words == 0) {
+            return "";
         }
     }
-    return "";
 }
 
 void gm_name_without_keys(const char *name, char *text, size_t size)

@@ -29,11 +29,14 @@ double gm_labels_width(const struct gm_label_list *list, enum gm_text_size size,
 const char *gm_labels_shorten(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width);
 
-/* The same for a text that tells a number, such as "energy error 2.4·10⁻³": what stands before the number
-   gives way, word by word; the number is whole, or the text is "". Where something happened "at t = 3" what
-   happened comes first. */
+/* The same for a text that tells a number, such as "energy error now 2.4·10⁻³": of what stands before the
+   number the last words give way, so that it begins as it did; the number is whole, or the text is "". At most
+   `*words` of them are shown, which is set to how many are, so that texts of a kind can be shortened alike.
+   Where something happened "at t = 3" what happened comes first. */
 const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_size size, const char *text,
-                                     double width);
+                                     double width, size_t *words);
+/* The bytes before the number that a text tells; 0: none, or it tells when something happened. */
+size_t gm_before_number(const char *text);
 
 /* The text, or a front of it that says something whole; "" if neither fits. */
 const char *gm_labels_whole(struct gm_label_list *list, enum gm_text_size size, const char *text,

@@ -3,6 +3,7 @@
 #include "render/layout/layout.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "render/layout/frame.h"
@@ -139,8 +140,13 @@ static bool titles_too_long(const struct gm_label_list *list, const struct group
     return too_long;
 }
 
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
 /* The bytes up to a comma and blank with which the titles of all states begin: what the others of them say
-   tells them apart. */
+   tells them apart. The scheme that another one took over from stays before it. */
 static size_t common_front(const struct group *group)
 {
     const char *first = group->frames[0].panel->title;
@@ -148,7 +154,7 @@ static size_t common_front(const struct group *group)
     if (group->count < 2 || group->place != GM_PLACE_STATE) {
         return 0;
     }
-    for (const char *at = strstr(first, ", "); at; at = strstr(at + 1, ", ")) {
+    for (const char *at = strstr(first, ", "); at && !begins(at, ", then "); at = strstr(at + 1, ", ")) {
         const size_t front = (size_t)(at - first) + 2;
         bool shared = true;
         for (size_t i = 1; i < group->count; i++) {
@@ -231,6 +237,22 @@ static bool expands(const struct gm_panel *panel)
     return !panel->axes && !panel->colour_bar && gm_panel_field(panel) == NULL;
 }
 
+/* How many words before its number have room in the note of panel i and in all that tell another number of the
+   same: such notes are shortened alike. */
+static size_t note_words(struct gm_label_list *list, const struct group *group, size_t i, double width)
+{
+    const char *note = group->frames[i].panel->note;
+    const size_t front = gm_before_number(note);
+    size_t words = SIZE_MAX;
+    for (size_t k = 0; k < group->count && front > 0; k++) {
+        const char *other = group->frames[k].panel->note;
+        if (gm_before_number(other) == front && strncmp(note, other, front) == 0) {
+            gm_labels_shorten_number(list, GM_TEXT_LABEL, other, width, &words);
+        }
+    }
+    return words;
+}
+
 /* Boxes narrower than their cell stand in its middle, or, with `leftmost`, under the picture's title. */
 static void place_group(struct gm_label_list *list, struct group *group, double overhang, bool leftmost)
 {
@@ -271,6 +293,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
                                         .detail = group->detail,
                                         .x_label = names_x(group, i),
                                         .note_lines = border.note_lines,
+                                        .note_words = note_words(list, group, i, column),
                                         .small_title = small_titles,
                                         .title_lines = group->title_lines,
                                         .title_skip = skip,

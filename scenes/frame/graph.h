@@ -55,6 +55,8 @@ bool gm_walk_next(struct gm_walk *walk);
 /* Adds the panel of a state with the name and colour of the lane that it begins with. Its note says how the
    lane stands (gm_lane_failure), or else `otherwise`; lanes that share it are named in place of that. */
 struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *otherwise);
+/* Whether all lanes of the panel have left what is shown of the others: it has a scale of its own. */
+bool gm_walk_has_left(const struct gm_walk *walk, bool (*has_left)(const struct gm_lane *lane));
 
 /* Whether all lanes have the time step of the first. */
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count);

@@ -27,6 +27,7 @@ enum {
     DRAWN = 1024,     /* most points of a drawn edge */
     REMEMBERED = 256, /* of an earlier shape */
     TURN = 12,        /* shapes in a turn of the oscillator: older ones have faded */
+    MOST_TURNS = 16,  /* of the pendulum in one outline */
 };
 
 struct disc {
@@ -137,16 +138,32 @@ static const struct gm_observable observables[] = {
                                         .scale_text = "1 for the pendulum"),
 };
 
+static double turn_of(double angle)
+{
+    return round(angle / (2 * M_PI));
+}
+
+/* Whether every angle of an outline is within half a turn of the next: farther apart, it is not known what lies between
+   them. */
+static bool is_known(const double *angles, size_t stride, size_t count)
+{
+    bool known = true;
+    for (size_t i = 0; i < count; i++) {
+        known = known && fabs(angles[i * stride] - angles[(i + 1) % count * stride]) <= M_PI;
+    }
+    return known;
+}
+
 /* The edge as points to draw, at most `most`. On the pendulum the arc between two members is a cubic with the
-   tangents M d(start)/d(angle), M the tangent map that each member carries; `refined` is the number of points
-   drawn for each member. */
+   tangents M d(start)/d(angle), M the tangent map that each member carries, where all are near enough to their
+   neighbours; `refined` is the number of points drawn for each member. */
 static size_t edge(const struct gm_view *view, size_t most, double *points, size_t *refined)
 {
     const struct disc *disc = view->parameters;
     const size_t m = view->problem->m, members = m - 1;
     const double *y = view->state;
     const size_t stride = (members + most - 1) / most;
-    const bool curved = disc->system == PENDULUM && stride == 1;
+    const bool curved = disc->system == PENDULUM && stride == 1 && is_known(y + Q * m, 1, members);
     const size_t pieces = curved ? most / members : 1;
     size_t count = 0;
     for (size_t i = 0; i < members; i += stride) {
@@ -204,14 +221,12 @@ static void draw_orbit(struct gm_picture *picture, struct gm_panel *panel, const
     const double level = energy_at(disc->system, disc->q0, disc->p0);
     double points[2 * ORBIT];
     if (disc->system == OSCILLATOR || level < 1) {
-        /* closed around q = 0 or, for the pendulum, the nearest multiple of 2 pi */
-        const double middle = disc->system == OSCILLATOR ? 0 : 2 * M_PI * round(disc->q0 / (2 * M_PI));
         const double widest = disc->system == OSCILLATOR ? sqrt(2 * level) : acos(-level);
         for (size_t i = 0; i < ORBIT; i++) {
             const double turn = 2 * M_PI * (double)i / ORBIT;
             const double q = widest * sin(turn);
             const double kinetic = disc->system == OSCILLATOR ? level - q * q / 2 : level + cos(q);
-            points[2 * i] = middle + q;
+            points[2 * i] = q;
             points[2 * i + 1] = copysign(sqrt(2 * fmax(kinetic, 0)), cos(turn));
         }
         gm_mark_line(picture, panel, style, points, ORBIT, true);
@@ -240,20 +255,45 @@ static void hold(struct gm_axis *x, struct gm_axis *y, const double *points, siz
     }
 }
 
-/* The range of all lanes, so that growth and decay are seen side by side. */
-static void state_range(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x,
-                        struct gm_axis *y)
+/* A lane that is so many times as far as the exact motion goes no longer sets the scale of others. */
+static const double farthest = 4;
+
+static bool has_left(const struct gm_lane *lane)
+{
+    const struct disc *disc = lane->parameters;
+    const size_t m = lane->problem.m;
+    const double level = energy_at(disc->system, disc->q0, disc->p0);
+    const double reach =
+        farthest * (sqrt(2 * (disc->system == OSCILLATOR ? level : level + 1)) + disc->radius);
+    const double *state = gm_run_state(lane->run);
+    bool left = false;
+    for (size_t i = 0; i < m; i++) {
+        left |=
+            fabs(state[P * m + i]) > reach || (disc->system == OSCILLATOR && fabs(state[Q * m + i]) > reach);
+    }
+    return left;
+}
+
+/* The range of all lanes, so that growth and decay are seen side by side, but for those that have left; or of
+   those in one `panel`, which have all left. The pendulum's angle counts modulo 2 pi: all of the circle where a lane has
+   come around. */
+static void state_range(const struct gm_lane *const *lanes, size_t count, const size_t *panel,
+                        struct gm_axis *x, struct gm_axis *y)
 {
     const struct disc *disc = lanes[0]->parameters;
     *x = *y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 1, .high = 0};
+    x->scale = disc->system == PENDULUM ? GM_PI : GM_LINEAR;
     const double level = energy_at(disc->system, disc->q0, disc->p0);
-    if (disc->system == OSCILLATOR || level < 1) {
+    if (!panel && (disc->system == OSCILLATOR || level < 1)) {
         const double wide = disc->system == OSCILLATOR ? sqrt(2 * level) : acos(-level);
         const double tall = disc->system == OSCILLATOR ? wide : sqrt(2 * (level + 1));
         const double corners[] = {-wide, -tall, wide, tall};
         hold(x, y, corners, 2);
     }
     for (size_t i = 0; i < count; i++) {
+        if (panel ? lanes[i]->shown.panel != *panel : has_left(lanes[i])) {
+            continue;
+        }
         const struct gm_entries *shapes = &lanes[i]->entries[0];
         hold(x, y, shapes->values, shapes->count * shapes->width / 2);
         const struct gm_view view = gm_lane_view(lanes[i]);
@@ -264,10 +304,47 @@ static void state_range(const struct gm_lane *const *lanes, size_t count, struct
         }
     }
     const double reach = fmax(disc->radius, 1e-6);
+    const bool around = disc->system == PENDULUM && (x->low < -M_PI || x->high > M_PI);
     x->low = calm(x->low - 0.1 * reach);
     x->high = calm(x->high + 0.1 * reach);
     y->low = calm(y->low - 0.1 * reach);
     y->high = calm(y->high + 0.1 * reach);
+    if (around) {
+        x->low = -M_PI;
+        x->high = M_PI;
+    }
+}
+
+/* An outline and what it encloses; one of angles once for each turn that it has a part in, of which the panel shows that
+   part, so that no line crosses it. What is not known is shown by its points. */
+static void draw_shape(struct gm_picture *picture, struct gm_panel *panel, struct gm_style fill,
+                       struct gm_style line, const double *points, size_t count)
+{
+    double first = 0, last = 0;
+    for (size_t i = 0; i < count && panel->x.scale == GM_PI; i++) {
+        first = i > 0 ? fmin(first, turn_of(points[2 * i])) : turn_of(points[0]);
+        last = i > 0 ? fmax(last, turn_of(points[2 * i])) : first;
+    }
+    if (first == 0 && last == 0) {
+        gm_mark_polygon(picture, panel, fill, points, count);
+        gm_mark_line(picture, panel, line, points, count, true);
+        return;
+    }
+    double *shown = gm_picture_memory(picture, 2 * count * sizeof *shown);
+    const bool known = is_known(points, 2, count) && last - first < MOST_TURNS;
+    for (double turn = first; shown && turn <= (known ? last : first); turn++) {
+        for (size_t i = 0; i < count; i++) {
+            shown[2 * i] = points[2 * i] - 2 * M_PI * (known ? turn : turn_of(points[2 * i]));
+            shown[2 * i + 1] = points[2 * i + 1];
+        }
+        if (known) {
+            gm_mark_polygon(picture, panel, fill, shown, count);
+            gm_mark_line(picture, panel, line, shown, count, true);
+        } else {
+            gm_mark_points(picture, panel, (struct gm_style){line.role, line.alpha, 2, GM_SOLID}, shown,
+                           count);
+        }
+    }
 }
 
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
@@ -283,15 +360,11 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
             continue;
         }
         const double fresh = (double)(i + 1 - oldest) / (double)(shapes->count - oldest);
-        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.03 + 0.2 * fresh}, shape,
-                        corners);
-        gm_mark_line(picture, panel, (struct gm_style){role, 0.15 + 0.6 * fresh, 1.1, GM_SOLID}, shape,
-                     corners, true);
+        draw_shape(picture, panel, (struct gm_style){.role = role, .alpha = 0.03 + 0.2 * fresh},
+                   (struct gm_style){role, 0.15 + 0.6 * fresh, 1.1, GM_SOLID}, shape, corners);
     }
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values,
-                    corners);
-    gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners,
-                 true);
+    draw_shape(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14},
+               (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners);
     if (at_start) {
         return;
     }
@@ -302,13 +375,14 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     const struct gm_view view = gm_lane_view(lane);
     size_t refined = 1;
     const size_t count = edge(&view, DRAWN, points, &refined);
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.42}, points, count);
-    gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, GM_SOLID}, points, count, true);
+    draw_shape(picture, panel, (struct gm_style){.role = role, .alpha = 0.42},
+               (struct gm_style){role, 1, 2.4, GM_SOLID}, points, count);
     /* members stand out as dots from what is interpolated, where there are few enough to tell apart */
     const size_t members = count / refined;
     if (refined > 1 && members <= 64) {
         for (size_t i = 0; i < members; i++) {
-            points[2 * i] = points[2 * i * refined];
+            const double q = points[2 * i * refined];
+            points[2 * i] = panel->x.scale == GM_PI ? q - 2 * M_PI * turn_of(q) : q;
             points[2 * i + 1] = points[2 * i * refined + 1];
         }
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 5}, points,
@@ -319,7 +393,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     struct gm_axis x, y;
-    state_range(lanes, count, &x, &y);
+    state_range(lanes, count, NULL, &x, &y);
     struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
@@ -330,7 +404,10 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                                   gm_picture_text(picture, "area × %.3f", area(&view) / area(&before)));
             panel->x = x;
             panel->y = y;
-            panel->equal = true;
+            if (gm_walk_has_left(&walk, has_left)) {
+                state_range(lanes, count, &walk.panel, &panel->x, &panel->y);
+            }
+            panel->equal = panel->x.low != -M_PI || panel->x.high != M_PI;
             draw_orbit(picture, panel, walk.lane->parameters);
         }
         draw_lane(picture, panel, walk.lane);

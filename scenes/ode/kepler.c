@@ -190,7 +190,7 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
             panel = gm_walk_panel(picture, &walk, note_of(picture, walk.lane));
             panel->x = x;
             panel->y = y;
-            if (has_left(walk.lane)) {
+            if (gm_walk_has_left(&walk, has_left)) {
                 range_of(&walk.lane, 1, INFINITY, &panel->x, &panel->y);
             }
             panel->equal = true;

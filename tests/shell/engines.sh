@@ -116,6 +116,17 @@ status 0 run driven-pendulum scheme=verlet until=1 --engine native
 grep -q 'interpreted: splittings have native loops where' err || fail "a splitting with the time: $(cat err)"
 status 0 cache --clear
 [ -z "$(ls "$XDG_CACHE_HOME/geomint")" ] || fail "what failed leaves $(ls "$XDG_CACHE_HOME/geomint")"
+# an entry that is a folder with something in it is named, each time
+status 0 run lorenz until=1 --engine native
+entry=$(ls -d "$XDG_CACHE_HOME"/geomint/*.so)
+rm "$entry"
+mkdir "$entry"
+touch "$entry/something"
+for i in 1 2; do
+    status 0 run lorenz until=1 --engine native
+    grep -q "interpreted: $entry could not be written: Is a directory" err || fail "an entry that is a folder: $(cat err)"
+done
+rm -r "$entry"
 # a disk that becomes full while the compiler works: what it complains of is told, and nothing stays
 mkdir disk
 cat >full.sh <<'END'

@@ -497,6 +497,37 @@ wait_for 'SCHEMES'
 keys C-c
 clean 130
 
+# at 80 x 24 the keys are visible from the beginning, and what to watch gives way to them
+start 80x24
+open_disc
+wait_for 'Watch the area'
+seen=$(screen)
+[[ $seen == *'Watch the area: a symplectic map may shear the disc, but it never grows.'*'? help'*'q quit'* ]] ||
+    fail "what to watch and the keys are not both there: $seen"
+wait_gone 'Watch the area'
+wait_for '\? help +space pause +q quit'
+keys Escape # back to the list, and again to the scene
+wait_for 'Type to search'
+keys Enter
+wait_for 'SCHEMES'
+screen | grep -q 'Watch the area' && fail 'what to watch is said twice'
+keys q
+clean 0
+
+# the help's lines go on below, also what is measured
+start 120x40
+open_disc
+wait_for 'SCHEMES'
+keys '?'
+wait_for 'not claimed'
+screen | grep -q 'AS MEASURED' || fail 'the help has no measured claims'
+screen | sed -n '/AS MEASURED/,$p' | cut -c62- | tr -s ' \n' ' ' | grep -q 'for ordinary differential equations)' ||
+    fail 'what is measured is cut'
+keys '?'
+wait_for 'SCHEMES'
+keys q
+clean 0
+
 # suspended and continued: the shell forgets the rest of its line, so it is asked anew
 open_disc
 wait_for 'SCHEMES'

@@ -171,7 +171,7 @@ wait_for 'work-precision [0-9]+ %'
 wait_for 'error against run time'
 keys Escape # it goes on behind the scene
 wait_for 'SCHEMES'
-wait_for 'work-precision ([0-9]+ %|is finished)'
+wait_for 'work-precision of disc ([0-9]+ %|is finished)'
 keys w
 wait_for 'what an accuracy costs'
 wait_for 'work-precision ([1-9][0-9]* %|is finished)'
@@ -205,12 +205,26 @@ wait_for 'what an accuracy costs'
 keys m
 wait_for 'which step is stable'
 keys Escape
-wait_for 'work-precision ([0-9]+ %|is finished)'
+wait_for 'work-precision of kepler ([0-9]+ %|is finished)'
 keys w x
 wait_for 'Stopped|Done'
 keys Escape
 wait_for 'SCHEMES'
 rests 'paused, with studies finished'
+wait_for 'work-precision of kepler is finished: w shows it'
+keys l # what is said of a scene leaves with it, and comes back with it
+wait_for 'Type to search'
+keys vortices
+wait_for '▸ vortices'
+keys Enter
+wait_for 'SCHEMES'
+wait_gone 'is finished'
+keys Escape
+wait_for 'Type to search'
+keys kepler
+wait_for '▸ kepler'
+keys Enter
+wait_for 'work-precision of kepler is finished: w shows it'
 keys q
 wait_for 'left 0'
 

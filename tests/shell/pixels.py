@@ -190,10 +190,26 @@ check(early.until(lambda: early.shows('▸ system')), 'a cursor key typed ahead 
 leave(early)
 late = Terminal([geomint, *SCENE], kind='sixel', delay=1.6)
 check(late.until(lambda: late.shows('SCHEMES')), 'no screen without an answer')
-late.run(3)
-check(late.images == 0 and not late.shows('KEYS') and not late.shows('three') and late.shows('▸ dt'),
-      'a late answer is taken for keys')
+check(late.images == 0, 'it has waited for the answer')
+check(late.until(lambda: late.images > 0), 'a late answer leads to no pixels')
+check(not late.shows('KEYS') and not late.shows('three') and late.shows('▸ dt'), 'a late answer is taken for keys')
 leave(late)
+for how in ({'typed': b'b'}, {'environment': {'GEOMINT_GRAPHICS': 'quadrants'}}):  # what the user chose stays
+    late = Terminal([geomint, *SCENE], kind='sixel', delay=1.6, **how)
+    check(late.until(lambda: late.shows('SCHEMES') and quadrants(late)), f'{how}: no quadrants')
+    check(late.until(lambda: late.raised and not late.answers), f'{how}: its answer came to nothing')
+    late.settle()
+    check(late.images == 0, f'{how}: pixels in spite of what was chosen')
+    leave(late)
+
+# the documentation's terminal that begins with 16 colours is asked for more
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../docs/terminal.md'), encoding='utf-8') as page:
+    line = re.search(r"`(xterm -ti vt340[^`]*)`", page.read())
+check(line and 'decGraphicsID: vt340' in line[1], 'docs/terminal.md names no xterm with sixels')
+few = Terminal([geomint, *SCENE], kind='sixel', registers=16)
+check(few.until(lambda: few.images > 0), 'a terminal that begins with 16 colours shows no pixels')
+check(few.registers == 256, f'it was asked for {few.registers} colours')
+leave(few)
 
 # y: the command line that redoes the view, also after changes in flight
 told = Terminal([geomint, *SCENE], columns=100, rows=30, kind='kitty', cell=(8, 16))

@@ -75,14 +75,16 @@ def decode_sixel(body):
 class Terminal:
     def __init__(self, command, columns=160, rows=45, cell=(10, 20), kind='sixel', sizes='system', delay=0,
                  typed=b'', limits=None, environment=None, synchronised=True,
-                 rate=None, background=None, true_colour=False):
+                 rate=None, background=None, true_colour=False, registers=1024):
         """kind: sixel, kitty or plain. sizes: who knows the size of a cell, 'system', 'terminal' or 'nobody'.
         delay: of every answer, in seconds. typed: keys that are there when the program begins. rate: bytes a second
         that it reads, at the end of a line that takes any number. background: what it answers, as rgb:.
-        true_colour: it keeps colours of 24 bits."""
+        true_colour: it keeps colours of 24 bits. registers: colours of a sixel picture that it begins with, up to
+        1024 where it is asked for more."""
         self.columns, self.rows, self.cell, self.kind, self.sizes = columns, rows, cell, kind, sizes
         self.delay, self.limits, self.synchronised = delay, limits, synchronised
-        self.rate, self.background, self.true_colour = rate, background, true_colour
+        self.rate, self.background, self.true_colour, self.registers = rate, background, true_colour, registers
+        self.raised = False  # it was asked for another number of registers
         self.queue, self.read_on = b'', 0  # what is on its way where it reads slowly, and when it read last
         self.pending, self.answers, self.output = b'', [], 0
         self.text = [[' '] * columns for _ in range(rows)]
@@ -288,7 +290,9 @@ class Terminal:
             self.answer(f'\x1b[?{values[0]};{2 if self.synchronised else 0}$y')
         elif end == 'S' and private == '?' and self.kind == 'sixel':
             if values[0] == 1:
-                self.answer('\x1b[?1;0;1024S')
+                self.raised |= values[1] == 3
+                self.registers = min(values[2], 1024) if values[1] == 3 else self.registers
+                self.answer(f'\x1b[?1;0;{self.registers}S')
             elif values[0] == 2 and self.limits:
                 self.answer(f'\x1b[?2;0;{self.limits[0]};{self.limits[1]}S')
         elif end == 't' and values == [16] and self.sizes == 'terminal':
@@ -300,6 +304,7 @@ class Terminal:
         assert self.kind == 'sixel', 'sixels for a terminal without'
         assert self.together, 'a picture outside synchronised output'
         width, height, rows = decode_sixel(body)
+        assert len({colour for row in rows for colour in row}) <= self.registers, 'more colours than registers'
         if self.limits:
             assert width <= self.limits[0] and height <= self.limits[1], 'the picture is too large'
         left, top = self.x * self.cell[0], self.y * self.cell[1]

@@ -389,7 +389,7 @@ static void failures_give_way(void **state)
     gm_picture_close(picture);
 }
 
-/* The words before a number give way to it; no part of a number is ever shown. */
+/* The last words before a number give way to it; no part of a number is ever shown. */
 static void numbers_are_whole(void **state)
 {
     (void)state;
@@ -397,11 +397,13 @@ static void numbers_are_whole(void **state)
         const char *text, *as_long_as, *shown;
     } cases[] = {
         {"energy error 4.2·10⁻¹³", "energy error 4.2·10⁻¹³", "energy error 4.2·10⁻¹³"},
-        {"energy error 4.2·10⁻¹³", "error 4.2·10⁻¹³xxxx", "error 4.2·10⁻¹³"},
-        {"energy error 4.2·10⁻¹³", "error 4.2·10⁻", "4.2·10⁻¹³"},
+        {"energy error 4.2·10⁻¹³", "energy… 4.2·10⁻¹³", "energy… 4.2·10⁻¹³"},
+        {"energy error 4.2·10⁻¹³", "energy… 4.2·10⁻", "4.2·10⁻¹³"},
         {"energy error 4.2·10⁻¹³", "4.2·10⁻", ""},
         {"angle −0.25", "−0.25", "−0.25"},
-        {"out of the picture, 12.3 from the sun", "the picture, 12.3", "the picture, 12.3"},
+        {"out of the picture, 12.3 from the sun", "the picture, 12.3", "out of the… 12.3"},
+        {"out of the picture, 12.3 from the sun", "out of the picture, 12.3 from",
+         "out of the picture, 12.3"},
         {"blow-up at t = 597.25", "blow-up at t = 59", "blow-up"},
         {"converges slowly", "converges", "converge…"},
     };
@@ -412,7 +414,8 @@ static void numbers_are_whole(void **state)
     assert_true(gm_labels_open(&list, picture, &metrics, 8));
     for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const double width = letters_width(metrics.self, GM_TEXT_LABEL, cases[i].as_long_as);
-        assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width),
+        size_t words = SIZE_MAX;
+        assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width, &words),
                             cases[i].shown);
     }
     /* nor a part of a bracket */
@@ -441,6 +444,65 @@ static void titles_are_told_apart(void **state)
     assert_non_null(find_label(layout, "midpoint"));
     assert_non_null(find_label(layout, "box"));
     gm_picture_close(picture);
+}
+
+/* What is left of a fork's name begins with the scheme that it began with. */
+static void forks_keep_their_heads(void **state)
+{
+    (void)state;
+    for (int wide = 120; wide <= 900; wide += 20) {
+        struct gm_metrics metrics = metrics_of(wide, 300);
+        metrics.self = &metrics;
+        struct gm_picture *picture = picture_of(2, 0, false, false);
+        picture->first->title = "explicit Euler, then midpoint";
+        picture->first->next->title = "explicit Euler, then symplectic Euler";
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        for (size_t i = 0, titles = 0; i < layout->label_count && titles == 0; i++) {
+            titles += strstr(layout->labels[i].text, "Euler") || strstr(layout->labels[i].text, "then");
+            assert_true(titles == 0 || strncmp(layout->labels[i].text, "explicit", 8) == 0);
+        }
+        gm_picture_close(picture);
+    }
+}
+
+/* The label with a number, and what stands before that. */
+static const char *before(const struct gm_layout *layout, const char *number, size_t *length)
+{
+    for (size_t i = 0; i < layout->label_count; i++) {
+        const char *at = strstr(layout->labels[i].text, number);
+        if (at) {
+            *length = (size_t)(at - layout->labels[i].text);
+            return layout->labels[i].text;
+        }
+    }
+    return NULL;
+}
+
+/* Notes that tell numbers of one kind lose the same words, the last ones, however long the numbers are. */
+static void notes_are_shortened_alike(void **state)
+{
+    (void)state;
+    static const char whole[] = "energy error now ";
+    size_t shortened = 0;
+    for (int wide = 120; wide <= 900; wide += 10) {
+        struct gm_metrics metrics = metrics_of(wide, 300);
+        metrics.self = &metrics;
+        struct gm_picture *picture = picture_of(2, 0, false, false);
+        picture->first->note = "energy error now 0.24";
+        picture->first->next->note = "energy error now 5.9·10⁻⁴";
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        size_t length = 0, other_length = 0;
+        const char *one = before(layout, "0.24", &length), *other = before(layout, "5.9·10⁻⁴", &other_length);
+        if (one && other) {
+            assert_int_equal(length, other_length);
+            assert_memory_equal(one, other, length);
+            const char *cut = strstr(one, "…");
+            assert_true(length == 0 || strncmp(one, whole, cut ? (size_t)(cut - one) : length) == 0);
+            shortened += cut != NULL;
+        }
+        gm_picture_close(picture);
+    }
+    assert_true(shortened > 0);
 }
 
 /* Titles of narrow panels go on below, as long as that costs less than cutting them; in line, and whole. */
@@ -564,6 +626,8 @@ int main(void)
         cmocka_unit_test(keys_keep_their_values),
         cmocka_unit_test(failures_give_way),
         cmocka_unit_test(numbers_are_whole),
+        cmocka_unit_test(notes_are_shortened_alike),
+        cmocka_unit_test(forks_keep_their_heads),
         cmocka_unit_test(titles_are_told_apart),
         cmocka_unit_test(titles_go_on_below),
         cmocka_unit_test(texts_among_marks_part),

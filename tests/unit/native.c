@@ -540,7 +540,7 @@ static void entries_are_libraries(void **state)
         assert_int_equal(count, 1);
         snprintf(command, sizeof command, "echo '%s' | %s '%s'", lacking[i].source, lacking[i].into, aside);
         assert_int_equal(system(command), 0);
-        assert_true(gm_cache_keep(cache, aside, &entries[0].key));
+        assert_true(gm_cache_keep(cache, aside, &entries[0].key, message));
         free(entries);
         assert_true(is_stepped_elsewhere(words, lacking[i].says));
         assert_true(gm_cache_list(cache, &entries, &count));
@@ -557,6 +557,11 @@ static void compilers_hang(void **state)
     setenv("GEOMINT_COMPILER_SECONDS", "1", 1);
     refused("hung for 1 second");
     with_compiler("#!/bin/sh\nwhile :; do :; done\n");
+    refused("more than 1 second");
+    with_compiler("#!/bin/sh\nwhile :; do echo flood >&2; done\n");
+    refused("the compiler complained without end: flood");
+    /* each process that it starts is within the limit of one */
+    with_compiler("#!/bin/sh\nwhile :; do (i=0; while [ $i -lt 9999 ]; do i=$((i+1)); done); done\n");
     refused("more than 1 second");
 }
 
@@ -682,7 +687,7 @@ static void entries_are_whole(void **state)
         fprintf(file, "a library");
         fclose(file);
         assert_int_equal(gm_cache_find(cache, &key), -1);
-        assert_true(gm_cache_keep(cache, aside, &key));
+        assert_true(gm_cache_keep(cache, aside, &key, message));
         const int found = gm_cache_find(cache, &key);
         assert_in_range(found, 0, 1000);
         close(found);
@@ -748,7 +753,7 @@ static void caches_are_bounded(void **state)
         fclose(file);
         gm_digest_add(&digest, &i, sizeof i);
         const struct gm_cache_key key = gm_digest_key(&digest);
-        assert_true(gm_cache_keep(cache, aside, &key));
+        assert_true(gm_cache_keep(cache, aside, &key, message));
     }
     size_t count = 0;
     struct gm_cache_entry *entries = NULL;

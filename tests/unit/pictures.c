@@ -236,6 +236,57 @@ static void curves_of_a_product_are_told_apart(void **state)
     close_drawn(&drawn);
 }
 
+static double width_of(const struct drawn *drawn, const char *title)
+{
+    const struct gm_panel *panel = panel_titled(drawn->picture, title);
+    return panel->x.high - panel->x.low;
+}
+
+/* A lane that runs away has a scale of its own, and leaves that of the others alone, in one panel too. */
+static void who_runs_away_leaves_the_scale(void **state)
+{
+    (void)state;
+    static const char *const runs[] = {"disc scheme=explicit-euler,midpoint",
+                                       "kepler scheme=explicit-euler,verlet dt=.3"};
+    for (size_t i = 0; i < GM_COUNT(runs); i++) {
+        char words[256];
+        struct drawn drawn, together;
+        open_drawn(runs[i], 230, &drawn);
+        snprintf(words, sizeof words, "%s overlay=yes", runs[i]);
+        open_drawn(words, 230, &together);
+        const char *other = i == 0 ? "midpoint" : "Verlet";
+        assert_true(width_of(&drawn, other) < 6);
+        assert_true(width_of(&drawn, "explicit Euler") > 3 * width_of(&drawn, other));
+        assert_true(width_of(&together, "all lanes") == width_of(&drawn, other));
+        close_drawn(&drawn);
+        close_drawn(&together);
+    }
+}
+
+/* The pendulum's angle counts modulo 2 pi, and no line of an outline that goes around crosses the panel. */
+static void the_pendulum_goes_around(void **state)
+{
+    (void)state;
+    static const char *const more[] = {"", " points=40", " points=2000", " q0=20", " points=5"};
+    for (size_t k = 0; k < GM_COUNT(more); k++) {
+        for (long steps = 60; steps <= 960; steps *= 4) {
+            char words[256];
+            struct drawn drawn;
+            snprintf(words, sizeof words, "disc system=pendulum p0=1.9 scheme=midpoint dt=0.1%s", more[k]);
+            open_drawn(words, steps, &drawn);
+            const struct gm_panel *panel = drawn.picture->first;
+            assert_true(panel->x.low >= -4 && panel->x.high <= 4);
+            for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+                for (size_t i = 0; i < mark->count && mark->style.role != GM_EXACT; i++) {
+                    const double *at = mark->points + 2 * i;
+                    assert_false(i > 0 && mark->kind == GM_MARK_LINE && fabs(at[0] - at[-2]) > M_PI);
+                }
+            }
+            close_drawn(&drawn);
+        }
+    }
+}
+
 /* What a law leaves at a tenth of the step is seen beside what the long step leaves: colours end near the largest
    value of each lane, and every lane has the bar that says where. */
 static void residuals_have_colours_of_their_own(void **state)
@@ -414,6 +465,8 @@ int main(void)
         cmocka_unit_test(tables_name_observables_that_there_are),
         cmocka_unit_test(default_pictures_can_be_read_at_any_size),
         cmocka_unit_test(curves_of_a_product_are_told_apart),
+        cmocka_unit_test(who_runs_away_leaves_the_scale),
+        cmocka_unit_test(the_pendulum_goes_around),
         cmocka_unit_test(residuals_have_colours_of_their_own),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),

@@ -221,14 +221,13 @@ static void send_all(const char *text)
     }
 }
 
-/* Every question ends with the one for the attributes, which every terminal answers, and last. */
+/* The last question is the one for the attributes, which every terminal answers. */
 static void ask(struct gm_answers *answers, const char *questions, int patience, char *typed,
                 size_t *typed_size)
 {
     const int64_t until = gm_clock_milliseconds() + patience;
     answers->attributes = false;
     send_all(questions);
-    send_all("\033[c");
     while (!answers->attributes) {
         char bytes[512], keys[sizeof bytes + GM_ANSWER_LONGEST];
         const int left = (int)(until - gm_clock_milliseconds());
@@ -253,7 +252,7 @@ static void ask(struct gm_answers *answers, const char *questions, int patience,
 /* A background of true colour, the question which one is set (DECRQSS), and all attributes off again. */
 #define ASK_TRUE_COLOUR "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
 #define ASK_GROUND "\033]11;?\033\\"
-#define ASK_SYNCHRONISED "\033[?2026$p"
+#define ASK_SYNCHRONISED "\033[?2026$p\033[c"
 /* the image of one pixel is only asked about (a=q), not shown */
 #define ASK_IMAGES "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
 
@@ -284,7 +283,7 @@ int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, 
     tcsetattr(STDIN_FILENO, TCSANOW, &raw); /* what was typed already stays */
     ask(answers, questions[which], patience, typed, typed_size);
     if (answers->attributes && (answers->sixel || answers->kitty)) {
-        ask(answers, "\033[?1;1;0S\033[?2;1;0S" GM_ASK_CELL "\033[14t", patience, typed, typed_size);
+        ask(answers, GM_ASK_LIMITS, patience, typed, typed_size);
         answers->attributes = true;
     }
     tcsetattr(STDIN_FILENO, TCSANOW, &before);

@@ -49,5 +49,8 @@ int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, 
 #define GM_ASK_READY "\033[5n"
 /* Asks for the size of a cell. */
 #define GM_ASK_CELL "\033[16t"
+/* Asks for 256 colours of sixel pictures, where terminals begin with fewer, and for the limits of pictures: what only a
+   terminal with pixels is asked. The device attributes come last. */
+#define GM_ASK_LIMITS "\033[?1;3;256S\033[?1;1;0S\033[?2;1;0S" GM_ASK_CELL "\033[14t\033[c"
 
 #endif

@@ -352,7 +352,17 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
     decide_colours(terminal, &colours, theme.number == MONO);
     find_cell(terminal);
     decide_graphics(terminal, &graphics);
+    terminal->demanded = graphics.number >= 0;
     return true;
+}
+
+void gm_terminal_reconsider(struct gm_terminal *terminal)
+{
+    const struct demand none = {"", "", -1};
+    if (!terminal->demanded) {
+        find_cell(terminal);
+        decide_graphics(terminal, &none);
+    }
 }
 
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)

@@ -39,6 +39,7 @@ struct gm_terminal {
     enum gm_theme theme;
     struct gm_answers answers;
     int asked;                  /* milliseconds until the answers were there; -1: it was not asked */
+    bool demanded;              /* the graphics, by the user */
     char typed[GM_TYPED_AHEAD]; /* keys that came while it was asked */
     size_t typed_size;
     char colours_why[GM_REASON], graphics_why[GM_REASON], theme_why[GM_REASON], size_why[GM_REASON];
@@ -56,6 +57,9 @@ bool gm_terminal_serves(const struct gm_terminal *terminal, char *message);
 void gm_terminal_size(int *columns, int *rows);
 /* The size of a cell in pixels now, if the system knows it; otherwise both stay. */
 void gm_terminal_cell(int *width, int *height);
+
+/* Decides again on graphics, by answers that came late. */
+void gm_terminal_reconsider(struct gm_terminal *terminal);
 
 /* The next of the ways to show pictures that this terminal has. */
 struct gm_graphics gm_graphics_next(const struct gm_terminal *terminal, struct gm_graphics graphics);

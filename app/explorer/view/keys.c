@@ -317,7 +317,7 @@ const struct gm_key_row gm_key_rows[] = {
      0,
      "in a tour: answer or next step, step before, this one again",
      .result = GM_KEY_TOUR},
-    {{'l'}, "l", "scenes", 19, "back to the list of scenes", .result = GM_KEY_SCENES},
+    {{'l', 27}, "l esc", "scenes", 19, "back to the list of scenes", .result = GM_KEY_SCENES},
     {{'?'},
      "?",
      "help",

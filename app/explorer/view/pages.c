@@ -87,10 +87,18 @@ static void put_claims(struct page *page)
     put_wrapped(page, 0, "`geomint certify` measures every one of them.", GM_SECONDARY);
 }
 
-/* Lines as they are. */
+/* Lines, each with its own indentation, which what has no room in it keeps below. */
 static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
 {
-    page->row += gm_sheet_lines(&page->sheet, column, page->row - page->scroll, text, role);
+    for (const char *at = text; at && *at;) {
+        char line[512];
+        const size_t blanks = strspn(at, " "), length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)(length - blanks), at + blanks);
+        const int rows = page->row;
+        put_wrapped(page, column + (int)blanks, line, role);
+        page->row += page->row == rows; /* an empty one */
+        at += length + (at[length] == '\n');
+    }
 }
 
 static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)

@@ -83,11 +83,11 @@ static void draw_study(const struct gm_sheet *whole, int rows, int below)
 }
 
 /* What is measured unseen, on the rule above the last row. */
-static void draw_news(const struct gm_sheet *whole)
+static void draw_news(const struct gm_sheet *whole, const struct gm_scene *scene)
 {
     char text[GM_MESSAGE] = "", framed[GM_MESSAGE + 2];
     if (whole->face->studies) {
-        gm_studies_news(whole->face->studies, text, sizeof text);
+        gm_studies_news(whole->face->studies, scene, text, sizeof text);
     }
     if (text[0]) {
         snprintf(framed, sizeof framed, " %s ", text);
@@ -134,7 +134,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
     if (below == 2 && !asked) {
         gm_screen_rule(&whole, face->guide ? 0 : side);
         draw_past(&whole, shot, width);
-        draw_news(&whole);
+        draw_news(&whole, shot->scene);
     }
     if (side) {
         const struct gm_sheet sheet = gm_sheet_part(&whole, width + 2, 0, side - 3, rows);

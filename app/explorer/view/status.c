@@ -9,6 +9,7 @@
 
 #include "app/explorer/view/keys.h"
 #include "app/explorer/view/prompt.h"
+#include "render/clock.h"
 
 enum { MOST_HINTS = 40, FIRST_HINT = 14 };
 
@@ -84,6 +85,12 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
 }
 
+/* Whether the status line says what to watch; a tour says that itself. */
+static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
+{
+    return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
+}
+
 /* What stands at the left. */
 static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
@@ -103,8 +110,7 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
     } else if (face->explaining && parameter) {
         explain(parameter, !side, text, size);
     } else {
-        /* a tour says itself what to watch */
-        snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
+        snprintf(text, size, "%s", is_watched(face, shot) ? shot->scene->watch : "");
     }
 }
 
@@ -128,7 +134,8 @@ void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, in
                                   : asks                                ? prompt_hints
                                   : face->explaining && !news           ? parameter_hints
                                                                         : keys;
-    const bool answers = news || face->choosing != GM_CHOOSE_NOTHING || face->explaining;
+    const bool answers =
+        news || is_watched(face, shot) || face->choosing != GM_CHOOSE_NOTHING || face->explaining;
     if (answers && gm_screen_rows_below(whole->cells) == 2 &&
         column + gm_sheet_width(&sheet, text) + FIRST_HINT > sheet.width) {
         gm_screen_say_above(whole, text);

@@ -24,7 +24,8 @@ void gm_studies_close(struct gm_studies *studies)
     *studies = (struct gm_studies){0};
 }
 
-bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const char *words, int wake)
+bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const struct gm_scene *scene,
+                     const char *words, int wake)
 {
     struct gm_study *present = studies->studies[kind];
     if (!present || strcmp(gm_study_words(present), words) != 0) {
@@ -36,6 +37,7 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
         studies->studies[kind] = study;
         studies->looks[kind] = NULL;
     }
+    studies->scenes[kind] = scene;
     studies->shown = kind;
     studies->painting.fresh = false;
     return true;
@@ -85,7 +87,7 @@ void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot 
 {
     char *words = gm_studies_words(shot);
     if (words) {
-        gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
+        gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, shot->scene, words, wake);
     }
     free(words);
 }
@@ -200,21 +202,25 @@ void gm_studies_status(const struct gm_studies *studies, char *text, size_t size
     }
 }
 
-void gm_studies_news(const struct gm_studies *studies, char *text, size_t size)
+void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *scene, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "%s", studies->notice);
     for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
         const struct gm_study_look *look = studies->looks[i];
-        if (!studies->studies[i] || studies->shown == (enum gm_study_kind)i || (look && look->impossible)) {
+        if (!studies->studies[i] || studies->scenes[i] != scene || studies->shown == (enum gm_study_kind)i ||
+            (look && look->impossible)) {
             continue;
         }
+        const char *words = gm_study_words(studies->studies[i]); /* its scene first */
+        const int length = (int)strcspn(words, " ");
         if (look && look->finished) {
-            used += (size_t)snprintf(text + used, size - used,
-                                     keys[i] ? "%s is finished: %c shows it" : "%s is finished",
-                                     gm_study_name((enum gm_study_kind)i), keys[i]);
+            used +=
+                (size_t)snprintf(text + used, size - used,
+                                 keys[i] ? "%s of %.*s is finished: %c shows it" : "%s of %.*s is finished",
+                                 gm_study_name((enum gm_study_kind)i), length, words, keys[i]);
         } else {
-            used += (size_t)snprintf(text + used, size - used, "%s %d %%",
-                                     gm_study_name((enum gm_study_kind)i), percent(look));
+            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%",
+                                     gm_study_name((enum gm_study_kind)i), length, words, percent(look));
         }
     }
 }
