@@ -194,6 +194,11 @@ status 0 certify times.scheme --polish better-times.scheme
 status 0 certify better-times.scheme
 grep -q '^c: 0.211324865405187117745425609749, # the first$' better-times.scheme || fail "c: $(cat better-times.scheme)"
 grep -q '^ 0.788675134594812882254574390251 # the second$' better-times.scheme || fail "c: $(cat better-times.scheme)"
+status 0 certify 'composition(rk4; order: 4; 0.333333333333333333, 0.666666666666666667)'
+status 4 certify 'composition(rk4; order: 4; 0.333333333433333333, 0.666666666666666667)'
+status 0 certify 'composition(gauss4; order: 6; 1.1747, -1.3493, 1.1747)' --polish over-gauss.scheme
+status 0 certify over-gauss.scheme
+grep -q '; 1.17467175808936, -1.34934351617873, ' over-gauss.scheme || fail "polished: $(cat over-gauss.scheme)"
 refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
 refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
 refused 1 'not a scheme of the program' certify rk4 --polish x.scheme
