@@ -141,6 +141,20 @@ assert about["properties"]["keeps linear invariants"]["reason"], about
 END
 status 0 certify verlet --on system 'H=p^2/2 + abs(q)' q=1 p=0 dt=0.1 --json
 grep -q '"order":null,"order_reason":"the system is not smooth' out || fail "a rough system: $(cat out)"
+# few steps on one side of a corner decide nothing; those across it do, and what is not quadratic is not called so
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
+status 0 certify avf2 --on ./corner.system
+[ "$(grep -c 'not decided *the system is not smooth' out)" = 3 ] || fail "beside a corner: $(cat out)"
+! grep -q holds out || fail "beside a corner: $(cat out)"
+status 0 certify avf2 --on ./corner.system --json
+grep -q '"keeps energy":{"claimed":true,"measured":false,"defect":null.*"reason":"the system is not smooth' out ||
+    fail "beside a corner: $(cat out)"
+status 4 certify avf2 --on ./corner.system q=0.05 p=-1
+grep -q 'keeps energy *BROKEN *defect' out || fail "across a corner: $(cat out)"
+status 0 certify gauss4 --on ./corner.system q=0 p=1
+! grep -q 'quadratic invariants *BROKEN' out || fail "across a corner: $(cat out)"
+status 4 certify 'explicit(claims: symmetric; order: 1; 0; 1)' --on ./corner.system
+rm corner.system
 status 0 certify gauss4 --on kepler eccentricity=0.3 dt=0.02
 grep -q 'keeps quadratic invariants *holds *defect.*angular_momentum' out || fail "angular momentum: $(cat out)"
 printf 'geomint: 1\ncomponents: x y z\nrate: x = 10*(y - x)\nrate: y = 28*x - y - x*z\nrate: z = x*y - 8/3*z\nstart: x = 1, y = 1, z = 1\n' >butterfly.system
