@@ -11,20 +11,36 @@
 #include "core/field/field.h"
 #include "core/memory.h"
 #include "core/mesh/moving_mesh.h"
+#include "core/ode/ode.h"
 #include "core/schemes.h"
+
+enum { MOST_WITH_TANGENTS = 8 }; /* components */
 
 struct kept {
     const struct gm_lane *lane;
     const struct gm_problem *problem; /* of one member */
     const struct gm_observable *row;
+    const struct gm_problem
+        *motion; /* that is certified, of what `problem` carries with tangents; NULL: all */
 };
+
+/* The place among the components with tangents of one of the motion alone. */
+static size_t place_of(const struct gm_problem *motion, size_t n, size_t component)
+{
+    const size_t half = motion->n / 2;
+    return component < half ? component : n / 2 + component - half;
+}
 
 static double value_of_kept(const void *data, const double *y)
 {
     const struct kept *kept = data;
+    double whole[MOST_WITH_TANGENTS] = {0};
     struct gm_view view = gm_lane_view(kept->lane);
     view.problem = kept->problem;
-    view.start = view.state = y;
+    for (size_t c = 0; kept->motion && c < kept->motion->n; c++) {
+        whole[place_of(kept->motion, kept->problem->n, c)] = y[c];
+    }
+    view.start = view.state = kept->motion ? whole : y;
     view.observable = kept->row;
     return kept->row->evaluate(&view);
 }
@@ -77,7 +93,8 @@ static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
         struct grid *grid = &first[k];
         const struct gm_lane *own = k > 0 ? grid->lane : lane;
         if (measured >= 0) {
-            grid->error = (struct kept){own, &own->problem, gm_scene_observable_at(scene, (size_t)measured)};
+            grid->error =
+                (struct kept){own, &own->problem, gm_scene_observable_at(scene, (size_t)measured), NULL};
             grid->system.error = error_of_lane;
             grid->system.error_data = &grid->error;
         }
@@ -111,18 +128,21 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
                          kind->most_certified);
     }
     problem.m = 1;
+    const struct gm_problem *const motion = kind == &gm_kind_ode ? gm_ode_of(&problem)->motion : NULL;
+    struct gm_problem alone = motion ? *motion : problem;
+    alone.parameters = problem.parameters;
     double *start = malloc(n * sizeof *start);
     struct kept *data = calloc(scene->observable_count + 1, sizeof *data);
     struct gm_kept *kept = calloc(scene->observable_count + 1, sizeof *kept);
     struct grid grids[1 + FINER] = {
-        {.system = {.problem = &problem, .start = start, .dt = lane->run->dt, .kept = kept}}};
+        {.system = {.problem = &alone, .start = start, .dt = lane->run->dt, .kept = kept}}};
     const bool good = start && data && kept;
-    for (size_t c = 0; good && c < n; c++) {
-        start[c] = lane->start[c * lane->problem.m];
+    for (size_t c = 0; good && c < alone.n; c++) {
+        start[c] = lane->start[(motion ? place_of(motion, n, c) : c) * lane->problem.m];
     }
     for (size_t i = 0; good && i < scene->observable_count; i++) {
         const struct gm_observable *row = &scene->observables[i];
-        data[i] = (struct kept){lane, &problem, row};
+        data[i] = (struct kept){lane, &problem, row, motion};
         if (row->kept && isfinite(value_of_kept(&data[i], start))) {
             kept[grids->system.kept_count++] =
                 (struct gm_kept){.name = row->key, .value = value_of_kept, .data = &data[i]};

@@ -164,6 +164,8 @@ struct gm_ode {
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;
+    /* Where tangents are carried along: the motion alone, whose q and p are the first of each half. */
+    const struct gm_problem *motion;
     /* Makes now what schemes with these needs (GM_NEEDS_...) ask for, and what is made when it is first asked for; NULL:
        nothing is. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);

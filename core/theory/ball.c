@@ -71,6 +71,13 @@ static double half_unit(double value)
 
 struct gm_ball gm_ball_written(double value)
 {
+    enum { LARGEST_DENOMINATOR = 100 };
+    for (long q = 1; q <= LARGEST_DENOMINATOR; q++) {
+        const double p = nearbyint(value * (double)q);
+        if (p / (double)q == value) {
+            return gm_ball_ratio((long)p, q);
+        }
+    }
     struct gm_ball ball = gm_ball_of(value);
     if (!is_short_dyadic(value)) {
         ball.radius = half_unit(value);
@@ -80,8 +87,7 @@ struct gm_ball gm_ball_written(double value)
 
 struct gm_ball gm_ball_decimal(const char *text, size_t length, double value)
 {
-    enum { LONGEST = 400, EXACT_DIGITS = 3 };
-    char copy[LONGEST + 1];
+    enum { EXACT_DIGITS = 3 };
     int digits = 0, behind = 0; /* from the first that is not 0; behind the point */
     bool point = false;
     size_t i = 0;
@@ -90,23 +96,18 @@ struct gm_ball gm_ball_decimal(const char *text, size_t length, double value)
         digits += text[i] != '.' && (digits > 0 || text[i] != '0');
         behind += text[i] != '.' && point;
     }
-    const bool whole = !point && i == length;
-    if (length > LONGEST || is_short_dyadic(value)) {
-        return gm_ball_of(value);
-    }
-    memcpy(copy, text, length);
-    copy[length] = '\0';
     struct gm_ball ball;
     mpfr_t number;
     begin(number, &ball);
-    const bool rounded = mpfr_set_str(number, copy, 10, MPFR_RNDN) == 0;
-    const double unit = pow(10, (i < length ? strtod(copy + i + 1, NULL) : 0) - behind);
+    const bool rounded = mpfr_strtofr(number, text, NULL, 10, MPFR_RNDN) != 0;
+    const double unit = pow(10, (i < length ? strtod(text + i + 1, NULL) : 0) - behind);
+    const bool whole = !point && i == length;
+    const bool dyadic = !rounded && mpfr_cmp_d(number, value) == 0 && is_short_dyadic(value);
     const bool printed = digits > DIGITS && digits <= DIGITS + 2;
     finish(&ball, number, rounded,
-           whole                   ? 0
-           : printed               ? half_unit(value)
-           : digits > EXACT_DIGITS ? unit / 2
-                                   : 0);
+           whole || dyadic || digits <= EXACT_DIGITS ? 0
+           : printed                                 ? half_unit(value)
+                                                     : unit / 2);
     return ball;
 }
 

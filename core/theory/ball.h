@@ -19,12 +19,12 @@ struct gm_ball {
 /* Exactly `value`; p / q, rounded (q is not 0). */
 struct gm_ball gm_ball_of(double value);
 struct gm_ball gm_ball_ratio(long p, long q);
-/* A coefficient that a table writes as a decimal: exact where the double is a short dyadic fraction (26 bits:
-   1/2, 3/4, -1), else within half a unit of its 15th significant digit. */
+/* A coefficient of a table: exact where the double is that of a fraction whose denominator is at most 100, or a
+   short dyadic fraction (26 bits), else within half a unit of its 15th significant digit. */
 struct gm_ball gm_ball_written(double value);
-/* The same of the decimal text[0 .. length) with its value as a double: exact where it is a whole number, has
-   at most 3 digits or is a short dyadic fraction, else within half a unit of its last digit; 16 or 17 digits
-   are a double that was printed, of which 15 are known. */
+/* The decimal text[0 .. length), behind which no digit stands, with its value as a double: exact where it is a
+   whole number, has at most 3 digits or is, by all its digits, a short dyadic fraction, else within half a unit
+   of its last digit; 16 or 17 digits are a double that was printed, of which 15 are known. */
 struct gm_ball gm_ball_decimal(const char *text, size_t length, double value);
 enum { GM_BALL_DIGITS = 77 }; /* of a whole number that is exact */
 struct gm_ball gm_ball_pi(void);

@@ -111,17 +111,20 @@ static struct gm_ball residual(const struct gm_coefficients *coefficients, const
 }
 
 /* Whether a residual is more than the doubts of the decimals make of it together, each by what its half unit
-   moves; the moved weights stand behind the others. What vanishes but for rounding is 0. */
+   moves, and those of the rows that they stand beside; the moved weights stand behind the others. There the
+   decimals are numbers, so that what bounds their residual is the doubt of the rows. What vanishes but for
+   rounding is 0. */
 static bool is_beyond_doubt(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                             const struct weights *weights, int tree, struct gm_ball defect)
 {
     const double rounding = 1e-60, size = fabs(gm_ball_midpoint(defect));
-    double doubt = rounding;
-    for (int k = 0; k < coefficients->moved_count && doubt < size; k++) {
+    double doubt = 0, of_rows = rounding;
+    for (int k = 0; k < coefficients->moved_count && doubt + of_rows < size; k++) {
         const struct gm_ball moved = residual(&coefficients->moved[k], trees, &weights[k + 1], tree);
         doubt += 1.001 * fabs(gm_ball_midpoint(gm_ball_subtract(moved, defect)));
+        of_rows = fmax(of_rows, moved.radius);
     }
-    return coefficients->moved_count > 0 && size > doubt;
+    return coefficients->moved_count > 0 && size > doubt + of_rows;
 }
 
 /* The conditions of one order; false, with what fails, where one does. */

@@ -324,7 +324,7 @@ static gm_node_id decimal(void *data, const char *text, size_t length, double va
 {
     struct reading *reading = data;
     const bool whole = strcspn(text, ".eE") >= length;
-    if (value < 1e15 && value == floor(value) && !memchr(text, '.', length)) {
+    if (whole && value < 1e15) {
         return gm_formula_constant(&reading->graph, value);
     }
     if (whole && length > GM_BALL_DIGITS) {

@@ -141,6 +141,30 @@ assert about["properties"]["keeps linear invariants"]["reason"], about
 END
 status 0 certify verlet --on system 'H=p^2/2 + abs(q)' q=1 p=0 dt=0.1 --json
 grep -q '"order":null,"order_reason":"the system is not smooth' out || fail "a rough system: $(cat out)"
+# few steps on one side of a corner decide nothing; those across it do, and what is not quadratic is not called so
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
+status 0 certify avf2 --on ./corner.system
+[ "$(grep -c 'not decided *the system is not smooth' out)" = 3 ] || fail "beside a corner: $(cat out)"
+! grep -q holds out || fail "beside a corner: $(cat out)"
+status 0 certify avf2 --on ./corner.system --json
+grep -q '"keeps energy":{"claimed":true,"measured":false,"defect":null.*"reason":"the system is not smooth' out ||
+    fail "beside a corner: $(cat out)"
+status 4 certify avf2 --on ./corner.system q=0.05 p=-1
+grep -q 'keeps energy *BROKEN *defect' out || fail "across a corner: $(cat out)"
+status 0 certify gauss4 --on ./corner.system q=0 p=1
+! grep -q 'quadratic invariants *BROKEN' out || fail "across a corner: $(cat out)"
+status 4 certify 'explicit(claims: symmetric; order: 1; 0; 1)' --on ./corner.system
+rm corner.system
+# the disc carries tangents: what is measured is the motion
+for words in 'system=oscillator' 'system=pendulum'; do
+    status 0 certify midpoint --on disc "$words"
+    grep -q 'S symplectic *holds *defect' out && grep -q 'H keeps energy *not claimed *defect' out ||
+        fail "the motion of the disc: $(cat out)"
+    status 4 certify 'explicit(claims: symplectic; order: 1; 0; 1)' --on disc "$words"
+    grep -q 'S symplectic *BROKEN *defect' out || fail "the motion of the disc: $(cat out)"
+done
+status 0 certify midpoint --on disc
+grep -q 'Q keeps quadratic invariants *holds *defect.*energy_error' out || fail "the oscillator's energy: $(cat out)"
 status 0 certify gauss4 --on kepler eccentricity=0.3 dt=0.02
 grep -q 'keeps quadratic invariants *holds *defect.*angular_momentum' out || fail "angular momentum: $(cat out)"
 printf 'geomint: 1\ncomponents: x y z\nrate: x = 10*(y - x)\nrate: y = 28*x - y - x*z\nrate: z = x*y - 8/3*z\nstart: x = 1, y = 1, z = 1\n' >butterfly.system
@@ -194,6 +218,11 @@ status 0 certify times.scheme --polish better-times.scheme
 status 0 certify better-times.scheme
 grep -q '^c: 0.211324865405187117745425609749, # the first$' better-times.scheme || fail "c: $(cat better-times.scheme)"
 grep -q '^ 0.788675134594812882254574390251 # the second$' better-times.scheme || fail "c: $(cat better-times.scheme)"
+status 0 certify 'composition(rk4; order: 4; 0.333333333333333333, 0.666666666666666667)'
+status 4 certify 'composition(rk4; order: 4; 0.333333333433333333, 0.666666666666666667)'
+status 0 certify 'composition(gauss4; order: 6; 1.1747, -1.3493, 1.1747)' --polish over-gauss.scheme
+status 0 certify over-gauss.scheme
+grep -q '; 1.17467175808936, -1.34934351617873, ' over-gauss.scheme || fail "polished: $(cat over-gauss.scheme)"
 refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
 refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
 refused 1 'not a scheme of the program' certify rk4 --polish x.scheme

@@ -423,6 +423,83 @@ static void digits(void **unused)
     }
 }
 
+/* The order by theory of steps of a base whose fractions have so many correct digits; 0 digits: all. */
+static int order_of_steps(const char *base, const struct gm_ball *fractions, const char *formulas, int count,
+                          int digits)
+{
+    char text[400], number[64];
+    int used = snprintf(text, sizeof text, "composition(%s; %s", base, digits > 0 ? "" : formulas);
+    for (int i = 0; digits > 0 && i < count; i++) {
+        gm_ball_print(fractions[i], digits, number, sizeof number);
+        used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", i > 0 ? ", " : "", number);
+    }
+    snprintf(text + used, sizeof text - (size_t)used, ")");
+    const struct gm_scheme *own = open_own(text);
+    const struct gm_theory theory = gm_scheme_theory(own);
+    gm_own_scheme_close(own);
+    return theory.known ? theory.order : -1;
+}
+
+/* More digits that are right never lower an order, whatever is known of the rows that they stand beside. */
+static void digits_over_every_base(void **unused)
+{
+    (void)unused;
+    enum { MOST_STAGES = 12 }; /* of the base: more take long */
+    static const int digit_counts[] = {12, 15, 16, 17, 18, 20, 30};
+    const struct gm_ball third = gm_ball_ratio(1, 3);
+    const struct gm_ball thirds[] = {third, gm_ball_add(third, third)};
+    int bases = 0;
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *base = gm_scheme_at(i);
+        struct gm_coefficients exact;
+        if (base->family->kind != &gm_kind_ode || base != gm_scheme_find(base->name) ||
+            !gm_scheme_coefficients_open(base, &exact)) {
+            continue;
+        }
+        const int stages = exact.stages, order = base->order;
+        gm_coefficients_close(&exact);
+        if (stages > MOST_STAGES) {
+            continue;
+        }
+        bases++;
+        /* a triple jump leads from an even order to the next one */
+        const struct gm_ball two = gm_ball_of(2), one = gm_ball_of(1);
+        const struct gm_ball root =
+            gm_ball_exp(gm_ball_multiply(gm_ball_ratio(1, order + 1), gm_ball_log(two)));
+        const struct gm_ball jump = gm_ball_divide(one, gm_ball_subtract(two, root));
+        const struct gm_ball jumps[] = {jump, gm_ball_subtract(one, gm_ball_add(jump, jump)), jump};
+        char formulas[200];
+        snprintf(formulas, sizeof formulas, "let: g = 1/(2 - 2^(1/%d)); g, 1 - 2*g, g", order + 1);
+        const bool jumping = base->claims & GM_SYMMETRIC && order <= 4;
+        const int whole = order_of_steps(base->name, thirds, "1/3, 2/3", 2, 0);
+        const int higher = jumping ? order_of_steps(base->name, jumps, formulas, 3, 0) : 0;
+        assert_true(whole >= order && (!jumping || higher >= order + 2));
+        for (size_t k = 0; k < GM_COUNT(digit_counts); k++) {
+            const int told = order_of_steps(base->name, thirds, NULL, 2, digit_counts[k]);
+            const int jumped = jumping ? order_of_steps(base->name, jumps, NULL, 3, digit_counts[k]) : 0;
+            if (told < whole || jumped < higher) {
+                fail_msg("%s, %d digits: order %d of %d, %d of %d", base->name, digit_counts[k], told, whole,
+                         jumped, higher);
+            }
+        }
+    }
+    assert_true(bases > 20);
+    /* and one that is wrong is still seen: beside exact rows in the last place, beside others in the 15th */
+    static const char *const wrong[] = {
+        "composition(rk4; 0.333333333333333333, 0.666666666666666669)",
+        "composition(gauss4; 0.333333333333333333, 0.666666666666700000)",
+        "composition(pefrl4; 0.333333333333, 0.666666666669)",
+        "explicit(0, 0 | 1, 0; 0.5, 0.500000000000000001)",
+    };
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
+        const struct gm_scheme *own = open_own(wrong[i]);
+        if (gm_scheme_theory(own).order != 0) {
+            fail_msg("%s: order %d", wrong[i], gm_scheme_theory(own).order);
+        }
+        gm_own_scheme_close(own);
+    }
+}
+
 /* Compositions that stretch phase space a thousandfold, and orders beyond what errors show: measured as far
    as that goes, and what theory proves is not refuted by what cannot be seen. */
 static void honest(void **unused)
@@ -710,6 +787,31 @@ static void polished(void **unused)
          "0.5, 0.5; 0.2113, 0.7887); order: 4; claims: symplectic symmetric; 1/2, 1/2)",
          4},
     };
+    /* over rows of the program, which are exact or known to 15 digits, which those that are solved for are then */
+    static const struct {
+        const char *text, *polished;
+        int order;
+    } over_rows[] = {
+        {"composition(rk4; order: 4; 0.3334, 0.6667)", "0.333349999999999999996", 4},
+        {"composition(gauss4; order: 6; 1.1747, -1.3493, 1.1747)", "; 1.17467175808936, -1.34934351617873, ",
+         6},
+        {"composition(pefrl4; order: 6; 1.1747, -1.3493, 1.1747)", "; 1.17467175808936, -1.34934351617873, ",
+         6},
+    };
+    for (size_t i = 0; i < GM_COUNT(over_rows); i++) {
+        const struct gm_own_scheme_source source = {
+            .text = over_rows[i].text, .length = strlen(over_rows[i].text), .name = "own", .bring = no_file};
+        struct gm_polish polish;
+        struct gm_fault fault;
+        char *text = gm_own_scheme_polish(&source, &polish, &fault);
+        if (!text || !strstr(text, over_rows[i].polished)) {
+            fail_msg("%s: %s", over_rows[i].text, text ? text : fault.sentence);
+        }
+        const struct gm_scheme *own = open_own(text);
+        assert_int_equal(gm_scheme_theory(own).order, over_rows[i].order);
+        gm_own_scheme_close(own);
+        free(text);
+    }
     for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_own_scheme_source source = {
             .text = schemes[i].text, .length = strlen(schemes[i].text), .name = "own", .bring = no_file};
@@ -732,6 +834,7 @@ static void polished(void **unused)
         {"composition(verlet; order: 4; 0.50001, 0.49999)", "no coefficients near these"},
         {"composition(verlet; order: 2; 1/2, 1/2)", "nothing to polish"},
         {"composition(kahan2; 0.50001, 0.49999)", "theory knows no conditions"},
+        {"composition(gauss4; order: 6; 0.5001, 0.4999)", "no coefficients near these"},
     };
     for (size_t i = 0; i < GM_COUNT(hopeless); i++) {
         const struct gm_own_scheme_source source = {
@@ -850,6 +953,7 @@ int main(void)
         cmocka_unit_test(schemes_of_schemes),
         cmocka_unit_test(wrong_schemes),
         cmocka_unit_test(digits),
+        cmocka_unit_test(digits_over_every_base),
         cmocka_unit_test(honest),
         cmocka_unit_test(long_compositions),
         cmocka_unit_test(nystrom),

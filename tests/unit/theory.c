@@ -349,8 +349,43 @@ static void balls(void **unused)
     assert_true(gm_ball_may_vanish(nothing));
     assert_true(nothing.radius > 0 && nothing.radius < 1e-75);
     assert_int_equal(gm_ball_sign(gm_ball_subtract(third, gm_ball_of(1. / 3))), 1);
-    assert_true(gm_ball_may_vanish(gm_ball_subtract(third, gm_ball_written(1. / 3))));
-    assert_true(gm_ball_written(0.75).radius == 0 && gm_ball_written(-0.1).radius == 0.5e-15);
+    const struct gm_ball written = gm_ball_written(1. / 3);
+    assert_true(gm_ball_is_same(&third, &written));
+    assert_true(gm_ball_written(0.75).radius == 0 && gm_ball_written(-0.123456).radius == 0.5e-15);
+}
+
+/* A decimal is what its digits say, whatever double lies next to it; what stands behind it is none of it. */
+static void decimals(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        double radius, beyond; /* of the double */
+    } typed[] = {
+        {"0.5", 0, 0},
+        {"0.50000000000000000000", 0, 0},
+        {"5000000e-7", 0, 0},
+        {"0.50000000000000001", 0.5e-15, 1e-17},
+        {"0.500000000000000001", 0.5e-18, 1e-18},
+        {"0.99999999999999999999", 0.5e-20, -1e-20},
+        {"1.00000000000000000000001", 0.5e-23, 1e-23},
+        {"0.281250000000000000000000000001, 7", 0.5e-30, 1e-30},
+    };
+    for (size_t i = 0; i < GM_COUNT(typed); i++) {
+        const double value = strtod(typed[i].text, NULL);
+        const struct gm_ball ball =
+            gm_ball_decimal(typed[i].text, strspn(typed[i].text, "0123456789.e-"), value);
+        const double beyond = gm_ball_midpoint(gm_ball_subtract(ball, gm_ball_of(value)));
+        if (fabs(ball.radius - typed[i].radius) > 1e-9 * typed[i].radius ||
+            fabs(beyond - typed[i].beyond) > 1e-9 * fabs(typed[i].beyond)) {
+            fail_msg("%s: radius %g, %g beyond its double", typed[i].text, ball.radius, beyond);
+        }
+    }
+    /* longer than any number has to be: known by its digits too */
+    char text[600] = "0.5";
+    memset(text + 3, '0', 500);
+    strcpy(text + 503, "1");
+    assert_true(gm_ball_decimal(text, strlen(text), 0.5).radius > 0);
 }
 
 /* The coefficient of a word in the product of the flows exp(c_i X_i), against 1 / n! of exp(A + B): a
@@ -430,6 +465,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls),
+        cmocka_unit_test(decimals),
         cmocka_unit_test(signs),
         cmocka_unit_test(numbers_of_trees),
         cmocka_unit_test(known_methods),

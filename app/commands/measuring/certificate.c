@@ -55,21 +55,22 @@ void gm_certificate_print(const struct gm_certificate *certificate)
             !(reason && GM_CERTIFIED_ON_SYSTEMS >> bit & 1)) {
             continue;
         }
-        const char *verdict = !measure->claimed    ? "not claimed"
-                              : measure->holds     ? "holds"
-                              : measure->measured  ? "BROKEN"
-                              : measure->undecided ? "inconclusive"
-                              : reason             ? "not measured"
-                                                   : "BROKEN: it could not be measured";
+        const char *verdict = !measure->claimed              ? "not claimed"
+                              : measure->holds               ? "holds"
+                              : measure->measured            ? "BROKEN"
+                              : measure->undecided && reason ? "not decided"
+                              : measure->undecided           ? "inconclusive"
+                              : reason                       ? "not measured"
+                                                             : "BROKEN: it could not be measured";
         printf("  %s %-28s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
         if (measure->measured && isfinite(measure->defect)) {
             printf(" defect %.1e (%s)", measure->defect, measure->problem);
         } else if (measure->measured) {
             printf(" a step failed (%s)", measure->problem);
-        } else if (measure->undecided) {
-            printf(" no step, however short, tells it from round-off (%s)", measure->problem);
         } else if (reason) {
             printf(" %s", reason);
+        } else if (measure->undecided) {
+            printf(" no step, however short, tells it from round-off (%s)", measure->problem);
         }
         printf("\n");
     }

@@ -114,7 +114,7 @@ void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subj
        are long beside dx add as much as ten times that */
     const double over = 0.05 / 8 / 10;
     const char *const name = subject->problem.name;
-    gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, name);
+    note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, round_off(subject, y) / size, name);
     if (!gm_field_begin(subject, y)) {
         return;
     }

@@ -301,6 +301,21 @@ static bool is_even(const struct gm_subject *subject)
     return true;
 }
 
+/* On a system that is not smooth what holds decides nothing: the few steps may all lie on one side of a corner.
+   What fails there fails. */
+static void doubt(struct gm_certificate *certificate)
+{
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        struct gm_verdict *verdict = &certificate->claims[bit];
+        const bool held = verdict->measured && verdict->defect <= verdict->tolerance;
+        if (held || verdict->undecided) {
+            verdict->measured = false;
+            verdict->undecided = true;
+            verdict->reason = "the system is not smooth, and these few steps may not have crossed a corner";
+        }
+    }
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -337,8 +352,11 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                 continue;
             }
             const double drift = gm_drift_of(&subject, scheme, &system->kept[i]);
-            if (drift > tolerance(certificate, claim) &&
-                drift < gm_round_off_of(&subject, &system->kept[i])) {
+            const bool changes = drift > tolerance(certificate, claim);
+            if (changes && ode->rough) {
+                /* what it is on the one side of a corner it need not be on the other */
+                gm_certificate_undecided(certificate, claim, system->kept[i].name);
+            } else if (changes && drift < gm_round_off_of(&subject, &system->kept[i])) {
                 gm_certificate_withhold(
                     certificate, claim,
                     "round-off hides it: it is small beside the numbers that it is made of");
@@ -390,6 +408,9 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                                 certificate->claims[bit].reason
                                     ? certificate->claims[bit].reason
                                     : "it means nothing of ordinary differential equations");
+    }
+    if (ode->rough) {
+        doubt(certificate);
     }
 }
 

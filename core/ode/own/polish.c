@@ -80,15 +80,18 @@ static struct gm_ball *residuals(struct polishing *polishing)
     return all;
 }
 
-static double largest(const struct gm_ball *all, size_t count)
+/* The decimals are numbers here: what is in doubt of a residual is so for the rows that they stand beside. */
+static double largest(struct gm_polish *polish, const struct gm_ball *all)
 {
     double size = 0;
-    for (size_t i = 0; i < count; i++) {
+    polish->doubt = 0;
+    for (size_t i = 0; i < polish->conditions; i++) {
         const double residual = fabs(gm_ball_midpoint(all[i]));
         if (isnan(residual)) {
             return INFINITY;
         }
         size = fmax(size, residual);
+        polish->doubt = fmax(polish->doubt, all[i].radius);
     }
     return size;
 }
@@ -140,8 +143,12 @@ static bool iterate(struct polishing *polishing, gsl_matrix *u, gsl_matrix *v, g
     struct gm_polish *polish = polishing->polish;
     struct gm_ball *here = residuals(polishing);
     bool good = here != NULL;
-    polish->after = good ? largest(here, polish->conditions) : INFINITY;
-    for (int i = 0; good && i < ITERATIONS && polish->after > solved && polish->after < hopeless; i++) {
+    polish->after = good ? largest(polish, here) : INFINITY;
+    double last = INFINITY;
+    for (int i = 0; good && i < ITERATIONS && polish->after > solved && polish->after < hopeless &&
+                    (polish->after > polish->doubt || polish->after < last / 2);
+         i++) {
+        last = polish->after;
         good = differentiate(polishing, here, u);
         if (good) {
             gsl_linalg_SV_decomp_jacobi(u, v, values);
@@ -149,12 +156,12 @@ static bool iterate(struct polishing *polishing, gsl_matrix *u, gsl_matrix *v, g
             free(here);
             here = residuals(polishing);
             good = here != NULL;
-            polish->after = good ? largest(here, polish->conditions) : INFINITY;
+            polish->after = good ? largest(polish, here) : INFINITY;
         }
     }
     free(here);
     return good &&
-           (polish->after <= solved ||
+           (polish->after <= fmax(solved, polish->doubt) ||
             fail(polishing,
                  "no coefficients near these satisfy the conditions of order %d and of what is claimed: %.1e "
                  "remains",
@@ -170,7 +177,7 @@ static bool solve(void *data)
     if (!here) {
         return false;
     }
-    polish->before = largest(here, polish->conditions);
+    polish->before = largest(polish, here);
     free(here);
     const size_t rows = polish->conditions > count ? polish->conditions : count;
     gsl_matrix *u = gsl_matrix_alloc(rows, count), *v = gsl_matrix_alloc(count, count);
@@ -228,13 +235,13 @@ static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
 
 /* The text with these numbers, up to `end`. */
 static void put_numbers(FILE *stream, const char *text, size_t end, const struct gm_decimal *all,
-                        size_t count)
+                        size_t count, double doubt)
 {
-    enum { DIGITS = 30 };
+    const int digits = doubt < 1e-30 ? 30 : 15;
     size_t from = 0;
     for (size_t i = 0; i < count; i++) {
         char number[64];
-        gm_ball_print(all[i].ball, DIGITS, number, sizeof number);
+        gm_ball_print(all[i].ball, digits, number, sizeof number);
         /* what was subtracted stays so: a sign stands before the digits, not among them */
         const bool minus = number[0] == '-';
         fprintf(stream, "%.*s%s%s%s", (int)(all[i].place - from), text + from, minus ? "(" : "", number,
@@ -256,7 +263,7 @@ static char *write(struct polishing *polishing, const struct gm_written_scheme *
         free(numbers);
         return numbers ? no_memory(polishing) : NULL;
     }
-    put_numbers(stream, source->text, end_of(source, is_word), numbers, count);
+    put_numbers(stream, source->text, end_of(source, is_word), numbers, count, polishing->polish->doubt);
     free(numbers);
     if (!written->lines[GM_SCHEME_WORD_ORDER].said) {
         fprintf(stream, "%sorder: %d", is_word ? "; " : "\n", polishing->polish->order);

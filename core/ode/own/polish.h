@@ -13,11 +13,12 @@ struct gm_polish {
     size_t conditions;    /* of the order, and of the structure that is claimed */
     double before, after; /* the largest residual, as typed and as solved */
     double change;        /* of the decimal that moves farthest */
+    double doubt;         /* of the residuals, for rows of parts that are known to 15 digits */
 };
 
-/* The text of the scheme with its decimals to 30 digits, its order and its claims said: of the solutions the
-   one next to what was typed, so that a family's free parameters stay where they are. malloc'ed. NULL with a
-   fault, whose sentence is empty where memory was refused. */
+/* The text of the scheme with its decimals to 30 digits, or to the 15 of the rows beside them, its order and its
+   claims said: of the solutions the one next to what was typed, so that a family's free parameters stay where they
+   are. malloc'ed. NULL with a fault, whose sentence is empty where memory was refused. */
 char *gm_own_scheme_polish(const struct gm_own_scheme_source *source, struct gm_polish *polish,
                            struct gm_fault *fault);
 

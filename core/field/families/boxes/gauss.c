@@ -148,11 +148,13 @@ static struct gm_progress advance(const struct gm_task *task)
 /* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
 /* What the law needs of one tangent, which work holds before and after its step: u and v at the stages of the
-   cells, and u and w at their sides, at the stages in time. Where a branch has infinite frequency the force
-   on it (work->hat_v holds its part at the first stage) is balanced by w. */
+   cells, and u and w at their sides, at the stages in time. The slope of w is u'' + V''(m) u, work->hat_v: where
+   a branch has infinite frequency it is that of w alone, and on those of high frequency it tells u and w better
+   than u, whose round-off the way to the sides would multiply by the cube of the number of cells. */
 static void find_faces(struct gm_gauss_work *work, double dx, const double *curvature, struct gm_faces *faces)
 {
     enum { U, V, W, DIMENSION };
+    const double high = 4;
     const struct gm_gauss_tableau *tableau = work->tableau;
     const size_t points = work->points, r = tableau->n;
     for (size_t i = 0; i < points; i++) {
@@ -169,9 +171,10 @@ static void find_faces(struct gm_gauss_work *work, double dx, const double *curv
         const double *stages = work->stages + j * r * points, *bend = curvature + j * r * points;
         for (size_t m = 0; m < r; m++) {
             for (size_t i = 0; i < points; i++) {
-                work->force[i] = bend[m * points + i] * stages[m * points + i];
+                faces->scratch[i] =
+                    work->force[(j * r + m) * points + i] + bend[m * points + i] * stages[m * points + i];
             }
-            gm_gauss_forward(work, work->force, work->hat_v + m * points);
+            gm_gauss_forward(work, faces->scratch, work->hat_v + m * points);
             gm_gauss_forward(work, stages + m * points, work->hat_u + m * points);
         }
         for (size_t mode = 0; mode <= points / 2; mode++) {
@@ -184,8 +187,8 @@ static void find_faces(struct gm_gauss_work *work, double dx, const double *curv
                     r == 1      ? 2 / (cexp(I * angle) + 1)
                     : mode == 0 ? branch->vector[0]
                                 : GM_ROOT3 * (branch->vector[1] - branch->vector[0]) / (cexp(I * angle) - 1);
+                const double complex push = gm_gauss_amplitude(branch, r, points, mode, work->hat_v);
                 if (isinf(branch->frequency)) {
-                    const double complex push = gm_gauss_amplitude(branch, r, points, mode, work->hat_v);
                     /* -dx A of the balancing slope of w */
                     of_w -= dx * push *
                             (r == 1 ? tableau->a[0][0]
@@ -193,7 +196,10 @@ static void find_faces(struct gm_gauss_work *work, double dx, const double *curv
                                           tableau->a[0][1] * branch->vector[1]);
                     continue;
                 }
-                const double complex u = gm_gauss_amplitude(branch, r, points, mode, work->hat_u);
+                const double square = branch->frequency * branch->frequency;
+                const double complex u = square * dx * dx > high
+                                             ? -push / square
+                                             : gm_gauss_amplitude(branch, r, points, mode, work->hat_u);
                 of_u += side * u;
                 of_w += side * I * branch->frequency * u;
             }
@@ -204,13 +210,13 @@ static void find_faces(struct gm_gauss_work *work, double dx, const double *curv
                 work->hat[2 * points - mode] = conj(of_w);
             }
         }
-        gm_gauss_backward(work, work->hat, work->force);
+        gm_gauss_backward(work, work->hat, faces->scratch);
         for (size_t i = 0; i <= points; i++) {
-            faces->sides[(i * r + j) * DIMENSION + U] = work->force[i < points ? i : 0];
+            faces->sides[(i * r + j) * DIMENSION + U] = faces->scratch[i < points ? i : 0];
         }
-        gm_gauss_backward(work, work->hat + points, work->force);
+        gm_gauss_backward(work, work->hat + points, faces->scratch);
         for (size_t i = 0; i <= points; i++) {
-            faces->sides[(i * r + j) * DIMENSION + W] = work->force[i < points ? i : 0];
+            faces->sides[(i * r + j) * DIMENSION + W] = faces->scratch[i < points ? i : 0];
         }
     }
 }

@@ -9,6 +9,10 @@
 double gm_dispersive_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y, bool by_differences);
 
+/* gm_family.form of the schemes of nodes. */
+double gm_nodes_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                     const double *y, const double *memory, bool by_differences);
+
 /* What the next step of the box leaves of a local law in every cell,
        energy     [V(b) - V(a) - (b - a) V'((a + b)/2)] / dt    from a = A_x f^n to b = A_x f^{n+1}
        momentum   the same over dx                              from a = A_t f_i to b = A_t f_{i+1}

@@ -8,19 +8,14 @@
                    stable for dt < dx^3/(4 mu)
        midpoint    (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0
                    stable for dt < dx^3/mu
-   Nonlinear Schroedinger, psi = p + i q, the state p^{n-1} and q^n:
-       Euler box   (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
-                   (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
-                   stable for dt < dx^2/2
-   B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). There is no midpoint scheme
-   for Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
-   amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the limit of linear
-   theory. */
+   Nonlinear Schroedinger: schroedinger_nodes.c has its Euler box, and here is the law of both.
+   B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/count.h"
+#include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -103,27 +98,6 @@ static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *pr
     }
 }
 
-/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; false where no real p' is left. */
-static bool nls_first(const struct gm_line *line, double dt, double *p, const double *q)
-{
-    for (size_t i = 0; i < line->points; i++) {
-        const double free = p[i] - dt * (second(q, i, 1, line) + q[i] * q[i] * q[i]);
-        const double discriminant = 1 + 4 * dt * q[i] * free;
-        if (discriminant < 0) {
-            return false;
-        }
-        p[i] = 2 * free / (1 + sqrt(discriminant));
-    }
-    return true;
-}
-
-static void nls_second(const struct gm_line *line, double dt, const double *p, double *q)
-{
-    for (size_t i = 0; i < line->points; i++) {
-        q[i] += dt * (second(p, i, 1, line) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
-    }
-}
-
 /* Schroedinger: a tangent of the solution p^{n-1}, q^n becomes that of p^n, q^{n+1}. */
 static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const double *p_new,
                               const double *q, double *tangent_p, double *tangent_q)
@@ -140,35 +114,6 @@ static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const
         tangent_q[i] += dt * (second(tangent_p, i, 1, line) + (3 * p * p + q[i] * q[i]) * tangent_p[i] +
                               2 * q[i] * p * tangent_q[i]);
     }
-}
-
-static struct gm_progress nls_advance(const struct gm_task *task)
-{
-    const struct gm_line *line = &task->problem->line;
-    double *p = task->out, *q = p + line->points;
-    struct gm_progress progress = {.status = GM_OK};
-    memcpy(p, task->y, 2 * line->points * sizeof *p);
-    for (long k = 0; k < task->steps; k++) {
-        progress.iterations++;
-        if (!nls_first(line, task->dt, p, q)) {
-            progress.status = GM_NO_CONVERGENCE;
-            return progress;
-        }
-        nls_second(line, task->dt, p, q);
-        progress.evaluations++;
-        if (!gm_field_within(p, 2 * line->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-            return progress;
-        }
-        progress.done++;
-    }
-    return progress;
-}
-
-static struct gm_progress advance(const struct gm_task *task)
-{
-    return gm_field_of(task->problem)->equation == GM_NEEDS_KDV ? gm_two_step_advance(task)
-                                                                : nls_advance(task);
 }
 
 static const struct gm_two_step_row kdv_rows[] = {
@@ -358,8 +303,8 @@ static void mirror(double *u, size_t points)
     }
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences)
+double gm_nodes_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                     const double *y, const double *memory, bool by_differences)
 {
     (void)memory;
     enum { ARRAYS = 14 };
@@ -435,16 +380,6 @@ static const struct gm_scheme schemes[] = {
         .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
     },
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula = "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_nodes,
-        .order = 1,
-        .needs = GM_NEEDS_FORM | GM_NEEDS_NLS,
-        .claims = GM_MULTISYMPLECTIC,
-    },
 };
 
 const struct gm_family gm_family_nodes = {
@@ -452,8 +387,8 @@ const struct gm_family gm_family_nodes = {
     .title = "multisymplectic schemes of nodes",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
+    .loop = gm_two_step_advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,
-    .form = form,
+    .form = gm_nodes_form,
 };

@@ -39,6 +39,7 @@ const struct gm_problem gm_problem_oscillator_tangent = {
             .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator_tangent,
                                                           .partial = true,
                                                           .formula = gm_formula_oscillator_tangent},
+            .motion = &gm_problem_oscillator,
             .loops = GM_LOOPS(oscillator_tangent),
         },
 };

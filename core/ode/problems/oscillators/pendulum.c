@@ -37,6 +37,7 @@ const struct gm_problem gm_problem_pendulum_tangent = {
             .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_pendulum_tangent,
                                                           .partial = true,
                                                           .formula = gm_formula_pendulum_tangent},
+            .motion = &gm_problem_pendulum,
             .loops = GM_LOOPS(pendulum_tangent),
         },
 };
