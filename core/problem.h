@@ -46,9 +46,8 @@ struct gm_progress {
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
     unsigned long factor_solves; /* of flows: what iterations ask of factors that are made once */
-    /* Of the step that was not solved, where they are not among the others. */
-    unsigned long failed_iterations;
-    double t; /* the time reached, of schemes that choose their own step */
+    struct gm_unsolved unsolved; /* of a step without convergence, where the family knows why */
+    double t;                    /* the time reached, of schemes that choose their own step */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

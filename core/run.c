@@ -191,18 +191,16 @@ static enum gm_status advance(struct gm_run *run, long steps, double until)
         return run->status = GM_OUT_OF_MEMORY;
     }
     if (progress.done < steps && !(family->own_time && progress.status == GM_OK)) {
-        /* loops that do not tell the failed step's iterations apart have counted them among the others */
-        const struct gm_progress attempt = progress;
+        const long done = progress.done;
         run->status = progress.status;
+        run->unsolved = progress.unsolved;
         progress = (struct gm_progress){.status = progress.status};
-        if (attempt.done > 0) {
+        if (done > 0) {
             /* some members went further than the one that failed: stop all at the last step that all made */
-            task.steps = attempt.done;
+            task.steps = done;
             progress = loop(&task);
         }
-        run->failed_iterations = attempt.failed_iterations > 0 ? attempt.failed_iterations
-                                                               : attempt.iterations - progress.iterations;
-        if (attempt.done == 0) {
+        if (done == 0) {
             return run->status;
         }
     }

@@ -17,7 +17,7 @@ struct gm_run {
     long steps;                                    /* steps in all */
     unsigned long evaluations, solves, iterations; /* sums over the members */
     unsigned long factor_solves;                   /* the same, with factors that are made once (flows) */
-    unsigned long failed_iterations; /* of the step that was not solved; of an ensemble, of some members */
+    struct gm_unsolved unsolved;                   /* why a step was not solved */
     enum gm_status status;
     int current;      /* which half of the block holds the state */
     size_t half_size; /* in bytes */

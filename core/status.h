@@ -12,6 +12,18 @@ enum gm_status {
     GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
 };
 
+/* What was in the way where an implicit equation was not solved. */
+enum gm_obstacle {
+    GM_NOT_KNOWN,
+    GM_SINGULAR,    /* the matrix of Newton's method is singular */
+    GM_NOT_FINITE,  /* the iteration led to no number */
+    GM_STILL_LARGE, /* the iteration still changes what it looks for */
+};
+struct gm_unsolved {
+    enum gm_obstacle obstacle;
+    double change; /* the last one, as a part of the state */
+};
+
 /* The name of a status as the command line prints it ("blow-up"). */
 const char *gm_status_name(enum gm_status status);
 

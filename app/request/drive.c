@@ -9,7 +9,7 @@
 
 #include "app/native/engine.h"
 #include "app/request/interrupt.h"
-#include "core/formula/number.h"
+#include "core/schemes.h"
 #include "render/clock.h"
 
 /* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
@@ -192,6 +192,26 @@ static bool tell_part(const struct gm_lane *lane, const char *how, char *text, s
     return part[0] != '\0';
 }
 
+/* What was in the way of the implicit equations of a step, and the way out. */
+static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
+{
+    static const char *const obstacles[] = {
+        [GM_NOT_KNOWN] = " to round-off",
+        [GM_SINGULAR] = ": its matrix is singular",
+        [GM_NOT_FINITE] = ": its iteration leaves the numbers",
+        [GM_STILL_LARGE] = ": its iteration still changes by",
+    };
+    char change[40] = "";
+    if (run->unsolved.obstacle == GM_STILL_LARGE) {
+        snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
+    }
+    const char *const name = run->scheme->name;
+    const bool damps = strcmp(name, "radau5") == 0 || strcmp(name, "sdirk2") == 0;
+    snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s", run->t,
+             obstacles[run->unsolved.obstacle], change, run->scheme->steady ? "" : "; take a shorter dt",
+             !damps && gm_scheme_find_for("radau5", run->problem) ? ", or radau5" : "");
+}
+
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
 {
     const struct gm_run *run = lane->run;
@@ -206,27 +226,12 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
                  run->limit);
         return;
-    case GM_NO_CONVERGENCE: {
-        const unsigned long iterations = run->failed_iterations;
+    case GM_NO_CONVERGENCE:
         if (tell_part(lane, "led to no number", text, size)) {
             return;
         }
-        if (iterations == 0) {
-            snprintf(
-                text, size,
-                "the implicit equations of the step after t = %.6g led to no number at the first iteration",
-                run->t);
-            return;
-        }
-        char made[40] = ""; /* of an ensemble how many the loop has counted depends on the loop */
-        if (run->problem->m == 1) {
-            snprintf(made, sizeof made, " in %lu iteration%s", iterations, gm_plural((double)iterations));
-        }
-        snprintf(text, size,
-                 "the implicit equations of the step after t = %.6g were not solved to round-off%s", run->t,
-                 made);
+        tell_unsolved(run, text, size);
         return;
-    }
     case GM_MESH_CROSSING:
         snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
         return;

@@ -502,7 +502,7 @@ static void one_of_many_is_not_solved(void **unused)
         assert_int_equal(runs[i]->steps, runs[0]->steps);
         assert_int_equal(runs[i]->iterations, runs[0]->iterations);
         assert_int_equal(runs[i]->evaluations, runs[0]->evaluations);
-        assert_int_equal(runs[i]->failed_iterations, runs[0]->failed_iterations);
+        assert_int_equal(runs[i]->unsolved.obstacle, runs[0]->unsolved.obstacle);
     }
     gm_run_close(runs[0]);
     gm_run_close(runs[1]);

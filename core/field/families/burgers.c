@@ -32,6 +32,7 @@
 #include "core/clones.h"
 #include "core/count.h"
 #include "core/field/families/families.h"
+#include "core/settled.h"
 
 /* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
 GM_CLONES static void ftcs_printed(const double *restrict u, double *restrict v, size_t points, double k,
@@ -238,10 +239,9 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
         if (!isfinite(size)) {
             return GM_NO_CONVERGENCE;
         }
-        if (size <= 1e-16 * largest || (size >= last && size <= 1e-12 * largest)) {
+        if (gm_is_settled(size, 1e-12 * largest, &last)) {
             return GM_OK;
         }
-        last = size;
     }
     return GM_NO_CONVERGENCE;
 }

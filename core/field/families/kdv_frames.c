@@ -33,6 +33,7 @@
 #include "core/field/problems/frames.h"
 #include "core/larger.h"
 #include "core/linear/ring.h"
+#include "core/settled.h"
 
 enum { REACH = 2 /* of D3 */, PAD = 3, KNOWN = 6 /* nodes that P goes through */ };
 
@@ -184,11 +185,10 @@ static enum gm_status evolve_and_project(struct work *work, const struct step *s
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }
-        if (change <= 1e-16 * size || (change >= last && change <= 1e-12 * size)) {
+        if (gm_is_settled(change, 1e-12 * size, &last)) {
             close_ring(next, points);
             return GM_OK;
         }
-        last = change;
     }
     return GM_NO_CONVERGENCE;
 }

@@ -115,7 +115,7 @@ static struct gm_progress loop(const struct gm_task *task)
             progress.iterations += made.iterations;
             if (made.done < 1) {
                 progress.status = made.status;
-                progress.failed_iterations = made.failed_iterations;
+                progress.unsolved = made.unsolved;
                 return progress;
             }
             substep.y = substep.out;

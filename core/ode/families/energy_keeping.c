@@ -111,7 +111,7 @@ static double defect(const struct gm_task *task, const struct method *method, st
         change += fabs(r[c]);
         size += fabs(members->y[c]) + fabs(d[c]);
     }
-    *roundoff = 16 * 2.220446049250313e-16 * size;
+    *roundoff = 16 * GM_EPSILON * size;
     progress->iterations++;
     return change;
 }
@@ -138,7 +138,9 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
             matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * h * matrix[i];
         }
         progress->solves++;
+        const double rounding = gm_rounding_of_stages(n, n, matrix, members->y, d);
         if (!gm_eliminate(n, matrix, r)) {
+            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
             return false;
         }
         double change = 0;
@@ -146,9 +148,10 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
             d[c] += r[c];
             change += fabs(r[c]);
         }
-        if (gm_is_settled(change, 8 * roundoff, &previous)) {
+        if (gm_newton_is_settled(n, change, roundoff / (8 * GM_EPSILON), rounding, &previous)) {
             return true;
         }
+        progress->unsolved = gm_unsolved_by(change, roundoff / (16 * GM_EPSILON));
     }
     return false;
 }
@@ -158,14 +161,16 @@ static bool by_fixed_point(const struct gm_task *task, const struct method *meth
 {
     const size_t n = members->n;
     double *d = members->scratch + D * n, *r = members->scratch + RIGHT * n;
-    double previous = INFINITY, roundoff;
+    double previous = INFINITY, before_previous = INFINITY, roundoff;
+    const bool newton = gm_matrix_size(task->problem) > 0;
     gm_field(task->problem, members->y, d, 1);
     progress->evaluations++;
     for (size_t c = 0; c < n; c++) {
         d[c] *= h;
     }
     for (int iteration = 0; iteration < PICARD_ITERATIONS; iteration++) {
-        const double change = defect(task, method, members, h, r, &roundoff, progress);
+        const double change = defect(task, method, members, h, r, &roundoff, progress), before = previous;
+        progress->unsolved = gm_unsolved_by(change, roundoff / (16 * GM_EPSILON));
         if (!(change < 1e100)) {
             return false;
         }
@@ -175,6 +180,10 @@ static bool by_fixed_point(const struct gm_task *task, const struct method *meth
         if (gm_is_settled(change, roundoff, &previous)) {
             return true;
         }
+        if (newton && !GM_SWEEPS_CONTRACT(change, before_previous, roundoff)) {
+            return false;
+        }
+        before_previous = before;
     }
     return false;
 }

@@ -149,8 +149,12 @@ static enum gm_status step(const struct gm_task *task, struct workspace *workspa
         for (size_t c = 0; c < n; c++) {
             workspace->y[c] = workspace->state[c * m + i];
         }
-        if (advance(workspace, workspace->drivers[i], t, task->dt, workspace->y) != GSL_SUCCESS) {
-            return GM_NO_CONVERGENCE;
+        const int result = advance(workspace, workspace->drivers[i], t, task->dt, workspace->y);
+        if (result == GSL_EBADFUNC) {
+            return GM_BLOW_UP;
+        }
+        if (result != GSL_SUCCESS) {
+            return GM_STEP_COLLAPSE; /* the driver's own steps have no length any more */
         }
         for (size_t c = 0; c < n; c++) {
             if (!(fabs(workspace->y[c]) <= task->limit)) { /* a NaN compares false */

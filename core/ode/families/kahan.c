@@ -26,6 +26,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     progress->evaluations++;
     progress->solves++;
     if (!gm_eliminate(n, matrix, f)) {
+        progress->unsolved.obstacle = GM_SINGULAR;
         return GM_NO_CONVERGENCE;
     }
     for (size_t c = 0; c < n; c++) {

@@ -71,6 +71,7 @@ struct K(counts) {
     int lanes;      /* members in this block */
     bool continued; /* these are not the run's first steps */
     unsigned long evaluations, solves, iterations;
+    struct gm_unsolved unsolved; /* of the last lane that was not solved */
 };
 
 /* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. `whole` says

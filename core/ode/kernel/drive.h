@@ -74,10 +74,8 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         if (burst == 1) {
             progress->status = K(everywhere)(solved) ? GM_BLOW_UP : GM_NO_CONVERGENCE;
             progress->done = done;
-            progress->failed_iterations = 0;
-            for (int b = 0; b < GM_ABREAST; b++) {
-                progress->failed_iterations += counts[b].iterations - counts_before[b].iterations;
-            }
+            progress->unsolved =
+                counts[0].unsolved; /* blocks of implicit schemes are not made side by side */
         }
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What families need that take one member after the other: the loop, Jacobians, elimination, when to stop. */
+/* What families need that take one member after the other: the loop, Jacobians, energies. */
 #include "core/ode/kernel/members.h"
 
 #include <math.h>
@@ -104,48 +104,4 @@ double gm_energy(const struct gm_problem *problem, const double *y)
     double energy;
     gm_ode_of(problem)->hamiltonian->energy(problem, y, &energy, 1);
     return energy;
-}
-
-bool gm_eliminate(size_t n, double *a, double *r)
-{
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++) {
-            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
-        }
-        if (!(fabs(a[pivot * n + k]) > 0)) {
-            return false;
-        }
-        if (pivot != k) {
-            for (size_t j = k; j < n; j++) {
-                const double swap = a[k * n + j];
-                a[k * n + j] = a[pivot * n + j];
-                a[pivot * n + j] = swap;
-            }
-            const double swap = r[k];
-            r[k] = r[pivot];
-            r[pivot] = swap;
-        }
-        for (size_t i = k + 1; i < n; i++) {
-            const double factor = a[i * n + k] / a[k * n + k];
-            for (size_t j = k + 1; j < n; j++) {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            r[i] -= factor * r[k];
-        }
-    }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++) {
-            r[k] -= a[k * n + j] * r[j];
-        }
-        r[k] /= a[k * n + k];
-    }
-    return true;
-}
-
-bool gm_is_settled(double change, double roundoff, double *previous)
-{
-    const bool settled = change == 0 || (change >= *previous && change <= roundoff);
-    *previous = change;
-    return settled;
 }

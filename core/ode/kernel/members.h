@@ -2,7 +2,9 @@
 #ifndef GM_CORE_ODE_KERNEL_MEMBERS_H
 #define GM_CORE_ODE_KERNEL_MEMBERS_H
 
+#include "core/ode/kernel/stages.h"
 #include "core/scheme.h"
+#include "core/settled.h"
 
 /* The loop of families that advance a problem member by member, through its callbacks. */
 
@@ -39,13 +41,5 @@ bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jaco
 
 /* H(y) of one member. */
 double gm_energy(const struct gm_problem *problem, const double *y);
-
-/* Solves a x = r, a an n * n matrix by rows, by Gaussian elimination with partial pivoting. a is destroyed, x
-   overwrites r. False if a is singular. */
-bool gm_eliminate(size_t n, double *a, double *r);
-
-/* Whether an iteration that changes its unknowns by `change` (a 1-norm) is finished: no change, or, at the
-   level of round-off, none that still decreases. `previous` starts as infinity and is set to `change`. */
-bool gm_is_settled(double change, double roundoff, double *previous);
 
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/field/families/boxes/modes.h"
+#include "core/settled.h"
 
 void gm_gauss_close(void *workspace)
 {
@@ -244,7 +245,7 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (change <= 1e-15 || (change >= last && change <= 1e-11)) {
+        if (gm_is_settled(change, 1e-11, &last)) {
             for (size_t at = 0; at < r * points; at++) {
                 double du = dt * work->v[at], dv = 0;
                 for (size_t l = 0; l < r; l++) {
@@ -260,7 +261,6 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
             }
             return GM_OK;
         }
-        last = change;
     }
     return GM_NO_CONVERGENCE;
 }

@@ -25,6 +25,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
+#include "core/settled.h"
 
 GM_CLONES static void cell_means(const double *restrict a, const double *restrict b, double *restrict cells,
                                  size_t count)
@@ -156,10 +157,9 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (change <= 1e-15 || (change >= last && change <= 1e-12)) {
+        if (gm_is_settled(change, 1e-11, &last)) {
             return GM_OK;
         }
-        last = change;
         for (size_t i = 0; i < points; i++) {
             guess[i] = next[i];
         }

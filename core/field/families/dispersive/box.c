@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "core/field/families/two_step.h"
+#include "core/settled.h"
 
 /* Arrays of real parts, each followed by its imaginary parts; the first member is the one that closes. */
 static double *array(const struct gm_two_step_work *work, size_t which)
@@ -241,15 +242,16 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
         progress->evaluations++;
         progress->solves++;
         progress->iterations++;
-        if (!isfinite(change) || (change >= last && change > 1e-12 * fmax(largest, 1e-3))) {
+        const bool grows = change >= last,
+                   settled = gm_is_settled(change, 1e-12 * fmax(largest, 1e-3), &last);
+        if (!isfinite(change) || (grows && !settled)) {
             memcpy(next, now, count * sizeof *next); /* the iteration diverges, not the solution */
             break;
         }
         memcpy(next, mean, count * sizeof *next);
-        if (change <= 1e-16 * largest || change >= last) {
+        if (settled) {
             return GM_OK;
         }
-        last = change;
     }
     const size_t size = parts_of(equation) * points * sizeof *next;
     const struct gm_ring_equations equations = {&own, residual_at, jacobian};

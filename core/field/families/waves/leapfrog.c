@@ -19,6 +19,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
+#include "core/settled.h"
 
 GM_CLONES static void explicit_step(const double *restrict past, const double *restrict now,
                                     const double *restrict force, double *restrict next, size_t points,
@@ -54,14 +55,10 @@ static double solve_node(const struct gm_problem *problem, double square, double
                               (1 + square * wave->quotient_slope(problem, x, past));
         const double size = fabs(change);
         ++*iterations;
-        if (size >= last && size <= 1e-14 * fmax(1, fabs(x))) {
-            return c;
-        }
         c -= change;
-        if (!(size > 1e-17 * fabs(x))) {
+        if (gm_is_settled(size, 1e-14 * fmax(1, fabs(x)), &last) || isnan(size)) {
             return c;
         }
-        last = size;
     }
     return NAN;
 }

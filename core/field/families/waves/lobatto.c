@@ -29,6 +29,7 @@
 #include "core/field/multisymplectic.h"
 #include "core/larger.h"
 #include "core/linear/differences.h"
+#include "core/settled.h"
 
 enum { STAGES = 3 };
 
@@ -137,10 +138,9 @@ static enum gm_status middle_stage(struct work *work, const struct gm_problem *p
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (change <= 1e-16 * largest || (change >= last && change <= 1e-13 * largest)) {
+        if (gm_is_settled(change, 1e-12 * largest, &last)) {
             return GM_OK;
         }
-        last = change;
     }
     return GM_NO_CONVERGENCE;
 }

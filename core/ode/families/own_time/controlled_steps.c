@@ -176,7 +176,7 @@ static enum gm_status make_step(struct course *course, double h)
     course->progress.evaluations += made.evaluations;
     course->progress.solves += made.solves;
     course->progress.iterations += made.iterations;
-    course->progress.failed_iterations = made.failed_iterations;
+    course->progress.unsolved = made.unsolved;
     return made.done == 1 ? GM_OK : made.status;
 }
 

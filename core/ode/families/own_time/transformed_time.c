@@ -90,11 +90,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         }
         progress->evaluations += stages;
         progress->iterations++;
+        const double scale = size_of(members->y, n) + fabs(ds) * size;
+        progress->unsolved = gm_unsolved_by(fabs(ds) * change, scale);
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }
-        settled =
-            gm_is_settled(fabs(ds) * change, 1e-15 * (size_of(members->y, n) + fabs(ds) * size), &previous);
+        settled = gm_is_settled(fabs(ds) * change, 1e-15 * scale, &previous);
     }
     double time = 0;
     for (size_t j = 0; j < stages; j++) {

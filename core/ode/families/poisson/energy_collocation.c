@@ -95,11 +95,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         }
         progress->evaluations += NODES;
         progress->iterations++;
-        if (!isfinite(change)) {
-            return GM_NO_CONVERGENCE;
-        }
         for (size_t c = 0; c < n; c++) {
             size += fabs(members->y[c]);
+        }
+        progress->unsolved = gm_unsolved_by(change, size);
+        if (!isfinite(change)) {
+            return GM_NO_CONVERGENCE;
         }
         if (gm_is_settled(change, 1e-15 * size, &previous)) {
             place(row, members->y, slopes, 1, n, there);

@@ -52,6 +52,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         progress->iterations++;
         progress->solves++;
         if (!gm_eliminate(3, matrix, residual)) {
+            progress->unsolved.obstacle = GM_SINGULAR;
             return GM_NO_CONVERGENCE;
         }
         for (int i = 0; i < 3; i++) {
@@ -59,6 +60,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
             change += fabs(residual[i]);
             size += fabs(c[i]);
         }
+        progress->unsolved = gm_unsolved_by(change, size);
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }

@@ -109,6 +109,7 @@ static enum gm_status spherical_midpoint(const struct gm_problem *problem, doubl
             memcpy(y, end, n * sizeof *y);
             return GM_OK;
         }
+        progress->unsolved = gm_unsolved_by(change, size);
     }
     return GM_NO_CONVERGENCE;
 }

@@ -18,6 +18,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
+#include "core/settled.h"
 #include "core/theory/coefficients.h"
 
 #define SQRT2 1.4142135623730950488016887242097
@@ -77,17 +78,15 @@ static const struct gm_implicit_row sdirk2 = {.stages = 2,
 
 enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150, NEWTON = 50 };
 
-#define EPSILON 2.220446049250313e-16
-
 /* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
 struct stage_scratch {
     double *at, *z, *slopes; /* states, increments, f: stages * n * members */
     double *state;           /* n * members */
-    double *change, *part, *previous, *negligible, *norm, *row; /* members */
-    double *going, *solved;                                     /* members: 1 or 0 */
+    double *change, *part, *previous, *before_previous, *negligible, *norm, *row; /* members */
+    double *going, *solved; /* members: 1 or 0; solved is 2 by Newton's method */
 };
 
-enum { OVER_MEMBERS = 8 }; /* of these arrays */
+enum { OVER_MEMBERS = 9 }; /* of these arrays */
 
 static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, size_t members)
 {
@@ -106,14 +105,15 @@ static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, 
         .row = rows + 5 * members,
         .going = rows + 6 * members,
         .solved = rows + 7 * members,
+        .before_previous = rows + 8 * members,
     };
 }
 
-/* What Newton's method needs of one member, beside a matrix of all stages: state, z, f, right side,
+/* What Newton's method needs of one member, beside a matrix of all stages: y, a stage, z, f, right side,
    Jacobian. */
 static size_t newton_room(size_t stages, size_t n)
 {
-    return (1 + 3 * stages) * n + n * n + stages * n * stages * n;
+    return (2 + 3 * stages) * n + n * n + stages * n * stages * n;
 }
 
 /* One of the two. */
@@ -226,15 +226,16 @@ GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops 
     }
 }
 
-/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0, until the change of z is
-   zero or, at the level of round-off, no longer decreases, or the next one, changes being in geometric
-   progression, would be far below round-off: 2^-60 of the first change; with more, invariants drift. */
+/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; where Newton's method can be asked
+   it has to contract well. */
 GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
                                size_t members, const struct stage_scratch *s, struct gm_progress *progress)
 {
     const struct gm_implicit_row *row = tile->row;
     const double *y = tile->y;
     const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
+    const double least = GM_LEAST_CHANGE(stages * n);
+    const bool newton = gm_matrix_size(problem) > 0;
     memset(s->z, 0, stages * n * members * sizeof *s->z);
     memset(s->norm, 0, members * sizeof *s->norm);
     for (size_t c = 0; c < n; c++) {
@@ -243,7 +244,7 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
         }
     }
     for (size_t l = 0; l < members; l++) {
-        s->previous[l] = 1e300;
+        s->previous[l] = s->before_previous[l] = 1e300;
     }
     size_t left = members;
     for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
@@ -252,37 +253,42 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
         iterate(problem, tile->loops, row, h, y, members, s);
         left = 0;
         for (size_t l = 0; l < members; l++) {
-            const double change = s->change[l], roundoff = 8 * (double)stages * EPSILON * s->norm[l];
+            const double change = s->change[l], roundoff = 8 * (double)stages * GM_EPSILON * s->norm[l];
             s->negligible[l] = iteration == 0 ? 8.673617379884035e-19 * change : s->negligible[l];
-            const bool last = change * change <= s->negligible[l] * s->previous[l];
-            const bool stagnant = (change >= s->previous[l] || last) && change <= roundoff;
-            const bool done = s->going[l] != 0 && (change == 0 || stagnant);
+            const bool settled =
+                GM_SWEEPS_ARE_SETTLED(change, s->previous[l], s->negligible[l], roundoff, least);
+            const bool contracts = GM_SWEEPS_CONTRACT(change, s->before_previous[l], roundoff);
+            const bool done = s->going[l] != 0 && settled;
             s->solved[l] = done ? 1 : s->solved[l];
-            s->going[l] = s->going[l] != 0 && !done && change < 1e100 ? 1 : 0;
+            s->going[l] = s->going[l] != 0 && !done && (newton ? contracts : change < 1e100) ? 1 : 0;
+            s->before_previous[l] = s->previous[l];
             s->previous[l] = change;
             left += s->going[l] != 0 ? 1 : 0;
         }
     }
 }
 
-/* The same equations by Newton's method with the Jacobian of every stage, for member l. */
+/* The same equations by Newton's method with the Jacobian of every stage, for member l. What the step adds to it is
+   left in the first z. */
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
     const struct gm_loops *loops = tile->loops;
     const struct gm_implicit_row *row = tile->row;
-    const double *y = tile->y;
     const size_t n = problem->n, stages = (size_t)row->stages, size = stages * n, members = tile->members;
-    double *state = tile->shared, *z = state + n, *f = z + size, *right = f + size, *jacobian = right + size,
-           *matrix = jacobian + n * n;
-    double previous = INFINITY;
+    double *y = tile->shared, *state = y + n, *z = state + n, *f = z + size, *right = f + size,
+           *jacobian = right + size, *matrix = jacobian + n * n;
+    double previous = INFINITY, weights[STAGES];
     memset(z, 0, size * sizeof *z);
+    for (size_t c = 0; c < n; c++) {
+        y[c] = tile->y[c * members + l];
+    }
     for (int iteration = 0; iteration < NEWTON; iteration++) {
         double scale = 0;
         for (size_t j = 0; j < stages; j++) {
             for (size_t c = 0; c < n; c++) {
-                state[c] = y[c * members + l] + z[j * n + c];
-                scale += fabs(y[c * members + l]) + fabs(z[j * n + c]);
+                state[c] = y[c] + z[j * n + c];
+                scale += fabs(y[c]) + fabs(z[j * n + c]);
             }
             loops->field(problem, state, f + j * n, 1);
             loops->jacobian(problem, state, jacobian);
@@ -305,7 +311,9 @@ static bool by_newton(const struct gm_problem *problem, const struct gm_tile *ti
         progress->evaluations += stages;
         progress->iterations++;
         progress->solves++;
+        const double rounding = gm_rounding_of_stages(size, n, matrix, y, z);
         if (!gm_eliminate(size, matrix, right)) {
+            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
             return false;
         }
         double change = 0;
@@ -313,16 +321,21 @@ static bool by_newton(const struct gm_problem *problem, const struct gm_tile *ti
             change += fabs(right[i]);
             z[i] += right[i];
         }
-        if (!isfinite(change)) {
-            return false;
-        }
-        if (change == 0 || (change >= previous && change <= 64 * EPSILON * scale)) {
-            for (size_t i = 0; i < size; i++) {
-                s->slopes[i * members + l] = f[i];
+        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
+            const bool regular = gm_weights_of_stages(stages, row->a, row->b, weights);
+            for (size_t c = 0; c < n; c++) {
+                double increment = 0;
+                for (size_t i = 0; i < stages; i++) {
+                    increment += regular ? weights[i] * z[i * n + c] : h * row->b[i] * f[i * n + c];
+                }
+                s->z[c * members + l] = increment;
             }
             return true;
         }
-        previous = change;
+        progress->unsolved = gm_unsolved_by(change, scale);
+        if (!isfinite(change)) {
+            return false;
+        }
     }
     return false;
 }
@@ -355,11 +368,12 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
                       const struct gm_implicit_row *row, double h, struct block *block, size_t k)
 {
     const size_t stages = (size_t)row->stages, size = 2 * stages;
+    const double start[2] = {block->start[0][k], block->start[1][k]};
     double z[2 * STAGES] = {0}, previous = INFINITY;
     for (int iteration = 0; iteration < NEWTON; iteration++) {
         double matrix[4 * STAGES * STAGES], right[2 * STAGES], scale = 0;
         for (size_t j = 0; j < stages; j++) {
-            const double x = block->start[0][k] + z[2 * j], y = block->start[1][k] + z[2 * j + 1];
+            const double x = start[0] + z[2 * j], y = start[1] + z[2 * j + 1];
             double strain[2];
             scale += fabs(x) + fabs(y);
             gm_ode_of(problem)->loops[gm_isa_best()]->passive(
@@ -380,6 +394,7 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
                 right[i] += h * row->a[i / 2][j] * block->slopes[j][i % 2][k];
             }
         }
+        const double rounding = gm_rounding_of_stages(size, 2, matrix, start, z);
         if (!gm_eliminate(size, matrix, right)) {
             return false;
         }
@@ -391,10 +406,9 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
         if (!isfinite(change)) {
             return false;
         }
-        if (change == 0 || (change >= previous && change <= 64 * EPSILON * scale)) {
+        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
             return true;
         }
-        previous = change;
     }
     return false;
 }
@@ -433,10 +447,9 @@ static void solve_block(const struct gm_problem *problem, const double *states,
                 }
             }
             const double roundoff =
-                8 * (double)stages * EPSILON * (fabs(block->start[0][k]) + fabs(block->start[1][k]));
-            solved[k] = change == 0 || (change >= previous[k] && change <= roundoff);
+                8 * (double)stages * GM_EPSILON * (fabs(block->start[0][k]) + fabs(block->start[1][k]));
+            solved[k] = gm_is_settled(change, roundoff, &previous[k]);
             diverged[k] = !solved[k] && !(change < 1e100);
-            previous[k] = change;
             left -= solved[k] || diverged[k];
             for (size_t i = 0; solved[k] && i < stages; i++) {
                 kept[i][0][k] = block->slopes[i][0][k];
@@ -491,10 +504,18 @@ GM_OF_TILE bool solve(const struct gm_problem *problem, const struct gm_tile *ti
     }
     if (!gm_ode_of(problem)->stiff) {
         by_fixed_point(problem, tile, h, members, s, progress);
+    } else {
+        memset(s->slopes, 0,
+               (size_t)((const struct gm_implicit_row *)tile->row)->stages * gm_tile_components(problem) *
+                   members * sizeof *s->slopes);
     }
     for (size_t l = 0; l < members && all; l++) {
-        all =
-            s->solved[l] != 0 || (gm_matrix_size(problem) > 0 && by_newton(problem, tile, h, l, s, progress));
+        if (s->solved[l] == 0 && gm_matrix_size(problem) > 0) {
+            s->solved[l] = by_newton(problem, tile, h, l, s, progress) ? 2 : 0;
+        } else if (s->solved[l] == 0) {
+            progress->unsolved = gm_unsolved_by(s->previous[l], s->norm[l]);
+        }
+        all = s->solved[l] != 0;
     }
     return all;
 }
@@ -516,6 +537,11 @@ GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *ti
             const double b = h * row->b[i], *slope = s.slopes + (size_t)i * count;
             for (size_t c = 0; c < count; c++) {
                 s.state[c] = i == 0 ? b * slope[c] : s.state[c] + b * slope[c];
+            }
+        }
+        for (size_t l = 0; l < members; l++) {
+            for (size_t c = l; s.solved[l] == 2 && c < count; c += members) {
+                s.state[c] = s.z[c];
             }
         }
         gm_tile_add(tile->y, 1, s.state, tile->carry, count);

@@ -71,9 +71,8 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
 }
 
 /* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
-   of z is zero or, at the level of round-off, no longer decreases, or the next one, changes being in
-   geometric progression, would be far below round-off. A lane that is done is frozen, so its bits do not
-   depend on the others. Returns the lanes that were solved. */
+   of z is at its end, or does not shrink as it should. A lane that is done is frozen, so its bits do not depend
+   on the others. Returns the lanes that were solved. */
 GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
                                        real z[][GM_COMPONENTS], struct K(counts) * counts)
@@ -85,7 +84,8 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         }
     }
     real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
-    real previous = K(constant)(1e300);
+    real previous = K(constant)(1e300), before_previous = previous;
+    const real least = K(constant)(GM_LEAST_CHANGE(stages * GM_COMPONENTS));
     mask active = K(all)(), solved = K(other)(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
         const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
@@ -96,19 +96,20 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
             counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
             counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
         }
-        mask last = change * change <= negligible * previous;
         real norm = K(constant)(0);
         for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
             norm = K(add_magnitudes)(norm, K(take)(&y[c]));
         }
         const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
-        mask stagnant = K(both)(K(either)(change >= previous, last), change <= roundoff);
-        mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
+        const mask settled = GM_SWEEPS_ARE_SETTLED(change, previous, negligible, roundoff, least);
+        const mask contract = GM_SWEEPS_CONTRACT(change, before_previous, roundoff);
+        const mask done = K(both)(active, settled);
         solved |= done;
-        active &= K(both)(K(other)(done), change < K(constant)(1e100));
+        active &= K(both)(K(other)(done), contract);
         if (!K(somewhere)(active)) {
             break;
         }
+        before_previous = previous;
         previous = change;
     }
     return solved;
@@ -116,61 +117,23 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
 
 #ifdef GM_PASS_SCALAR
 
-/* Solves a x = r by Gaussian elimination with partial pivoting; x overwrites r. False if a is singular. */
-static bool implicit_eliminate(int n, double *a, double *r)
-{
-    for (int k = 0; k < n; k++) {
-        int pivot = k;
-        for (int i = k + 1; i < n; i++) {
-            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
-        }
-        if (!(fabs(a[pivot * n + k]) > 0)) {
-            return false;
-        }
-        if (pivot != k) {
-            for (int j = k; j < n; j++) {
-                double swap = a[k * n + j];
-                a[k * n + j] = a[pivot * n + j];
-                a[pivot * n + j] = swap;
-            }
-            double swap = r[k];
-            r[k] = r[pivot];
-            r[pivot] = swap;
-        }
-        for (int i = k + 1; i < n; i++) {
-            double factor = a[i * n + k] / a[k * n + k];
-            for (int j = k + 1; j < n; j++) {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            r[i] -= factor * r[k];
-        }
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++) {
-            r[k] -= a[k * n + j] * r[j];
-        }
-        r[k] /= a[k * n + k];
-    }
-    return true;
-}
-
-/* The same equations by Newton's method with the Jacobian of every stage, for one member. */
+/* The same equations by Newton's method with the Jacobian of every stage, for one member, and what the step adds to
+   it. */
 static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
-                            const void *parameters, double f[][GM_COMPONENTS], struct counts_scalar *counts)
+                            const void *parameters, double *increment, struct counts_scalar *counts)
 {
     enum { NEWTON_ITERATIONS = 50, N = GM_COMPONENTS };
     const int stages = row->stages, size = stages * N;
-    double z[GM_IMPLICIT_STAGES][N];
+    double z[GM_IMPLICIT_STAGES * N] = {0}, f[GM_IMPLICIT_STAGES][N], weights[GM_IMPLICIT_STAGES];
     double matrix[GM_IMPLICIT_STAGES * N * GM_IMPLICIT_STAGES * N], right[GM_IMPLICIT_STAGES * N];
     double previous = INFINITY;
-    memset(z, 0, (size_t)stages * sizeof z[0]);
     for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
         double scale = 0;
         for (int j = 0; j < stages; j++) {
             double stage[N], jacobian[N][N];
             for (int c = 0; c < N; c++) {
-                stage[c] = y[c] + z[j][c];
-                scale += fabs(y[c]) + fabs(z[j][c]);
+                stage[c] = y[c] + z[j * N + c];
+                scale += fabs(y[c]) + fabs(z[j * N + c]);
             }
             field_scalar(stage, f[j], parameters);
             jacobian_scalar(stage, jacobian, parameters);
@@ -183,33 +146,39 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
                 }
             }
         }
-        for (int i = 0; i < stages; i++) {
-            for (int c = 0; c < N; c++) {
-                double residual = -z[i][c];
-                for (int j = 0; j < stages; j++) {
-                    residual += h * row->a[i][j] * f[j][c];
-                }
-                right[i * N + c] = residual;
+        for (int i = 0; i < size; i++) {
+            right[i] = -z[i];
+            for (int j = 0; j < stages; j++) {
+                right[i] += h * row->a[i / N][j] * f[j][i % N];
             }
         }
         counts->evaluations += (unsigned long)stages;
         counts->iterations++;
         counts->solves++;
-        if (!implicit_eliminate(size, matrix, right)) {
+        const double rounding = gm_rounding_of_stages((size_t)size, N, matrix, y, z);
+        if (!gm_eliminate((size_t)size, matrix, right)) {
+            counts->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
             return false;
         }
         double change = 0;
         for (int i = 0; i < size; i++) {
             change += fabs(right[i]);
-            z[i / N][i % N] += right[i];
+            z[i] += right[i];
         }
+        if (gm_newton_is_settled((size_t)size, change, scale, rounding, &previous)) {
+            const bool regular = gm_weights_of_stages((size_t)stages, row->a, row->b, weights);
+            for (int c = 0; c < N; c++) {
+                increment[c] = 0;
+                for (int i = 0; i < stages; i++) {
+                    increment[c] += regular ? weights[i] * z[i * N + c] : h * row->b[i] * f[i][c];
+                }
+            }
+            return true;
+        }
+        counts->unsolved = gm_unsolved_by(change, scale);
         if (!isfinite(change)) {
             return false;
         }
-        if (change == 0 || (change >= previous && change <= 64 * 2.220446049250313e-16 * scale)) {
-            return true;
-        }
-        previous = change;
     }
     return false;
 }
@@ -219,29 +188,30 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 /* Lane by lane, for those in `which`. */
 static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
                                                             const real *y, double h, const void *parameters,
-                                                            real f[][GM_COMPONENTS],
-                                                            struct K(counts) * counts)
+                                                            real *increments, struct K(counts) * counts)
 {
     mask solved = K(other)(K(all)());
     for (int l = 0; l < GM_LANES; l++) {
         if (!K(mask_lane)(which, l)) {
             continue;
         }
-        double state[GM_COMPONENTS], slope[GM_IMPLICIT_STAGES][GM_COMPONENTS];
+        double state[GM_COMPONENTS], increment[GM_COMPONENTS] = {0};
         for (int c = 0; c < GM_COMPONENTS; c++) {
             state[c] = K(lane)(y[c], l);
         }
         struct counts_scalar cost = {.lanes = 1};
-        K(set_mask_lane)(&solved, l, implicit_newton(row, state, h, parameters, slope, &cost));
-        for (int i = 0; i < row->stages; i++) {
-            for (int c = 0; c < GM_COMPONENTS; c++) {
-                K(set_lane)(&f[i][c], l, slope[i][c]);
-            }
+        const bool found = implicit_newton(row, state, h, parameters, increment, &cost);
+        K(set_mask_lane)(&solved, l, found);
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            K(set_lane)(&increments[c], l, increment[c]);
         }
         if (l < counts->lanes) {
             counts->evaluations += cost.evaluations;
             counts->iterations += cost.iterations;
             counts->solves += cost.solves;
+        }
+        if (!found) {
+            counts->unsolved = cost.unsolved;
         }
     }
     return solved;
@@ -258,9 +228,12 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
         mask solved = K(other)(K(all)());
         if (!stiff) {
             solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, z, counts);
+        } else {
+            memset(f, 0, (size_t)stages * sizeof f[0]);
         }
-        if (!K(everywhere)(solved)) {
-            solved |= K(implicit_by_newton)(row, K(other)(solved), block->y, h, parameters, f, counts);
+        const mask rest = K(other)(solved);
+        if (K(somewhere)(rest)) { /* what these add is in z[0] then */
+            solved |= K(implicit_by_newton)(row, rest, block->y, h, parameters, z[0], counts);
         }
         good &= solved;
         for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
@@ -268,6 +241,7 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
             for (int i = 1; i < stages; i++) {
                 increment += h * row->b[i] * K(take)(&f[i][c]);
             }
+            increment = K(pick_some)(rest, K(take)(&z[0][c]), increment);
             K(add_some)(&block->y[c], &block->carry[c], increment, compensated);
         }
     }

@@ -14,6 +14,7 @@
 #include "core/linear/complex_matrix.h"
 #include "core/linear/modes.h"
 #include "core/ode/kernel/tiles.h"
+#include "core/settled.h"
 
 enum { ITERATIONS = 150, LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
 
@@ -149,13 +150,13 @@ static bool find_slopes(const struct gm_task *task, double h, const double *y, s
         const double change = iterate_slopes(task->problem, row, h, y, work);
         progress->evaluations += work->stages;
         progress->iterations++;
+        if (gm_is_settled(change, roundoff, &previous)) {
+            return true;
+        }
+        progress->unsolved = gm_unsolved_by(change, norm);
         if (!(change < 1e100)) {
             return false;
         }
-        if (change == 0 || (change >= previous && change <= roundoff)) {
-            return true;
-        }
-        previous = change;
     }
     return false;
 }

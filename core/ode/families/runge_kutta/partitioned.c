@@ -85,22 +85,54 @@ static bool by_fixed_point(const struct gm_task *task, struct gm_members *member
 {
     const struct scratch scratch = scratch_of(members, tableau->stages);
     const size_t size = tableau->stages * members->n;
-    double previous = INFINITY;
+    const bool newton = gm_matrix_size(task->problem) > 0;
+    double previous = INFINITY, before_previous = INFINITY;
     memset(scratch.z, 0, size * sizeof(double));
     for (int iteration = 0; iteration < PICARD_ITERATIONS; iteration++) {
         const double scale = slopes(task, members, &scratch, tableau->stages, progress);
         const double change = residual(tableau, &scratch, members->n, task->dt);
+        const double roundoff = 8 * GM_EPSILON * scale, before = previous;
+        progress->unsolved = gm_unsolved_by(change, scale);
         if (!(change < 1e100)) {
             return false;
         }
         for (size_t i = 0; i < size; i++) {
             scratch.z[i] += scratch.right[i];
         }
-        if (gm_is_settled(change, 8 * 2.220446049250313e-16 * scale, &previous)) {
+        if (gm_is_settled(change, roundoff, &previous)) {
             return true;
         }
+        if (newton && !GM_SWEEPS_CONTRACT(change, before_previous, roundoff)) {
+            return false;
+        }
+        before_previous = before;
     }
     return false;
+}
+
+/* matrix := I - h (a | c) J of the stages; false where there is no Jacobian. */
+static bool linearise(const struct gm_task *task, const struct gm_members *members,
+                      const struct gm_partitioned_row *tableau, const struct scratch *scratch)
+{
+    const size_t n = members->n, size = tableau->stages * n;
+    for (size_t j = 0; j < tableau->stages; j++) {
+        for (size_t c = 0; c < n; c++) {
+            scratch->stage[c] = members->y[c] + scratch->z[j * n + c];
+        }
+        if (!gm_jacobian(task->problem, scratch->stage, scratch->jacobian)) {
+            return false;
+        }
+        for (size_t i = 0; i < tableau->stages; i++) {
+            for (size_t r = 0; r < n; r++) {
+                const double factor = task->dt * coefficient(tableau, i, j, r >= n / 2);
+                for (size_t c = 0; c < n; c++) {
+                    scratch->matrix[(i * n + r) * size + j * n + c] =
+                        (i == j && r == c ? 1 : 0) - factor * scratch->jacobian[r * n + c];
+                }
+            }
+        }
+    }
+    return true;
 }
 
 static bool by_newton(const struct gm_task *task, struct gm_members *members,
@@ -112,28 +144,14 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members,
     memset(scratch.z, 0, size * sizeof(double));
     for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
         const double scale = slopes(task, members, &scratch, tableau->stages, progress);
-        if (!isfinite(residual(tableau, &scratch, n, task->dt))) {
+        residual(tableau, &scratch, n, task->dt);
+        if (!linearise(task, members, tableau, &scratch)) {
             return false;
         }
-        for (size_t j = 0; j < tableau->stages; j++) {
-            for (size_t c = 0; c < n; c++) {
-                scratch.stage[c] = members->y[c] + scratch.z[j * n + c];
-            }
-            if (!gm_jacobian(task->problem, scratch.stage, scratch.jacobian)) {
-                return false;
-            }
-            for (size_t i = 0; i < tableau->stages; i++) {
-                for (size_t r = 0; r < n; r++) {
-                    const double factor = task->dt * coefficient(tableau, i, j, r >= n / 2);
-                    for (size_t c = 0; c < n; c++) {
-                        scratch.matrix[(i * n + r) * size + j * n + c] =
-                            (i == j && r == c ? 1 : 0) - factor * scratch.jacobian[r * n + c];
-                    }
-                }
-            }
-        }
         progress->solves++;
+        const double rounding = gm_rounding_of_stages(size, n, scratch.matrix, members->y, scratch.z);
         if (!gm_eliminate(size, scratch.matrix, scratch.right)) {
+            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
             return false;
         }
         double change = 0;
@@ -141,28 +159,41 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members,
             change += fabs(scratch.right[i]);
             scratch.z[i] += scratch.right[i];
         }
-        if (gm_is_settled(change, 64 * 2.220446049250313e-16 * scale, &previous)) {
-            slopes(task, members, &scratch, tableau->stages, progress);
+        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
             return true;
+        }
+        progress->unsolved = gm_unsolved_by(change, scale);
+        if (!isfinite(change)) {
+            return false;
         }
     }
     return false;
 }
 
+/* y += sum w_k z_k after Newton's method, where a side has such weights; else y += h sum b_i f_i. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
     const struct gm_partitioned_row *tableau = task->scheme->coefficients;
-    if ((gm_ode_of(task->problem)->stiff || !by_fixed_point(task, members, tableau, progress)) &&
-        !by_newton(task, members, tableau, progress)) {
-        return GM_NO_CONVERGENCE;
+    const size_t n = members->n, stages = tableau->stages;
+    const struct scratch scratch = scratch_of(members, stages);
+    bool from_z[2] = {false, false};
+    double weights[2][GM_PARTITIONED_STAGES];
+    if (gm_ode_of(task->problem)->stiff || !by_fixed_point(task, members, tableau, progress)) {
+        if (!by_newton(task, members, tableau, progress)) {
+            return GM_NO_CONVERGENCE;
+        }
+        from_z[0] = gm_weights_of_stages(stages, tableau->a, tableau->b, weights[0]);
+        from_z[1] = gm_weights_of_stages(stages, tableau->c, tableau->d, weights[1]);
+        slopes(task, members, &scratch, stages, progress);
     }
-    const size_t n = members->n;
-    const double *f = scratch_of(members, tableau->stages).f;
     for (size_t c = 0; c < n; c++) {
+        const size_t side = c < n / 2 ? 0 : 1;
         double increment = 0;
-        for (size_t i = 0; i < tableau->stages; i++) {
-            increment += task->dt * (c < n / 2 ? tableau->b : tableau->d)[i] * f[i * n + c];
+        for (size_t i = 0; i < stages; i++) {
+            increment += from_z[side]
+                             ? weights[side][i] * scratch.z[i * n + c]
+                             : task->dt * (side == 0 ? tableau->b : tableau->d)[i] * scratch.f[i * n + c];
         }
         members->y[c] += increment;
     }

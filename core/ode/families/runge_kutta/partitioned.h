@@ -3,9 +3,9 @@
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_PARTITIONED_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_PARTITIONED_H
 
-#include <stddef.h>
+#include "core/ode/kernel/stages.h"
 
-enum { GM_PARTITIONED_STAGES = 16 };
+enum { GM_PARTITIONED_STAGES = GM_TABLEAU_STAGES };
 
 struct gm_partitioned_row {
     size_t stages;

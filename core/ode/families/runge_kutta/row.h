@@ -4,9 +4,10 @@
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 
 #include "core/ode/families/compositions.h"
+#include "core/ode/kernel/stages.h"
 
 /* For up to so many stages there is a loop that knows how many they are; and the most. */
-enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = 16 };
+enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = GM_TABLEAU_STAGES };
 
 /* An implicit Runge-Kutta method, or a composition of one with itself. */
 struct gm_implicit_row {

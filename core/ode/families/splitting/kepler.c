@@ -106,6 +106,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         y[2 + c] += task->dt / 2 * force[c];
     }
     if (!kepler_flow(task->dt, y)) {
+        progress->unsolved.obstacle = GM_NOT_FINITE;
         return GM_NO_CONVERGENCE;
     }
     gm_ode_of(task->problem)->kepler_split->perturbing_force(task->problem, y, force, 1);

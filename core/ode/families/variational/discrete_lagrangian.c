@@ -273,6 +273,7 @@ static bool solve(const struct step *step, struct gm_progress *progress)
         progress->iterations++;
         progress->solves++;
         if (!gm_eliminate(all, step->matrix, step->change)) {
+            progress->unsolved.obstacle = GM_SINGULAR;
             return false;
         }
         double change = 0, far = 0;
@@ -281,6 +282,7 @@ static bool solve(const struct step *step, struct gm_progress *progress)
             far += fabs(step->solution[i]);
         }
         const double size = scale + far;
+        progress->unsolved = gm_unsolved_by(change, size);
         if (!isfinite(change)) {
             return false;
         }

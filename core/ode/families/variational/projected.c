@@ -78,7 +78,7 @@ static struct gm_progress loop(const struct gm_task *task)
         progress.evaluations += made.evaluations;
         progress.solves += made.solves;
         progress.iterations += made.iterations;
-        progress.failed_iterations = made.failed_iterations;
+        progress.unsolved = made.unsolved;
         progress.status = made.done < 1                                          ? made.status
                           : project(task->problem, workspace->member, task->out) ? GM_OK
                                                                                  : GM_NO_CONVERGENCE;

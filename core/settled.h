@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When an iteration has come to its end. The loops over kernels include this too, so all of it is inline. A change is
+   the sum of magnitudes; the one before it starts as infinity. */
+#ifndef GM_CORE_SETTLED_H
+#define GM_CORE_SETTLED_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/status.h"
+
+#define GM_EPSILON 2.220446049250313e-16
+
+/* What changes so many unknowns by no more leaves them as they are, even if they come to rest at 1e-308. */
+#define GM_LEAST_CHANGE(size) ((double)(size)*0x1p-1021)
+
+/* Sweeps z := h A f(y + z), of doubles or of lanes of them, are at their end where the change is no smaller than the
+   one before or, changes being in geometric progression, the next one would be below `negligible`, 2^-60 of the first
+   (with more, invariants drift), and it is at the level of rounding. */
+#define GM_SWEEPS_ARE_SETTLED(change, previous, negligible, roundoff, least)                                 \
+    (((change) <= (least)) |                                                                                 \
+     ((((change) >= (previous)) | ((change) * (change) <= (negligible) * (previous))) &                      \
+      ((change) <= (roundoff))))
+/* Where two sweeps do not make the change four times smaller, Newton's method needs fewer evaluations. */
+#define GM_SWEEPS_CONTRACT(change, before_previous, roundoff)                                                \
+    (((change) <= 0.25 * (before_previous)) | ((change) <= (roundoff)))
+
+/* The same of Newton's method for stages. scale: the sum of |y| + |z|; rounding: that of the terms of h f. Without it
+   stiff equations with long steps never settle; without a bound on it a first guess does whose residual is rounding
+   alone. While changes are halved they still fall. */
+static inline bool gm_newton_is_settled(size_t size, double change, double scale, double rounding,
+                                        double *previous)
+{
+    const double most = 0x1p25 * scale;
+    const double level = GM_EPSILON * (64 * scale + (rounding < most ? rounding : most));
+    const bool settled = change <= GM_LEAST_CHANGE(size) || change <= 0x1p-60 * scale ||
+                         (change > 0.9 * *previous && change <= level);
+    *previous = change;
+    return settled;
+}
+
+/* The same of every other iteration. A change far below the level is the last one even if it falls on. */
+static inline bool gm_is_settled(double change, double roundoff, double *previous)
+{
+    const bool settled =
+        change <= 0x1p-1000 || change <= 0x1p-14 * roundoff || (change >= *previous && change <= roundoff);
+    *previous = change;
+    return settled;
+}
+
+/* What is in the way of an iteration that has made this change and not settled. */
+static inline struct gm_unsolved gm_unsolved_by(double change, double scale)
+{
+    return (struct gm_unsolved){change < 1e100 ? GM_STILL_LARGE : GM_NOT_FINITE, change / scale};
+}
+
+#endif

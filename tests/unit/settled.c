@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When iterations are at their end: each term of the rules, by the changes that it is for. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/count.h"
+#include "core/ode/kernel/stages.h"
+#include "core/settled.h"
+
+/* At which of the changes an iteration of 3 unknowns ends, counted from 1; 0: at none. */
+static size_t newton_ends(const double *changes, size_t count, double scale, double rounding)
+{
+    double previous = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        if (gm_newton_is_settled(3, changes[i], scale, rounding, &previous)) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
+static size_t other_ends(const double *changes, size_t count, double roundoff)
+{
+    double previous = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        if (gm_is_settled(changes[i], roundoff, &previous)) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
+static void newton_has_a_floor(void **unused)
+{
+    (void)unused;
+    /* Robertson's system: a rounding less every time, and none of it counts */
+    const double falling[] = {2.2e-3, 3.1e-9, 2.2e-19, 6.17e-21};
+    assert_int_equal(newton_ends(falling, GM_COUNT(falling), 2, 0), 3);
+    /* what comes to rest among the smallest numbers, where the state is as small as the change */
+    const double least[] = {1e-300, 1e-307};
+    assert_int_equal(newton_ends(least, GM_COUNT(least), 1e-307, 0), 2);
+}
+
+static void newton_knows_the_rounding_of_slopes(void **unused)
+{
+    (void)unused;
+    /* h J of 1e8: no change is below the rounding of h f */
+    const double standing[] = {1, 1e-9, 2e-9};
+    assert_int_equal(newton_ends(standing, GM_COUNT(standing), 2, 1e8), 3);
+    assert_int_equal(newton_ends(standing, GM_COUNT(standing), 2, 1), 0);
+    /* but a first guess is no solution because its terms are large */
+    const double guess[] = {1e-3, 1e-3};
+    assert_int_equal(newton_ends(guess, GM_COUNT(guess), 2, 1e16), 0);
+    /* changes that are halved still fall, those that stand within a tenth do not */
+    const double halved[] = {8e-14, 4e-14, 2e-14}, near[] = {1.0e-14, 0.95e-14};
+    assert_int_equal(newton_ends(halved, GM_COUNT(halved), 10, 0), 0);
+    assert_int_equal(newton_ends(near, GM_COUNT(near), 10, 0), 2);
+}
+
+static void sweeps_end_where_the_next_is_negligible(void **unused)
+{
+    (void)unused;
+    const double negligible = 0x1p-60, roundoff = 1e-15, least = GM_LEAST_CHANGE(2);
+    assert_true(GM_SWEEPS_ARE_SETTLED(1e-16, 1e-16, negligible, roundoff, least));
+    assert_true(GM_SWEEPS_ARE_SETTLED(1e-16, 1e-13, negligible, roundoff, least));
+    assert_false(GM_SWEEPS_ARE_SETTLED(9e-16, 1.1e-15, negligible / 1e6, roundoff, least));
+    assert_false(GM_SWEEPS_ARE_SETTLED(1e-14, 1e-14, negligible, roundoff, least));
+    assert_true(GM_SWEEPS_ARE_SETTLED(4e-308, 1e-300, 0.0, 0.0, least));
+    assert_false(GM_SWEEPS_ARE_SETTLED(NAN, 1e-300, 0.0, 0.0, least));
+    assert_true(GM_SWEEPS_CONTRACT(0.2, 1.0, roundoff));
+    assert_false(GM_SWEEPS_CONTRACT(2.0, 1.0, roundoff));
+    assert_true(GM_SWEEPS_CONTRACT(1e-16, 1e-16, roundoff));
+    assert_false(GM_SWEEPS_CONTRACT(NAN, 1.0, roundoff));
+}
+
+static void others_end_far_below_their_level(void **unused)
+{
+    (void)unused;
+    const double falling[] = {1e-4, 1e-17, 1e-20}, standing[] = {1e-4, 1e-14, 1e-14}, large[] = {1, 1},
+                 least[] = {1e-200, 1e-302};
+    assert_int_equal(other_ends(falling, GM_COUNT(falling), 1e-13), 3);
+    assert_int_equal(other_ends(standing, GM_COUNT(standing), 1e-13), 3);
+    assert_int_equal(other_ends(large, GM_COUNT(large), 1e-13), 0);
+    assert_int_equal(other_ends(least, GM_COUNT(least), 0), 2);
+}
+
+/* z = h A f: the step of Gauss's method is made of z by -sqrt 3 and sqrt 3, that of Radau's is z_2. */
+static void weights_of_stages(void **unused)
+{
+    (void)unused;
+    const double r = sqrt(3) / 6, half[] = {0.5, 0.5}, radau_b[] = {0.75, 0.25};
+    const double gauss[2][GM_TABLEAU_STAGES] = {{0.25, 0.25 - r}, {0.25 + r, 0.25}};
+    const double radau[2][GM_TABLEAU_STAGES] = {{5. / 12, -1. / 12}, {0.75, 0.25}};
+    const double kicks[2][GM_TABLEAU_STAGES] = {{0.5, 0}, {0.5, 0}};
+    double weights[2];
+    assert_true(gm_weights_of_stages(2, gauss, half, weights));
+    assert_true(fabs(weights[0] + sqrt(3)) < 1e-14 && fabs(weights[1] - sqrt(3)) < 1e-14);
+    assert_true(gm_weights_of_stages(2, radau, radau_b, weights));
+    assert_true(weights[0] == 0 && weights[1] == 1);
+    assert_false(gm_weights_of_stages(2, kicks, half, weights));
+}
+
+/* h a J = -2 and 3 in one stage of two components, y + z = (1, -4) */
+static void rounding_of_stages(void **unused)
+{
+    (void)unused;
+    const double matrix[] = {3, -3, 0, 1}, y[] = {0.5, -3}, z[] = {0.5, -1};
+    assert_true(gm_rounding_of_stages(2, 2, matrix, y, z) == 2 + 12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(newton_has_a_floor),
+        cmocka_unit_test(newton_knows_the_rounding_of_slopes),
+        cmocka_unit_test(sweeps_end_where_the_next_is_negligible),
+        cmocka_unit_test(others_end_far_below_their_level),
+        cmocka_unit_test(weights_of_stages),
+        cmocka_unit_test(rounding_of_stages),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
