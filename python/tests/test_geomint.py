@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import weakref
+from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -431,6 +432,52 @@ def test_picture(tmp_path):
     assert b"geomint:arguments" in (tmp_path / "orbit.svg").read_bytes()
     run = geomint.run("kepler", until=5)
     assert run.picture(320, 180).png == picture.png  # looked at or not, the same motion
+
+
+class Elements(HTMLParser):
+    """What a page is made of, and what a browser makes comments of."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.names, self.odd = [], []
+        self.feed(f"<div>{text}</div>")
+
+    def handle_starttag(self, tag, attrs):
+        self.names.append(tag)
+
+    def handle_pi(self, data):
+        self.odd.append(data)
+
+    handle_decl = unknown_decl = handle_pi
+
+
+def test_picture_in_html():
+    """A notebook puts the picture into a page, where there is one XML declaration at most: none."""
+    run = geomint.run("kepler", until=1)
+    for shown in run, run.picture(320, 180):
+        page = Elements(shown._repr_svg_())
+        assert shown._repr_svg_().startswith("<svg ") and page.names[:2] == ["div", "svg"] and page.odd == []
+    assert run.picture(320, 180).svg.startswith(b"<?xml")  # of a file
+
+
+def cases():
+    """Every scene, and a system of each kind."""
+    systems = "double-pendulum", "bowl", "lorenz", "heavy-top", "phi4", "bbm", "nonlinear-dirac"
+    return geomint.scenes() + list(systems)
+
+
+@pytest.mark.parametrize("scene", cases())
+def test_picture_is_that_of_render(tmp_path, scene):
+    """A picture of the library is that of the program, byte for byte: maps of space and time, too."""
+    program, end = os.environ["GEOMINT_PROGRAM"], "steps=24"
+    about = json.loads(subprocess.run([program, "list", scene, "--json"], check=True, capture_output=True).stdout)
+    words = [scene, *about["run"].split(), end]
+    file = str(tmp_path / "render.png")
+    subprocess.run([program, "render", *words, "--size", "320x240", "-o", file], check=True, capture_output=True)
+    settings = dict(word.split("=", 1) for word in words[1:])
+    run = geomint.open(scene, **settings)
+    run.step(24)
+    assert run.picture(320, 240).png == (tmp_path / "render.png").read_bytes()
 
 
 def test_example_notebook():
