@@ -104,6 +104,7 @@ void *__real_realloc(void *memory, size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);
 char *__real_strdup(const char *text);
 char *__real_strndup(const char *text, size_t length);
+int __real_fclose(FILE *stream);
 int __real_vasprintf(char **text, const char *format, va_list arguments);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
@@ -112,6 +113,7 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size);
 char *__wrap_strdup(const char *text);
 char *__wrap_strndup(const char *text, size_t length);
 FILE *__wrap_open_memstream(char **text, size_t *size);
+int __wrap_fclose(FILE *stream);
 int __wrap_vasprintf(char **text, const char *format, va_list arguments);
 int __wrap_asprintf(char **text, const char *format, ...);
 
@@ -201,6 +203,17 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     }
     *growing = (struct growing){.text = text, .size = size};
     return stream;
+}
+
+/* What a stream into memory could not keep is a lack of memory; what a file could not, a fault of the file. */
+int __wrap_fclose(FILE *stream)
+{
+    const bool in_memory = fileno(stream) < 0;
+    const int result = __real_fclose(stream);
+    if (result != 0 && in_memory) {
+        gm_memory_refused();
+    }
+    return result;
 }
 
 int __wrap_vasprintf(char **text, const char *format, va_list arguments)

@@ -210,11 +210,6 @@ static const struct gm_run *run_of(const geomint *handle, size_t lane)
     return lane < geomint_lanes(handle) ? handle->lanes[lane].drive.lane->run : NULL;
 }
 
-static struct gm_timing *timing_of(const struct gm_drive *drive)
-{
-    return drive->lane->parameters;
-}
-
 /* How a lane stands after it was driven, and the state for the host. */
 static void look(geomint *handle, struct gm_handle_lane *lane)
 {
@@ -233,13 +228,11 @@ static void look(geomint *handle, struct gm_handle_lane *lane)
 static void drive_to(geomint *handle, size_t index, long steps, double until)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
-    struct gm_timing *timing = timing_of(&lane->drive);
-    const double asked = timing->until;
-    timing->until = until;
+    lane->drive.stop = &until;
     if (!gm_drive_to(&lane->drive, steps, false, handle->message)) {
         gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
     }
-    timing->until = asked;
+    lane->drive.stop = NULL;
     look(handle, lane);
 }
 
@@ -515,12 +508,12 @@ bool gm_handle_follow(geomint *handle)
         if (!drawn->lane) {
             return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
         }
-        const double asked = timing_of(drive)->until;
-        timing_of(drawn)->until = GM_NEVER;
+        const double never = GM_NEVER;
+        drawn->stop = &never;
         /* the step that failed is tried once more: the picture says so */
         const long more = drive->lane->run->status == GM_OK ? 0 : 1;
         const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
-        timing_of(drawn)->until = asked;
+        drawn->stop = NULL;
         if (!good) {
             return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
         }

@@ -25,6 +25,16 @@
 
 const char gm_system_typed[] = "system";
 
+/* The exit status, and the sentence: where memory was short, that, whatever else is blamed. */
+static int lines_fault(const struct gm_system_lines *written, char *const words[], struct gm_fault *fault,
+                       unsigned long refusals, struct gm_word_place *place, char *message)
+{
+    if (gm_memory_refusals() != refusals) {
+        *fault = (struct gm_fault){0};
+    }
+    return gm_system_lines_fault(written, words, fault, place, message);
+}
+
 int gm_system_open(struct gm_own_system *system, const char *path, const struct gm_system_value *values,
                    size_t count, char *message)
 {
@@ -38,9 +48,10 @@ int gm_system_open(struct gm_own_system *system, const char *path, const struct 
     struct gm_fault fault;
     struct gm_word_place place;
     struct gm_system_lines written = {.path = path, .text = text, .length = length};
-    const int status = gm_equations_open(system, text, length, values, count, &fault)
-                           ? GM_EXIT_OK
-                           : gm_system_lines_fault(&written, NULL, &fault, &place, message);
+    int status = GM_EXIT_OK;
+    if (!gm_equations_open(system, text, length, values, count, &fault)) {
+        status = lines_fault(&written, NULL, &fault, refusals, &place, message);
+    }
     gm_system_lines_close(&written);
     return status;
 }
@@ -56,7 +67,7 @@ int gm_system_open_typed(struct gm_own_system *system, int count, char *const wo
     if (!gm_worded_write(&written, count, words, &place, message)) {
         status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
     } else if (!gm_equations_open(system, written.text, written.length, NULL, 0, &fault)) {
-        status = gm_system_lines_fault(&written, words, &fault, &place, message);
+        status = lines_fault(&written, words, &fault, refusals, &place, message);
     }
     system->typed = true;
     gm_system_lines_close(&written);

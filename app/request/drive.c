@@ -52,19 +52,19 @@ static long next_stop(const struct gm_drive *drive, long step)
     return step;
 }
 
-static double until_of(const struct gm_lane *lane)
+static double until_of(const struct gm_drive *drive)
 {
-    return ((const struct gm_timing *)lane->parameters)->until;
+    return drive->stop ? *drive->stop : ((const struct gm_timing *)drive->lane->parameters)->until;
 }
 
 bool gm_drive_goes_on(const struct gm_drive *drive, long step)
 {
-    return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane)) && !gm_lane_stopped(drive->lane);
+    return gm_run_goes_on(drive->lane->run, step, until_of(drive)) && !gm_lane_stopped(drive->lane);
 }
 
 long gm_drive_end(const struct gm_drive *drive, long step)
 {
-    const long end = gm_run_steps_at(drive->lane->run, until_of(drive->lane));
+    const long end = gm_run_steps_at(drive->lane->run, until_of(drive));
     return end < step ? end : step;
 }
 
@@ -92,7 +92,7 @@ static void trace_to(struct gm_drive *drive, long stop)
     struct gm_lane *lane = drive->lane;
     const struct gm_run *run = lane->run;
     const size_t count = lane->problem.n * lane->problem.m;
-    const double until = until_of(lane);
+    const double until = until_of(drive);
     while (gm_run_goes_on(run, stop, until) && gm_lane_to(lane, run->steps + 1, until) == GM_OK) {
         drive->trace[0] = run->t;
         memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
@@ -108,12 +108,12 @@ static void advance(struct gm_drive *drive, long stop, bool record)
     const bool measured = stop - before > drive->unmeasured;
     const double start = measured ? gm_clock_processor_seconds() : 0;
     if (record) {
-        gm_run_to(lane->run, stop, until_of(lane));
+        gm_run_to(lane->run, stop, until_of(drive));
     } else if (drive->trace) {
         trace_to(drive, stop);
     } else {
         /* what it follows on the way costs less than looking at the clock */
-        gm_lane_to(lane, stop, until_of(lane));
+        gm_lane_to(lane, stop, until_of(drive));
     }
     const long made = lane->run->steps - before;
     if (measured) {

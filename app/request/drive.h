@@ -19,6 +19,9 @@ struct gm_drive {
        NULL. gm_drive_to makes no more steps, whether fixed or of the scheme's own choice, than up to its
        `step`: there has to be room for a row of each. */
     double *trace;
+    /* Where a scheme that chooses its steps ends; NULL: at the lane's until, which pictures also take for the
+       length of the run. */
+    const double *stop;
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.

@@ -511,6 +511,7 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
             }
         }
     }
+    *count = parts ? *count : 0;
     free(marks.bits);
     return parts;
 }

@@ -36,6 +36,8 @@ struct reader {
     size_t at, end;
     int depth, fixed; /* of parentheses; of brackets and bounds */
     long operands;    /* times OF_AN_INDEX */
+    int bounds;       /* of loops, in which one reads */
+    unsigned varying; /* bit k: index k stands in a bound, so that the rounds of its loop are not equal */
     bool failed;
     struct gm_fault *fault;
 };
@@ -366,6 +368,23 @@ struct loop {
     size_t begin;
 };
 
+static bool has_room_for(struct reader *reader, size_t place, long operands)
+{
+    if (operands <= (long)MOST_OPERANDS * OF_AN_INDEX) {
+        return true;
+    }
+    fail(reader, place, "the formula, with its loops written out, has more than %d operands", MOST_OPERANDS);
+    return false;
+}
+
+static long read_bound(struct reader *reader)
+{
+    reader->bounds++;
+    const long bound = read_whole(reader, "a bound");
+    reader->bounds--;
+    return bound;
+}
+
 /* i = low .. high, and what follows: another head, or the term. Afterwards `at` is at the parenthesis that
    closes the loop. The terms are joined from left to right, beginning with the first. */
 static void read_loop(struct reader *reader, struct loop *loop)
@@ -391,22 +410,28 @@ static void read_loop(struct reader *reader, struct loop *loop)
     }
     reader->at = reader->failed ? reader->end : begin + length;
     take(reader, '=');
-    const long low = read_whole(reader, "a bound");
+    const long low = read_bound(reader);
     peek(reader);
     if (!reader->failed && !is_range(reader, reader->at)) {
         expected(reader, "..");
     }
     reader->at += reader->failed ? 0 : 2;
-    const long high = read_whole(reader, "a bound");
+    const long high = read_bound(reader);
     if (!reader->failed && !take(reader, ',')) {
         expected(reader, "a comma");
     }
     const size_t body = reader->at;
+    const long before = reader->operands;
+    const unsigned own = 1U << scope->index_count;
+    reader->varying &= ~own;
     for (long value = low; value <= high && !reader->failed && !reader->graph->failed; value++) {
         scope->indices[scope->index_count++] = (struct gm_index){name.text, length, value};
         reader->at = body;
         read_loop(reader, loop);
         scope->index_count--;
+        if (value == low && !(reader->varying & own)) { /* all rounds are as long as the first */
+            has_room_for(reader, begin, reader->operands + (high - low) * (reader->operands - before));
+        }
     }
     if (low > high) {
         skip_loop(reader);
@@ -479,6 +504,7 @@ static gm_node_id read_name(struct reader *reader)
     const struct gm_index *index = index_of(reader, name.text, length);
     if (index || is_word("pi", name.text, length)) {
         node = gm_formula_constant(reader->graph, index ? (double)index->value : M_PI);
+        reader->varying |= index && reader->bounds > 0 ? 1U << (index - scope->indices) : 0;
     } else {
         const size_t after = reader->at;
         if (take(reader, '[')) {
@@ -521,9 +547,8 @@ static gm_node_id read_operand(struct reader *reader)
 {
     const char next = peek(reader);
     reader->operands += reader->fixed > 0 ? 1 : OF_AN_INDEX;
-    if (reader->operands > (long)MOST_OPERANDS * OF_AN_INDEX) {
-        return fail(reader, reader->at, "the formula, with its loops written out, has more than %d operands",
-                    MOST_OPERANDS);
+    if (!has_room_for(reader, reader->at, reader->operands)) {
+        return 0;
     }
     if (is_digit(next) || next == '.') {
         return read_number(reader);

@@ -20,7 +20,7 @@ class Pictured:
         return self.picture().png if self._is_open() else None
 
     def _repr_svg_(self) -> str | None:
-        return self.picture().svg.decode() if self._is_open() else None
+        return self.picture()._repr_svg_() if self._is_open() else None
 
 
 class Picture:
@@ -84,4 +84,5 @@ class Picture:
         return self.png
 
     def _repr_svg_(self) -> str:
-        return self.svg.decode()
+        text = self.svg.decode()
+        return text[text.index("<svg") :]  # it becomes a part of HTML, where an XML declaration is no element

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import weakref
+from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -431,6 +432,51 @@ def test_picture(tmp_path):
     assert b"geomint:arguments" in (tmp_path / "orbit.svg").read_bytes()
     run = geomint.run("kepler", until=5)
     assert run.picture(320, 180).png == picture.png  # looked at or not, the same motion
+
+
+class Elements(HTMLParser):
+    """What a page is made of, and what a browser makes comments of."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.names, self.odd = [], []
+        self.feed(f"<div>{text}</div>")
+
+    def handle_starttag(self, tag, attrs):
+        self.names.append(tag)
+
+    def handle_pi(self, data):
+        self.odd.append(data)
+
+    handle_decl = unknown_decl = handle_pi
+
+
+def test_picture_in_html():
+    """A notebook puts the picture into a page, where there is one XML declaration at most: none."""
+    run = geomint.run("kepler", until=1)
+    for shown in run, run.picture(320, 180):
+        page = Elements(shown._repr_svg_())
+        assert shown._repr_svg_().startswith("<svg ") and page.names[:2] == ["div", "svg"] and page.odd == []
+    assert run.picture(320, 180).svg.startswith(b"<?xml")  # of a file
+
+
+SYSTEMS = ["double-pendulum", "bowl", "lorenz", "heavy-top", "phi4", "bbm", "nonlinear-dirac"]  # one of each kind
+
+
+@pytest.mark.skipif("GEOMINT_PROGRAM" not in os.environ, reason="the program is not named")
+@pytest.mark.parametrize("scene", geomint.scenes() + SYSTEMS)
+def test_picture_is_that_of_render(tmp_path, scene):
+    """A picture of the library is that of the program, byte for byte: maps of space and time, too."""
+    program = os.environ["GEOMINT_PROGRAM"]
+    told = json.loads(subprocess.run([program, "list", scene, "--json"], check=True, capture_output=True).stdout)
+    words = [told["run"] if "run" in told else f"scheme={told['schemes'][0]}", "steps=24"]
+    words += ["rows=14", "columns=10"] if scene == "cavity" else []
+    file = tmp_path / "render.png"
+    subprocess.run([program, "render", scene, *words, "--size", "320x240", "-o", file], check=True, capture_output=True)
+    run = geomint.open(scene, *words)
+    for lane in run:
+        lane.step(24)
+    assert run.picture(320, 240).png == file.read_bytes()
 
 
 def test_example_notebook():

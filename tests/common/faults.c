@@ -2,7 +2,11 @@
 /* Preloaded into geomint: the n-th allocation or file call fails, as tests/shell/faults.py asks for.
 
        GM_FAULT=memory:17     the 17th allocation fails; memory:17+ that and all that follow
+       GM_FAULT=memory:each   a child is forked for every allocation, which fails in it; its output is DIR/N.out and
+                              DIR/N.err, and a line of DIR/0.ended is N, its wait status, and what was written before
        GM_FAULT=files:17      the 17th call that touches a file fails, with ENOSPC or EIO
+       GM_FAULT=streams:17    the 17th stream into memory that is closed says that it could not be; streams:each
+       GM_FAULT_FOLDER=DIR    of these children
        GM_FAULT_COUNT=FILE    where the number of such calls is written at the end
 
    What counts are calls by the program itself, and allocations that SuiteSparse, GSL, libpng, libdeflate and
@@ -25,6 +29,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 enum { MOST_RANGES = 32, ERROR_SEEN = 0x20 /* glibc's flag of a FILE */, MOST_WRITTEN = 1 << 28 /* bytes */ };
@@ -33,9 +38,9 @@ static struct range {
     uintptr_t from, to;
 } ranges[MOST_RANGES]; /* of code whose calls count; the program's own is the first */
 static size_t range_count;
-static enum kind { NOTHING, MEMORY, FILES } kind;
+static enum kind { NOTHING, MEMORY, FILES, STREAMS } kind;
 static long wanted;
-static bool from_there_on;
+static bool from_there_on, each;
 static atomic_long *count; /* shared with forked processes */
 
 void *__libc_malloc(size_t size);
@@ -83,7 +88,8 @@ __attribute__((constructor)) static void open_faults(void)
     const char *number = strchr(fault, ':');
     wanted = number ? strtol(number + 1, NULL, 10) : 0;
     from_there_on = strchr(fault, '+') != NULL;
-    kind = strncmp(fault, "memory", 6) == 0 ? MEMORY : FILES;
+    each = number && strcmp(number, ":each") == 0;
+    kind = fault[0] == 'm' ? MEMORY : fault[0] == 's' ? STREAMS : FILES;
     dl_iterate_phdr(add_ranges, NULL);
 }
 
@@ -97,6 +103,35 @@ __attribute__((destructor)) static void close_faults(void)
     }
 }
 
+static int open_of_child(long n, const char *ending)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%ld.%s", getenv("GM_FAULT_FOLDER"), n, ending);
+    return (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+}
+
+/* True in a child that is forked here; false in its parent, when the child has ended. */
+static bool is_child(long n)
+{
+    static int ended = -1;
+    const long written = syscall(SYS_lseek, STDOUT_FILENO, 0, SEEK_CUR);
+    ended = ended < 0 ? open_of_child(0, "ended") : ended;
+    const pid_t child = fork();
+    if (child == 0) {
+        static atomic_long own;
+        atomic_store(&own, n);
+        count = &own;
+        each = false;
+        syscall(SYS_dup3, open_of_child(n, "out"), STDOUT_FILENO, 0);
+        syscall(SYS_dup3, open_of_child(n, "err"), STDERR_FILENO, 0);
+        return true;
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    dprintf(ended, "%ld %d %ld\n", n, status, written);
+    return false;
+}
+
 /* Whether this call is the one that is to fail. */
 static bool fails(enum kind which, const void *caller)
 {
@@ -107,6 +142,9 @@ static bool fails(enum kind which, const void *caller)
     for (size_t i = 0; i < range_count; i++) {
         if (at >= ranges[i].from && at < ranges[i].to) {
             const long now = atomic_fetch_add(count, 1) + 1;
+            if (each) {
+                return is_child(now);
+            }
             return wanted > 0 && (from_there_on ? now >= wanted : now == wanted);
         }
     }
@@ -344,10 +382,11 @@ int fflush(FILE *stream)
 int fclose(FILE *stream)
 {
     NEXT(fclose)
-    const bool full = fileno(stream) >= 0 && NO_FILE_HERE;
-    if (full) {
+    const bool in_memory = fileno(stream) < 0;
+    const bool full = fails(in_memory ? STREAMS : FILES, __builtin_return_address(0));
+    if (full && !in_memory) {
         fill(stream);
     }
     const int result = next(stream);
-    return full ? refuse(ENOSPC) : result;
+    return full ? refuse(in_memory ? ENOMEM : ENOSPC) : result;
 }

@@ -4,10 +4,10 @@
 exit status, or what would have come anyway; never a crash, a hang, a wrong number or a damaged file. Where memory is
 short, nothing else is blamed.
 
-    faults.py GEOMINT FAULTS_LIBRARY [--all] [--only WORDS]
+    faults.py GEOMINT FAULTS_LIBRARY [--all] [--only WORDS] [--day NUMBER]
 
 --all takes every n of every command, for some minutes; without it a sample of them. --only: commands that hold
-these words alone."""
+these words alone. For `list` every n is taken, of one system of each kind, another one every day (--day)."""
 
 import argparse
 import concurrent.futures
@@ -19,6 +19,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import zipfile
 import zlib
 
@@ -27,7 +28,8 @@ SAMPLE = 9  # values of n in a command
 
 # OUT stands for a folder that is made anew, SHARE for that of the systems. "timed": holds run times, which differ from run to run; "made": OUT
 # holds a picture of these words; "before": a command that runs without a fault first; "lost": OUT holds all that the
-# command makes but this file; "usual": the exit status without a fault; "statuses": those that a failing file may have.
+# command makes but this file; "usual": the exit status without a fault; "partial": a text may have gaps
+# where the exit status says that memory was short; "statuses": those that a failing file may have.
 COMMANDS = [
     ("run disc scheme=rk4,midpoint points=20 steps=5 --json", {}),
     ("run kepler steps=20 scheme=gsl-rk8pd --json --max", {}),
@@ -97,7 +99,6 @@ COMMANDS = [
     ("run SHARE/systems/argon.system steps=2 --json", {}),
     ("run SHARE/systems/phi4.system steps=2 --json", {}),
     ("run SHARE/rooms/heated.room steps=1 --json", {"statuses": (1, 3)}),
-    ("list SHARE/systems/double-pendulum.system --long", {}),
     ("run disc scheme=composition(verlet;1/2,1/2) steps=3 --json", {}),
     ("certify SHARE/schemes/kutta38.scheme --json", {}),
     ("backward kepler scheme=verlet until=1 -o OUT/a.svg", {}),
@@ -111,6 +112,20 @@ COMMANDS = [
     ("--version", {}),
     ("terminal", {}),
 ]
+
+
+# Of each kind of system, one a day: a child is forked for every allocation, and for every stream into memory that is
+# closed, of these commands.
+SYSTEMS = [
+    ("double-pendulum", "duffing", "kicked-rotor", "klein-gordon", "spherical-pendulum", "kepler-space"),
+    ("bowl", "cartesian-pendulum"),
+    ("lorenz", "bbm"),
+    ("lotka-volterra", "rigid-body", "heavy-top"),
+    ("phi4", "boussinesq", "double-sine-gordon", "camassa-holm"),
+    ("driven-pendulum", "charged-particle", "restricted-three-body"),
+    ("nonlinear-dirac",),
+]
+EACH = ["list SHARE/systems/NAME.system", "list SHARE/systems/NAME.system --latex"]
 
 
 def png_is_whole(path):
@@ -146,8 +161,8 @@ class Command:
     def __init__(self, words, options, arguments, folder):
         self.words, self.options, self.arguments, self.folder = words, options, arguments, folder
 
-    def run(self, fault):
-        """Exit status, output, complaints, files, calls that were counted."""
+    def run(self, fault, ends=""):
+        """Exit status, output, complaints, files, calls that were counted; `ends`: a folder for those of children."""
         out = tempfile.mkdtemp(dir=self.folder)
         count = tempfile.mktemp(dir=self.folder)
         if "made" in self.options:
@@ -158,7 +173,8 @@ class Command:
         usual = dict(
             os.environ, GEOMINT_KERNEL=os.path.dirname(tests), XDG_CACHE_HOME=os.path.join(self.folder, "cache"),
             **{"GEOMINT_" + kind.upper(): os.path.join(share, kind) for kind in ("tours", "systems", "rooms")})
-        environment = dict(usual, GM_FAULT=fault, GM_FAULT_COUNT=count, LD_PRELOAD=self.arguments.library)
+        environment = dict(usual, GM_FAULT=fault, GM_FAULT_COUNT=count, GM_FAULT_FOLDER=ends,
+                           LD_PRELOAD=self.arguments.library)
 
         def words_of(text):
             return text.replace("OUT", out).replace("MESHES", meshes).replace("SHARE", share).split()
@@ -169,13 +185,15 @@ class Command:
             subprocess.run([self.arguments.geomint] + first, env=usual, check=True, capture_output=True)
         if "lost" in self.options:
             os.unlink(os.path.join(out, self.options["lost"]))
-        try:
-            done = subprocess.run(
-                [self.arguments.geomint] + words, env=environment, capture_output=True, timeout=LONGEST, check=False,
-                cwd=out, stdin=subprocess.DEVNULL)
-            status, output, said = done.returncode, done.stdout, done.stderr
-        except subprocess.TimeoutExpired:
-            status, output, said = None, b"", b""
+        with tempfile.TemporaryFile(dir=self.folder) as file:
+            try:
+                done = subprocess.run(
+                    [self.arguments.geomint] + words, env=environment, stdout=file, stderr=subprocess.PIPE,
+                    timeout=LONGEST, check=False, cwd=out, stdin=subprocess.DEVNULL)
+                file.seek(0)
+                status, output, said = done.returncode, file.read(), done.stderr
+            except subprocess.TimeoutExpired:
+                status, output, said = None, b"", b""
         files = {}
         for place, _, names in os.walk(out):
             for name in names:
@@ -242,13 +260,13 @@ class Command:
                 if name.endswith((".png", ".csv", ".html")) and files[name][0] != content:
                     return f"{name} differs with exit {status} ({said})"
             return ""
-        if status not in ((5,) if kind == "memory" else self.options.get("statuses", (3,))):
+        if status not in ((5,) if kind != "files" else self.options.get("statuses", (3,))):
             return f"exit {status}: {said} {output[:200]}"
         if not re.search(r"^geomint: \S+ \S+ \S+", said, re.M):
             return f"exit {status} without a sentence: {said}"
         blamed = [line for line in said.splitlines() if line.startswith("geomint: ")]
         blamed = [line for line in blamed if not re.search(r"memory|^geomint: (wrote|stopped|the run ends|\d+ of) ", line)]
-        if kind == "memory" and blamed:
+        if kind != "files" and blamed:
             return f"memory is short, and this is blamed: {blamed}"
         for name, (content, _) in files.items():
             if name.endswith(".png") and name in usual[3] and not self.options.get("timed"):
@@ -256,6 +274,8 @@ class Command:
                     return f"{name} differs (exit {status}: {said})"
         if kind == "files" or self.options.get("timed"):
             return "" # standard output may be what failed
+        if self.options.get("partial"):
+            return ""
         return self.numbers_are_right(output, usual[1])
 
 
@@ -282,6 +302,29 @@ def sweep(command, kind, every):
     return len(faults), wrong
 
 
+def sweep_each(command, kind):
+    """As sweep, of every n, in children of one process: of a command that writes to standard output alone."""
+    wrong, count = [], 0
+    with tempfile.TemporaryDirectory(dir=command.folder) as ends:
+        usual = command.run(kind + ":each", ends)
+        if usual[0] != 0:
+            return 0, [f"{command.words}: exit {usual[0]} without a fault: {usual[2]}"]
+
+        def text_of(n, ending):
+            with open(os.path.join(ends, f"{n}.{ending}"), "rb") as file:
+                return file.read()
+
+        for line in text_of(0, "ended").decode().splitlines():
+            n, status, written = map(int, line.split())
+            output = usual[1].encode()[:written] + text_of(n, "out")
+            found = (os.waitstatus_to_exitcode(status), output.decode(), text_of(n, "err").decode(errors="replace"), {}, 0)
+            reason = command.judge(kind, usual, found)
+            if reason:
+                wrong.append(f"GM_FAULT={kind}:{n} geomint {command.words}: {reason.strip()}")
+            count += 1
+    return count, wrong
+
+
 def limit(arguments, painter, megabytes, folder):
     """Little address space: Mesa may die of it, but not without a sentence."""
     words = ["prlimit", f"--as={megabytes * 1000000}", arguments.geomint, "render", "disc", "until=1", "--out", folder]
@@ -304,6 +347,7 @@ def main():
     parser.add_argument("library")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--only", default="")
+    parser.add_argument("--day", type=int, default=int(time.time() / 86400))
     arguments = parser.parse_args()
     arguments.geomint, arguments.library = os.path.abspath(arguments.geomint), os.path.abspath(arguments.library)
     runs, wrong = 0, []
@@ -316,6 +360,11 @@ def main():
             if arguments.only in words:
                 command = Command(words, options, arguments, folder)
                 jobs += [(words, kind, pool.submit(sweep, command, kind, arguments.all)) for kind in ("memory", "files")]
+        for names in SYSTEMS:
+            for words in [words.replace("NAME", names[arguments.day % len(names)]) for words in EACH]:
+                if arguments.only in words:
+                    command = Command(words, {"partial": True}, arguments, folder)
+                    jobs += [(words, kind, pool.submit(sweep_each, command, kind)) for kind in ("memory", "streams")]
         limits = [("osmesa", megabytes) for megabytes in (50, 100, 180, 220, 240, 260, 280, 285, 290, 300, 400)]
         limits += [("", megabytes) for megabytes in (26, 28, 30, 32, 36, 40, 50, 100)]
         for painter, megabytes in limits if arguments.only in "prlimit" else ():

@@ -736,7 +736,8 @@ int gm_list_system(const struct gm_arguments *arguments, const char *path, enum 
     struct report report = {.problem = {0}};
     int status = open_system(&report, arguments, path);
     status = status == GM_EXIT_OK ? check_scene(arguments) : status;
-    if (status == GM_EXIT_OK && open_problem(&report) && tidy_all(&report)) {
+    /* what was not checked for want of memory is not called unchecked */
+    if (status == GM_EXIT_OK && open_problem(&report) && tidy_all(&report) && !gm_memory_was_short()) {
         if (telling == GM_TELL_JSON) {
             print_json(&report);
         } else if (telling == GM_TELL_LATEX) {
