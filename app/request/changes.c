@@ -2,6 +2,7 @@
 /* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
 #include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,13 +112,13 @@ char *gm_changes_format(const struct gm_request *request)
     }
     for (size_t i = 0; i < request->change_count; i++) {
         const struct gm_change *change = &request->changes[i];
-        fprintf(stream, "%zu %ld %s\n", change->lane, change->step, change->text);
+        fprintf(stream, "%zu %" PRId64 " %s\n", change->lane, change->step, change->text);
     }
     fclose(stream);
     return text;
 }
 
-bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text)
+bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text)
 {
     struct gm_change *grown =
         realloc(request->changes, (request->change_count + 1) * sizeof *request->changes);
@@ -145,7 +146,7 @@ static bool parse_change(struct gm_request *request, const char *line)
     if (errno || *end != ' ' || !isdigit((unsigned char)end[1]) || lane >= request->count) {
         return false;
     }
-    const long step = strtol(end + 1, &end, 10);
+    const int64_t step = strtoll(end + 1, &end, 10);
     if (errno || *end != ' ' || step > GM_MOST_STEPS || !strchr(end, '=')) {
         return false;
     }
@@ -208,7 +209,7 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
     if (change->step > spec->steps) {
-        return gm_refuse(message, "a change after %ld step%s comes too late: lane %zu makes %ld",
+        return gm_refuse(message, "a change after %" PRId64 " step%s comes too late: lane %zu makes %" PRId64,
                          change->step, gm_plural((double)change->step), change->lane, spec->steps);
     }
     void *parameters = gm_parameters_copy(request->scene, spec->parameters);
