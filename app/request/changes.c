@@ -67,6 +67,13 @@ static const char *setting_value(const struct gm_request *request, size_t lane, 
     return gm_parameter_format(row, &request->lanes[lane].settings, text, GM_TEXT_SIZE);
 }
 
+static bool has_key(const struct gm_arguments *words, const char *key)
+{
+    char word[96];
+    snprintf(word, sizeof word, "%s=", key);
+    return gm_arguments_have(words, word);
+}
+
 char *gm_request_format(const struct gm_request *request)
 {
     if (request->arguments) {
@@ -79,25 +86,35 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     size_t lists = 0;
+    struct gm_arguments own = {
+        0}; /* what the scene's own lanes name is always told: else it would be theirs */
+    if (request->scene->lanes && !gm_arguments_split(&own, request->scene->lanes)) {
+        gm_arguments_close(&own);
+        fclose(stream);
+        free(text);
+        return NULL;
+    }
     gm_arguments_put_scene(stream, request->scene);
     format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         if (!is_idle(request, row->key)) {
-            format_key(stream, request, row->key, parameter_value, row, row->required ? NULL : row->standard,
-                       &lists);
+            const bool told = row->required || has_key(&own, row->key);
+            format_key(stream, request, row->key, parameter_value, row, told ? NULL : row->standard, &lists);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        format_key(stream, request, row->key, setting_value, row, row->standard, &lists);
+        format_key(stream, request, row->key, setting_value, row,
+                   has_key(&own, row->key) ? NULL : row->standard, &lists);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);
     }
-    if (request->overlay) {
-        fputs(" overlay=yes", stream);
+    if (request->overlay || has_key(&own, "overlay")) {
+        fprintf(stream, " overlay=%s", request->overlay ? "yes" : "no");
     }
+    gm_arguments_close(&own);
     fclose(stream);
     return text;
 }
