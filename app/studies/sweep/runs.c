@@ -316,7 +316,9 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
 {
     const struct gm_lane *lane = drive->lane;
     fprintf(stream, "%s,", status);
-    gm_csv_put_text(stream, warning);
+    if (warning[0]) {
+        gm_csv_put_quoted(stream, warning);
+    }
     if (lane) {
         const struct gm_run *run = lane->run;
         fprintf(stream, ",%.17g,%" PRId64 ",%.0f,%.0f,%.6g", run->t, run->steps,
