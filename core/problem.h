@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "core/line.h"
 #include "core/status.h"
@@ -22,9 +23,9 @@ struct gm_task {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
     double dt;
-    long steps;
-    long steps_before; /* that the run has made already */
-    double limit;      /* a component above this is a blow-up */
+    int64_t steps;
+    int64_t steps_before; /* that the run has made already */
+    double limit;         /* a component above this is a blow-up */
     const double *y;
     double *out;
     const double *carry; /* what compensated summation carries over, n * m; NULL: plain summation */
@@ -34,7 +35,7 @@ struct gm_task {
     double t;     /* the present time, t0 + n dt of this segment */
     double until; /* of a scheme that chooses its step: it ends with the step that reaches this time */
     double t0;
-    long n;
+    int64_t n;
     void *workspace; /* what the family opened for this run */
     const struct gm_settings *settings;
 };
@@ -42,7 +43,7 @@ struct gm_task {
 /* What it did. `done` steps succeeded for every member; if that is less than task.steps and `until` was not
    reached, `out` is void and `status` says why step done + 1 failed. Counts are sums over the members. */
 struct gm_progress {
-    long done;
+    int64_t done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
     unsigned long factor_solves; /* of flows: what iterations ask of factors that are made once */

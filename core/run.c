@@ -61,7 +61,7 @@ const double *gm_run_memory(const struct gm_run *run)
 }
 
 /* The task that reads half `from` and writes half `to`. */
-static struct gm_task task_of(const struct gm_run *run, int from, int to, long steps)
+static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_t steps)
 {
     const size_t count = state_count(run), carried = carry_count(run);
     const bool remembers = run->scheme->family->memory != NULL;
@@ -161,13 +161,13 @@ static struct gm_task task_again(const struct gm_run *run)
 }
 
 /* Whether these steps may be made in place: loops over kernels can, and ask for no memory. */
-static bool is_in_place(const struct gm_run *run, gm_loop *loop, long steps)
+static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
 {
     return run->problem->m > 1 && loop != run->scheme->family->loop && !run->looks_back && run->behind > 0 &&
            steps <= FARTHEST_BEHIND - run->behind;
 }
 
-static enum gm_status advance(struct gm_run *run, long steps, double until)
+static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
@@ -216,7 +216,7 @@ static enum gm_status advance(struct gm_run *run, long steps, double until)
     return run->status;
 }
 
-enum gm_status gm_run_advance(struct gm_run *run, long steps)
+enum gm_status gm_run_advance(struct gm_run *run, int64_t steps)
 {
     return advance(run, steps, INFINITY);
 }
@@ -263,21 +263,21 @@ void gm_run_shorten(struct gm_run *run, double fraction)
     run->n = run->behind = 0;
 }
 
-long gm_run_steps_at(const struct gm_run *run, double t)
+int64_t gm_run_steps_at(const struct gm_run *run, double t)
 {
-    const double most = (double)(LONG_MAX / 4);
+    const double most = (double)(INT64_MAX / 4);
     const double steps = round((t - run->t0) / run->dt);
-    return run->scheme->family->own_time || !(steps < most) ? LONG_MAX / 4
-                                                            : run->steps - run->n + (long)steps;
+    return run->scheme->family->own_time || !(steps < most) ? INT64_MAX / 4
+                                                            : run->steps - run->n + (int64_t)steps;
 }
 
-long gm_run_steps_by(const struct gm_run *run, double t)
+int64_t gm_run_steps_by(const struct gm_run *run, double t)
 {
     if (run->scheme->family->own_time) {
         return run->steps + (run->t < t ? 1 : 0);
     }
     const double ahead = (t - run->t) / run->dt;
-    return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
+    return run->steps + (int64_t)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
 }
 
 /* An end that is missed by round-off is reached. */
@@ -286,13 +286,13 @@ static double reached_from(double until)
     return isfinite(until) ? until - 1e-12 * fabs(until) : until;
 }
 
-bool gm_run_goes_on(const struct gm_run *run, long steps, double until)
+bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
 {
     const bool there = run->scheme->family->own_time && run->t >= reached_from(until);
     return run->status == GM_OK && run->steps < steps && !there;
 }
 
-enum gm_status gm_run_to(struct gm_run *run, long steps, double until)
+enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
 {
     while (gm_run_goes_on(run, steps, until)) {
         advance(run, steps - run->steps, reached_from(until));
@@ -368,7 +368,7 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
     const bool same = own->compensated == other->compensated && own->binding == other->binding &&
                       own->tau0 == other->tau0 && own->tolerance == other->tolerance;
     return same && then->half_size == run->half_size && (then->current == 0 || then->current == 1) &&
-           then->n >= 0 && then->steps >= then->n && then->steps <= LONG_MAX / 4 &&
+           then->n >= 0 && then->steps >= then->n && then->steps <= INT64_MAX / 4 &&
            strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
            isfinite(then->t0) && isfinite(then->dt) && then->dt != 0 && isfinite(then->t) &&
            then->limit > 0 &&

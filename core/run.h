@@ -11,10 +11,10 @@ struct gm_run {
     const struct gm_scheme *scheme;
     struct gm_settings settings;
     double t0, dt;                                 /* the present segment: t = t0 + n dt */
-    long n;                                        /* steps in this segment */
+    int64_t n;                                     /* steps in this segment */
     double t;                                      /* the present time */
     double limit;                                  /* blow-up bound on the components */
-    long steps;                                    /* steps in all */
+    int64_t steps;                                 /* steps in all */
     unsigned long evaluations, solves, iterations; /* sums over the members */
     unsigned long factor_solves;                   /* the same, with factors that are made once (flows) */
     struct gm_unsolved unsolved;                   /* why a step was not solved */
@@ -22,7 +22,7 @@ struct gm_run {
     int current;      /* which half of the block holds the state */
     size_t half_size; /* in bytes */
     void *workspace;  /* of the scheme's family; no part of a snapshot */
-    long behind;      /* so many steps before it the other half holds the state; 0: it holds none */
+    int64_t behind;   /* so many steps before it the other half holds the state; 0: it holds none */
     bool looks_back;  /* set by who asks where the last step began: gm_run_before */
 };
 
@@ -43,7 +43,7 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count);
 
 /* Makes up to `steps` steps. After a failure the run stays at its last good step, run->status says why,
    and further calls do nothing. GM_OUT_OF_MEMORY leaves the state where it was before the call. */
-enum gm_status gm_run_advance(struct gm_run *run, long steps);
+enum gm_status gm_run_advance(struct gm_run *run, int64_t steps);
 
 /* Whether the last step can be made again with another length: gm_run_advance was last called for one step,
    in this segment (that is up to the caller), and the scheme neither chooses its steps nor remembers any. Of an
@@ -60,18 +60,18 @@ void gm_run_shorten(struct gm_run *run, double fraction);
 
 /* How many steps in all a run has made when it is at the time t, to the nearest; of a scheme that chooses its
    steps, more than it will ever make. */
-long gm_run_steps_at(const struct gm_run *run, double t);
+int64_t gm_run_steps_at(const struct gm_run *run, double t);
 
 /* The same for a picture of the time t: the last step that ends not after it; where the scheme chooses its
    steps, one more than so far as long as the run is before it. */
-long gm_run_steps_by(const struct gm_run *run, double t);
+int64_t gm_run_steps_by(const struct gm_run *run, double t);
 
 /* Whether a run is still on its way to an end: `steps` steps in all, or, if its scheme chooses them, the
    first that is not before the time `until`; one that misses it by round-off has reached it. */
-bool gm_run_goes_on(const struct gm_run *run, long steps, double until);
+bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until);
 
 /* Advances to that end, as gm_run_advance does; gm_run_until to the time t alone. */
-enum gm_status gm_run_to(struct gm_run *run, long steps, double until);
+enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until);
 enum gm_status gm_run_until(struct gm_run *run, double t);
 
 /* Starts a new segment at the present time with another step (its sign may change). */

@@ -29,6 +29,7 @@
 #define GEOMINT_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -91,17 +92,17 @@ size_t geomint_lanes(const geomint *handle);
 
 /* Makes up to so many steps, 1e15 in all at most; none are less than one. A lane that has failed, or come to
    its `stop`, makes none; of one that has failed the status stays GEOMINT_NUMERICAL. */
-int geomint_step(geomint *handle, size_t lane, long steps);
+int geomint_step(geomint *handle, size_t lane, int64_t steps);
 /* Goes on to the step nearest to the time t, a finite number; where the scheme chooses its steps to the first
    that is not before it. It makes no step where that lies behind. */
 int geomint_until(geomint *handle, size_t lane, double t);
 
 /* The present time (NaN: there is no such lane), and the steps made so far. */
 double geomint_time(const geomint *handle, size_t lane);
-long geomint_steps(const geomint *handle, size_t lane);
+int64_t geomint_steps(const geomint *handle, size_t lane);
 /* How many steps lie between here and the end that the words ask for (until=, steps=); -1 where the scheme
    chooses them, and the end is not reached. 0: the lane is there, or has ended before. */
-long geomint_steps_left(const geomint *handle, size_t lane);
+int64_t geomint_steps_left(const geomint *handle, size_t lane);
 
 /* The present state, *n components of *m members, [component * m + member]. The pointer is the same until the
    handle is closed, and shows the present state after each call that drives. n, m may be NULL. NULL: there is
@@ -137,7 +138,7 @@ int geomint_row(geomint *handle, size_t lane, double *t, double *values);
    the start, and one at the end: at most `rows` of them into t (rows) and values (rows * geomint_row_size).
    `every` is at least 1. `made` (or NULL) is how many there are: fewer where the end is reached, or the lane
    failed. */
-int geomint_rows(geomint *handle, size_t lane, long every, size_t rows, double *t, double *values,
+int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values,
                  size_t *made);
 
 /* ---- pictures ---- */

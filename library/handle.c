@@ -225,7 +225,7 @@ static void look(geomint *handle, struct gm_handle_lane *lane)
 }
 
 /* Makes steps up to so many in all, or, where the scheme chooses them, up to the time `until`. */
-static void drive_to(geomint *handle, size_t index, long steps, double until)
+static void drive_to(geomint *handle, size_t index, int64_t steps, double until)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
     lane->drive.stop = &until;
@@ -236,11 +236,11 @@ static void drive_to(geomint *handle, size_t index, long steps, double until)
     look(handle, lane);
 }
 
-int geomint_step(geomint *handle, size_t lane, long steps)
+int geomint_step(geomint *handle, size_t lane, int64_t steps)
 {
     const struct gm_call call = gm_call_begin(handle);
     if (gm_handle_has(handle, lane) && steps > 0) {
-        const long made = run_of(handle, lane)->steps;
+        const int64_t made = run_of(handle, lane)->steps;
         drive_to(handle, lane, steps < GM_MOST_STEPS - made ? made + steps : GM_MOST_STEPS, GM_NEVER);
     }
     return gm_call_end(&call);
@@ -264,19 +264,19 @@ double geomint_time(const geomint *handle, size_t lane)
     return run ? run->t : NAN;
 }
 
-long geomint_steps(const geomint *handle, size_t lane)
+int64_t geomint_steps(const geomint *handle, size_t lane)
 {
     const struct gm_run *run = run_of(handle, lane);
     return run ? run->steps : 0;
 }
 
-long geomint_steps_left(const geomint *handle, size_t lane)
+int64_t geomint_steps_left(const geomint *handle, size_t lane)
 {
     const struct gm_run *run = run_of(handle, lane);
     if (!run) {
         return 0;
     }
-    const long end = handle->request.lanes[lane].steps;
+    const int64_t end = handle->request.lanes[lane].steps;
     return !gm_drive_goes_on(&handle->lanes[lane].drive, end) ? 0
            : run->scheme->family->own_time                    ? -1
                                                               : end - run->steps;
@@ -450,15 +450,15 @@ int geomint_row(geomint *handle, size_t lane, double *t, double *values)
     return gm_call_end(&call);
 }
 
-static size_t make_rows(geomint *handle, size_t index, long every, size_t rows, double *t, double *values)
+static size_t make_rows(geomint *handle, size_t index, int64_t every, size_t rows, double *t, double *values)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
     struct gm_drive *drive = &lane->drive;
     const struct gm_run *run = drive->lane->run;
-    const long end = handle->request.lanes[index].steps;
+    const int64_t end = handle->request.lanes[index].steps;
     size_t made = 0;
     while (made < rows && gm_drive_goes_on(drive, end)) {
-        const long before = run->steps, left = every - before % every;
+        const int64_t before = run->steps, left = every - before % every;
         if (!gm_drive_to(drive, end - before < left ? end : before + left, false, handle->message)) {
             gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
         }
@@ -472,7 +472,7 @@ static size_t make_rows(geomint *handle, size_t index, long every, size_t rows, 
     return made;
 }
 
-int geomint_rows(geomint *handle, size_t lane, long every, size_t rows, double *t, double *values,
+int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values,
                  size_t *made)
 {
     const struct gm_call call = gm_call_begin(handle);
@@ -511,7 +511,7 @@ bool gm_handle_follow(geomint *handle)
         const double never = GM_NEVER;
         drawn->stop = &never;
         /* the step that failed is tried once more: the picture says so */
-        const long more = drive->lane->run->status == GM_OK ? 0 : 1;
+        const int64_t more = drive->lane->run->status == GM_OK ? 0 : 1;
         const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
         drawn->stop = NULL;
         if (!good) {

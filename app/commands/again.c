@@ -39,7 +39,7 @@ static bool drive(const struct gm_request *request, struct gm_lane **lanes, cons
 {
     for (size_t i = 0; i < request->count; i++) {
         char *end = NULL;
-        const long step = strtol(steps, &end, 10);
+        const int64_t step = strtoll(steps, &end, 10);
         if (end == steps || step < 0 || step > GM_MOST_STEPS) {
             return gm_refuse(message, "its steps are damaged");
         }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint run: numbers, no pictures. */
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -142,7 +143,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     if (lane->scene->stop) {
         printf(",\"stopped\":%s", gm_lane_stopped(lane) ? "true" : "false");
     }
-    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f", run->steps,
+    printf(",\"steps\":%" PRId64 ",\"evaluations\":%.0f,\"solves\":%.0f", run->steps,
            gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
     if (run->factor_solves > 0) {
         printf(",\"factor_solves\":%.0f", gm_run_per_member(run, run->factor_solves));
@@ -193,8 +194,8 @@ static void print_text(const struct outcome *outcome)
     if (sentence[0]) {
         printf("  %-*s %s\n", width, "message", sentence);
     }
-    printf("  %-*s %.10g\n  %-*s %ld\n  %-*s %.0f\n  %-*s %.0f\n  %-*s %.3g\n", width, "t", run->t, width,
-           "steps", run->steps, width, "evaluations", gm_run_per_member(run, run->evaluations), width,
+    printf("  %-*s %.10g\n  %-*s %" PRId64 "\n  %-*s %.0f\n  %-*s %.0f\n  %-*s %.3g\n", width, "t", run->t,
+           width, "steps", run->steps, width, "evaluations", gm_run_per_member(run, run->evaluations), width,
            "solves", gm_run_per_member(run, run->solves), width, "seconds", outcome->drive.seconds);
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         const char *reason = missing(outcome, i);
@@ -353,7 +354,7 @@ static bool keep_state(struct outcome *outcome, char *message)
 
 /* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
 struct pace {
-    long steps;
+    int64_t steps;
     double looked, kept;
 };
 
@@ -390,10 +391,10 @@ static size_t row_width(const struct outcome *outcome)
 }
 
 /* Makes steps up to `stop`, TRACED at most, with a row each. */
-static bool make_rows(struct outcome *outcome, long stop, double *trace, char *message)
+static bool make_rows(struct outcome *outcome, int64_t stop, double *trace, char *message)
 {
     struct gm_drive *drive = &outcome->drive;
-    const long most = drive->lane->run->steps + TRACED;
+    const int64_t most = drive->lane->run->steps + TRACED;
     drive->trace = trace;
     const bool good = gm_drive_to(drive, stop < most ? stop : most, false, message);
     const size_t count = (size_t)(drive->trace - trace) / row_width(outcome);
@@ -403,15 +404,15 @@ static bool make_rows(struct outcome *outcome, long stop, double *trace, char *m
 }
 
 /* Makes steps up to the next that is looked at, `stop` at most, and the row of that. */
-static bool make_steps(struct outcome *outcome, long stop, char *message)
+static bool make_steps(struct outcome *outcome, int64_t stop, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
     const struct gm_run *run = outcome->drive.lane->run;
     const bool has_rows = outputs->csv || outputs->save;
-    const long row = has_rows ? gm_rows_next(&outputs->rows, run) : stop;
-    const long next = outcome->maxima ? run->steps + 1 : row;
+    const int64_t row = has_rows ? gm_rows_next(&outputs->rows, run) : stop;
+    const int64_t next = outcome->maxima ? run->steps + 1 : row;
     const double before = run->t;
-    const long steps = run->steps;
+    const int64_t steps = run->steps;
     if (!gm_drive_to(&outcome->drive, next < stop ? next : stop, outputs->tracks != NULL, message)) {
         return false;
     }
@@ -434,7 +435,7 @@ static bool is_in_vain(const struct outputs *outputs)
 }
 
 /* Drives one lane to its end. Looks at every step only where that is asked for. */
-static bool drive_lane(struct outcome *outcome, long steps, char *message)
+static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
 {
     const bool keeps = outcome->outputs->options->checkpoint != NULL;
     const struct gm_run *run = outcome->drive.lane->run;
@@ -442,10 +443,10 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     /* without memory for it, step by step */
     double *trace = only_saves(outcome) ? malloc(TRACED * row_width(outcome) * sizeof *trace) : NULL;
     bool good = true;
-    for (long before = -1; good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted &&
-                           run->steps != before && !is_in_vain(outcome->outputs);) {
+    for (int64_t before = -1; good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted &&
+                              run->steps != before && !is_in_vain(outcome->outputs);) {
         before = run->steps;
-        const long stop = keeps && pace.steps < steps - before ? before + pace.steps : steps;
+        const int64_t stop = keeps && pace.steps < steps - before ? before + pace.steps : steps;
         good = trace ? make_rows(outcome, stop, trace, message) : make_steps(outcome, stop, message);
         good = good && (!keeps || keep_pace(outcome, &pace, message));
     }
@@ -462,13 +463,13 @@ static char *meta_of(const struct outcome *outcome)
 }
 
 /* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
-static bool begin_rows(struct outcome *outcome, long steps, char *message)
+static bool begin_rows(struct outcome *outcome, int64_t steps, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
     const struct gm_run *run = outcome->drive.lane->run;
     const uint64_t rows = outcome->paused.rows;
     if (outputs->save) {
-        const long end = gm_drive_end(&outcome->drive, steps);
+        const int64_t end = gm_drive_end(&outcome->drive, steps);
         char *meta = meta_of(outcome);
         const bool begun =
             gm_save_begin(outputs->save, outcome->drive.index, run, rows,
@@ -561,7 +562,7 @@ static bool fits_saved(const struct outcome *outcome, char *message)
 }
 
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
-static bool run_lane(struct outcome *outcome, long steps, char *message)
+static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
 {
     outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
     if (outcome->outputs->pause && !gm_pause_restore(outcome->outputs->pause, outcome->drive.index,

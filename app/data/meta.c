@@ -2,6 +2,7 @@
 /* What was run, as JSON. */
 #include "app/data/meta.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "app/output/json.h"
@@ -60,7 +61,7 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
     gm_json_put_text(stream, sentence);
     fputs(",\"t\":", stream);
     gm_json_put_number(stream, lane->run->t);
-    fprintf(stream, ",\"steps\":%ld,\"units\":{\"t\":", lane->run->steps);
+    fprintf(stream, ",\"steps\":%" PRId64 ",\"units\":{\"t\":", lane->run->steps);
     gm_json_put_text(stream, lane->scene->time ? lane->scene->time : "");
     fputs("}}", stream);
     if (fclose(stream) != 0) {

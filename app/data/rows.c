@@ -27,16 +27,16 @@ bool gm_rows_all(const struct gm_rows *rows, const struct gm_run *run)
     return !is_by_time(rows, run) && rows->every < 2;
 }
 
-long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
+int64_t gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
 {
-    const long next = run->steps + 1, far = 1L << 40;
+    const int64_t next = run->steps + 1, far = INT64_C(1) << 40;
     if (!is_by_time(rows, run)) {
         return rows->every < 2 ? next : run->steps - run->steps % rows->every + rows->every;
     }
     if (run->scheme->family->own_time) {
         return next;
     }
-    return (long)fmin(step_from(rows, run, (double)next), (double)(next + far));
+    return (int64_t)fmin(step_from(rows, run, (double)next), (double)(next + far));
 }
 
 bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before)
@@ -50,13 +50,13 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
     return step_from(rows, run, (double)run->steps) == (double)run->steps;
 }
 
-uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, long last)
+uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, int64_t last)
 {
     if (run->scheme->family->own_time || last < 0) {
         return 0;
     }
     if (!is_by_time(rows, run)) {
-        const long every = rows->every < 2 ? 1 : rows->every;
+        const int64_t every = rows->every < 2 ? 1 : rows->every;
         return (uint64_t)(last / every) + (last % every != 0) + 1;
     }
     const double steps = rows->interval / fabs(run->dt), most = (double)(1L << 50);

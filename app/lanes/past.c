@@ -92,7 +92,7 @@ static void save(const struct gm_lane *lane, double gone, struct gm_moment *mome
 
 void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone, bool always)
 {
-    long steps = lane->run->steps;
+    int64_t steps = lane->run->steps;
     gm_past_forget(past, steps);
     if (past->count > 0) {
         struct gm_moment *last = &past->moments[past->count - 1];
@@ -136,7 +136,7 @@ static bool load(const struct gm_moment *moment, struct gm_lane *lane)
     return true;
 }
 
-const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, long steps)
+const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps)
 {
     size_t count = past->count;
     while (count > 0 && past->moments[count - 1].steps > steps) {
@@ -154,7 +154,7 @@ const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane
     return count > 0 && load(&past->moments[count - 1], lane) ? &past->moments[count - 1] : NULL;
 }
 
-void gm_past_forget(struct gm_past *past, long steps)
+void gm_past_forget(struct gm_past *past, int64_t steps)
 {
     while (past->count > 0 && past->moments[past->count - 1].steps > steps) {
         free(past->moments[--past->count].memory);

@@ -8,7 +8,7 @@
    past stays within reach: what lies between two snapshots is stepped again. */
 
 struct gm_moment {
-    long steps;
+    int64_t steps;
     double gone; /* model time that the lane has gone through, forwards and backwards */
     size_t size;
     void *memory; /* the lane's parameters, then its snapshot */
@@ -17,8 +17,8 @@ struct gm_moment {
 struct gm_past {
     struct gm_moment *moments;
     size_t count;
-    size_t bound; /* on count */
-    long every;   /* steps between snapshots */
+    size_t bound;  /* on count */
+    int64_t every; /* steps between snapshots */
 };
 
 /* An empty past is {.every = 1}. This sets how many snapshots it may hold. */
@@ -34,13 +34,13 @@ void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone,
 
 /* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it; NULL if
    there is none. Later ones are kept. */
-const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, long steps);
+const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps);
 const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
 
 /* Sets a parameter in all snapshots: one that is the same at all times (struct gm_parameter, looks). */
 void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text);
 
 /* Forgets what is later than `steps`. */
-void gm_past_forget(struct gm_past *past, long steps);
+void gm_past_forget(struct gm_past *past, int64_t steps);
 
 #endif

@@ -173,7 +173,7 @@ static bool is_later(const struct gm_change *change, const void *data)
 }
 
 /* Forgets the logged changes of a lane after `step`; all of them for step < 0. */
-static void cut_log(struct gm_session *session, size_t lane, long step)
+static void cut_log(struct gm_session *session, size_t lane, int64_t step)
 {
     gm_changes_drop(&session->log, is_later, &(struct gm_change){.lane = lane, .step = step});
 }
@@ -186,7 +186,7 @@ static void settle(struct gm_session *session)
     }
     session->visiting = false;
     for (size_t i = 0; i < session->count; i++) {
-        long steps = session->lanes[i]->run->steps;
+        int64_t steps = session->lanes[i]->run->steps;
         cut_log(session, i, steps);
         gm_past_forget(&session->pasts[i], steps);
     }
@@ -405,7 +405,7 @@ static bool apply_change(struct gm_session *session, size_t i, const char *text,
 /* Another change of the same key at the same step. */
 struct overtaking {
     size_t lane;
-    long step;
+    int64_t step;
     const char *text;
 };
 
@@ -423,7 +423,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
         return false;
     }
     /* of several changes of one key at one step only the last one counts */
-    const long step = session->lanes[i]->run->steps;
+    const int64_t step = session->lanes[i]->run->steps;
     gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
     if (!gm_change_add(&session->log, i, step, text)) {
         return short_of_memory(message);
@@ -524,7 +524,7 @@ bool gm_session_advance(struct gm_session *session, double t)
     settle(session);
     struct gm_lane *lane = session->lanes[chosen];
     const double steps = (t - lane->run->t) / lane->run->dt;
-    gm_lane_to(lane, lane->run->steps + (steps > 2 * RECORDS ? (long)fmin(steps / RECORDS, 1e6) : 1),
+    gm_lane_to(lane, lane->run->steps + (steps > 2 * RECORDS ? (int64_t)fmin(steps / RECORDS, 1e6) : 1),
                INFINITY);
     gm_lane_record(lane);
     if (goes(lane)) {
@@ -536,12 +536,12 @@ bool gm_session_advance(struct gm_session *session, double t)
 /* ---- back ---- */
 
 /* Steps a lane up to `steps`, making the logged changes on the way. */
-static void replay(struct gm_session *session, size_t i, long steps)
+static void replay(struct gm_session *session, size_t i, int64_t steps)
 {
     char message[GM_MESSAGE];
     struct gm_lane *lane = session->lanes[i];
     size_t change = 0;
-    long from = lane->run->steps; /* a snapshot holds the changes made at its step */
+    int64_t from = lane->run->steps; /* a snapshot holds the changes made at its step */
     while (lane->run->steps < steps && goes(lane)) {
         gm_run_advance(lane->run, 1);
         gm_lane_record(lane);
@@ -574,7 +574,7 @@ bool gm_session_back(struct gm_session *session, char *message)
     settle(session);
     for (size_t i = 0; i < session->count; i++) {
         struct gm_lane *lane = session->lanes[i];
-        long steps = lane->run->steps;
+        int64_t steps = lane->run->steps;
         if (direction * lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0) {
             continue;
         }

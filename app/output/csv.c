@@ -5,15 +5,23 @@
 #include <stdbool.h>
 #include <string.h>
 
-void gm_csv_put_text(FILE *stream, const char *text)
+void gm_csv_put_quoted(FILE *stream, const char *text)
 {
-    const bool quoted = strpbrk(text, ",\"") != NULL;
-    fputs(quoted ? "\"" : "", stream);
+    fputc('"', stream);
     for (; *text; text++) {
         fputs(*text == '"' ? "\"" : "", stream);
         fputc(*text, stream);
     }
-    fputs(quoted ? "\"" : "", stream);
+    fputc('"', stream);
+}
+
+void gm_csv_put_text(FILE *stream, const char *text)
+{
+    if (strpbrk(text, ",\"")) {
+        gm_csv_put_quoted(stream, text);
+    } else {
+        fputs(text, stream);
+    }
 }
 
 const char *gm_csv_cell(const char *row, size_t index)

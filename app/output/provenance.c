@@ -2,6 +2,7 @@
 /* What a picture tells of itself: the command, the changes in flight, the steps, the failures. */
 #include "app/output/provenance.h"
 
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -185,7 +186,7 @@ char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count)
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        fprintf(stream, "%s%ld", i ? " " : "", lanes[i]->run->steps);
+        fprintf(stream, "%s%" PRId64, i ? " " : "", lanes[i]->run->steps);
     }
     fclose(stream);
     return text;

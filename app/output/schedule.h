@@ -8,7 +8,7 @@
 struct gm_pace {
     bool movie;
     long frames;        /* so many; 0: not given */
-    long every;         /* one every so many steps; 0: not given */
+    int64_t every;      /* one every so many steps; 0: not given */
     double fps, rate;   /* frames, and model time, a second of the movie; NAN: not given */
     double from, at;    /* model time of the first, or of the only one; NAN: not given */
     long shard, shards; /* 0, 0: not given */

@@ -2,6 +2,7 @@
 /* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
 #include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,6 +67,13 @@ static const char *setting_value(const struct gm_request *request, size_t lane, 
     return gm_parameter_format(row, &request->lanes[lane].settings, text, GM_TEXT_SIZE);
 }
 
+static bool has_key(const struct gm_arguments *words, const char *key)
+{
+    char word[96];
+    snprintf(word, sizeof word, "%s=", key);
+    return gm_arguments_have(words, word);
+}
+
 char *gm_request_format(const struct gm_request *request)
 {
     if (request->arguments) {
@@ -78,25 +86,35 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     size_t lists = 0;
+    struct gm_arguments own = {
+        0}; /* what the scene's own lanes name is always told: else it would be theirs */
+    if (request->scene->lanes && !gm_arguments_split(&own, request->scene->lanes)) {
+        gm_arguments_close(&own);
+        fclose(stream);
+        free(text);
+        return NULL;
+    }
     gm_arguments_put_scene(stream, request->scene);
     format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         if (!is_idle(request, row->key)) {
-            format_key(stream, request, row->key, parameter_value, row, row->required ? NULL : row->standard,
-                       &lists);
+            const bool told = row->required || has_key(&own, row->key);
+            format_key(stream, request, row->key, parameter_value, row, told ? NULL : row->standard, &lists);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        format_key(stream, request, row->key, setting_value, row, row->standard, &lists);
+        format_key(stream, request, row->key, setting_value, row,
+                   has_key(&own, row->key) ? NULL : row->standard, &lists);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);
     }
-    if (request->overlay) {
-        fputs(" overlay=yes", stream);
+    if (request->overlay || has_key(&own, "overlay")) {
+        fprintf(stream, " overlay=%s", request->overlay ? "yes" : "no");
     }
+    gm_arguments_close(&own);
     fclose(stream);
     return text;
 }
@@ -111,13 +129,13 @@ char *gm_changes_format(const struct gm_request *request)
     }
     for (size_t i = 0; i < request->change_count; i++) {
         const struct gm_change *change = &request->changes[i];
-        fprintf(stream, "%zu %ld %s\n", change->lane, change->step, change->text);
+        fprintf(stream, "%zu %" PRId64 " %s\n", change->lane, change->step, change->text);
     }
     fclose(stream);
     return text;
 }
 
-bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text)
+bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text)
 {
     struct gm_change *grown =
         realloc(request->changes, (request->change_count + 1) * sizeof *request->changes);
@@ -145,7 +163,7 @@ static bool parse_change(struct gm_request *request, const char *line)
     if (errno || *end != ' ' || !isdigit((unsigned char)end[1]) || lane >= request->count) {
         return false;
     }
-    const long step = strtol(end + 1, &end, 10);
+    const int64_t step = strtoll(end + 1, &end, 10);
     if (errno || *end != ' ' || step > GM_MOST_STEPS || !strchr(end, '=')) {
         return false;
     }
@@ -208,7 +226,7 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
     if (change->step > spec->steps) {
-        return gm_refuse(message, "a change after %ld step%s comes too late: lane %zu makes %ld",
+        return gm_refuse(message, "a change after %" PRId64 " step%s comes too late: lane %zu makes %" PRId64,
                          change->step, gm_plural((double)change->step), change->lane, spec->steps);
     }
     void *parameters = gm_parameters_copy(request->scene, spec->parameters);

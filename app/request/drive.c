@@ -15,13 +15,13 @@
 /* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
    it is known what a step takes, that says how many. In single steps an ensemble that does not fit in the cache
    would go to memory and back for each. */
-static long burst_of(const struct gm_drive *drive)
+static int64_t burst_of(const struct gm_drive *drive)
 {
     static const double at_once = 0.02; /* seconds */
     const struct gm_problem *problem = &drive->lane->problem;
     const double guess = 2e5 / (double)(problem->n * problem->m);
     const double burst = drive->each > 0 ? fmax(guess, at_once / drive->each) : guess;
-    return burst < 1 ? 1 : burst > 1e5 ? 100000 : (long)burst;
+    return burst < 1 ? 1 : burst > 1e5 ? 100000 : (int64_t)burst;
 }
 
 static bool make_changes(struct gm_drive *drive, char *message)
@@ -41,7 +41,7 @@ static bool make_changes(struct gm_drive *drive, char *message)
 }
 
 /* The step before which the next change is due; `step` if none is. */
-static long next_stop(const struct gm_drive *drive, long step)
+static int64_t next_stop(const struct gm_drive *drive, int64_t step)
 {
     const struct gm_request *request = drive->request;
     for (size_t i = drive->next_change; i < request->change_count; i++) {
@@ -57,14 +57,14 @@ static double until_of(const struct gm_drive *drive)
     return drive->stop ? *drive->stop : ((const struct gm_timing *)drive->lane->parameters)->until;
 }
 
-bool gm_drive_goes_on(const struct gm_drive *drive, long step)
+bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step)
 {
     return gm_run_goes_on(drive->lane->run, step, until_of(drive)) && !gm_lane_stopped(drive->lane);
 }
 
-long gm_drive_end(const struct gm_drive *drive, long step)
+int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
 {
-    const long end = gm_run_steps_at(drive->lane->run, until_of(drive));
+    const int64_t end = gm_run_steps_at(drive->lane->run, until_of(drive));
     return end < step ? end : step;
 }
 
@@ -87,7 +87,7 @@ static double asking(void)
 }
 
 /* In single steps, with a row after each. */
-static void trace_to(struct gm_drive *drive, long stop)
+static void trace_to(struct gm_drive *drive, int64_t stop)
 {
     struct gm_lane *lane = drive->lane;
     const struct gm_run *run = lane->run;
@@ -101,10 +101,10 @@ static void trace_to(struct gm_drive *drive, long stop)
 }
 
 /* Makes steps up to `stop` in all, which are timed. */
-static void advance(struct gm_drive *drive, long stop, bool record)
+static void advance(struct gm_drive *drive, int64_t stop, bool record)
 {
     struct gm_lane *lane = drive->lane;
-    const long before = lane->run->steps;
+    const int64_t before = lane->run->steps;
     const bool measured = stop - before > drive->unmeasured;
     const double start = measured ? gm_clock_processor_seconds() : 0;
     if (record) {
@@ -115,12 +115,12 @@ static void advance(struct gm_drive *drive, long stop, bool record)
         /* what it follows on the way costs less than looking at the clock */
         gm_lane_to(lane, stop, until_of(drive));
     }
-    const long made = lane->run->steps - before;
+    const int64_t made = lane->run->steps - before;
     if (measured) {
         const double took = fmax(gm_clock_processor_seconds() - start - asking(), 0);
         drive->seconds += took;
         drive->each = made > 0 ? took / (double)made : 0;
-        drive->unmeasured = (long)(unasked / fmax(drive->each, shortest));
+        drive->unmeasured = (int64_t)(unasked / fmax(drive->each, shortest));
     } else {
         drive->seconds += drive->each * (double)made;
         drive->unmeasured -= made;
@@ -128,7 +128,7 @@ static void advance(struct gm_drive *drive, long stop, bool record)
 }
 
 /* Steps that take long may be worth compiling. */
-static void look_for_engine(struct gm_drive *drive, long step)
+static void look_for_engine(struct gm_drive *drive, int64_t step)
 {
     static const double often = 0.05; /* seconds */
     const struct gm_run *run = drive->lane->run;
@@ -140,18 +140,18 @@ static void look_for_engine(struct gm_drive *drive, long step)
     }
 }
 
-bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
+bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    while (gm_drive_goes_on(drive, LONG_MAX) && !gm_interrupted) {
+    while (gm_drive_goes_on(drive, INT64_MAX) && !gm_interrupted) {
         if (!make_changes(drive, message)) {
             return false;
         }
-        const long before = lane->run->steps, left = next_stop(drive, step) - before;
+        const int64_t before = lane->run->steps, left = next_stop(drive, step) - before;
         if (left <= 0) {
             break;
         }
-        const long burst = record ? 1 : burst_of(drive), stop = before + (left < burst ? left : burst);
+        const int64_t burst = record ? 1 : burst_of(drive), stop = before + (left < burst ? left : burst);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
@@ -165,11 +165,11 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message)
 {
     const struct gm_lane *lane = drive->lane; /* its run is another one after a change of scheme */
-    const long end = drive->request->lanes[drive->index].steps;
-    long before = -1;
+    const int64_t end = drive->request->lanes[drive->index].steps;
+    int64_t before = -1;
     /* until no more turn out to be due: a scheme may choose its steps, and a change have shortened them */
     while (lane->run->steps > before) {
-        const long due = gm_run_steps_by(lane->run, t);
+        const int64_t due = gm_run_steps_by(lane->run, t);
         before = lane->run->steps;
         if (!gm_drive_to(drive, due < end ? due : end, record, message)) {
             return false;

@@ -27,14 +27,14 @@ struct gm_drive {
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
    Stops early on a numerical failure, an interruption, or where a scheme that chooses its steps has come to
    the lane's end. False with a sentence if a change cannot be made. */
-bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
+bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *message);
 
 /* Whether the lane is still on its way to `step` steps in all, or its end (gm_run_goes_on). */
-bool gm_drive_goes_on(const struct gm_drive *drive, long step);
+bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step);
 
 /* The step of its end, `step` or the lane's own, if nothing comes between; of a scheme that chooses its steps
    more than it may make. */
-long gm_drive_end(const struct gm_drive *drive, long step);
+int64_t gm_drive_end(const struct gm_drive *drive, int64_t step);
 
 /* Advances to where the lane is looked at for the time t (gm_run_steps_by), but not beyond its own end. */
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);

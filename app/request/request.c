@@ -99,7 +99,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
             steps != floor(steps)) {
             return gm_refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
         }
-        spec->steps = (long)steps;
+        spec->steps = (int64_t)steps;
         return true;
     }
     const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
@@ -203,7 +203,7 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
         if (!(steps <= (double)GM_MOST_STEPS)) {
             return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
         }
-        spec->steps = (long)steps;
+        spec->steps = (int64_t)steps;
     }
     spec->end = t0 + (double)spec->steps * timing->dt;
     timing->until = steps_given ? spec->end : timing->until;

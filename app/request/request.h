@@ -13,20 +13,20 @@ struct gm_lane_spec {
     void *parameters; /* the scene's own struct */
     struct gm_settings settings;
     const struct gm_scheme *scheme;
-    long steps;   /* from start to until */
-    double until; /* as asked for; NAN where steps= says it */
-    double end;   /* the time of the last step; of a scheme that chooses its steps, what that is to reach */
+    int64_t steps; /* from start to until */
+    double until;  /* as asked for; NAN where steps= says it */
+    double end;    /* the time of the last step; of a scheme that chooses its steps, what that is to reach */
 };
 
 /* A change made in flight: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
 struct gm_change {
     size_t lane;
-    long step;
+    int64_t step;
     char *text; /* of the request; a scheme that was brought along is the word that makes it again */
 };
 
 /* So many steps a lane may make, and changes lie at so many at most. */
-#define GM_MOST_STEPS 1000000000000000L
+#define GM_MOST_STEPS INT64_C(1000000000000000)
 
 struct gm_request {
     const struct gm_scene *scene;
@@ -79,7 +79,7 @@ bool gm_changes_parse(struct gm_request *request, const char *text);
 void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay);
 
 /* Appends one; false when memory is short. */
-bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text);
+bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text);
 /* Closes those for which `drops` says so; NULL: all. */
 void gm_changes_drop(struct gm_request *request,
                      bool (*drops)(const struct gm_change *change, const void *data), const void *data);

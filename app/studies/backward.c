@@ -172,17 +172,17 @@ static double gamma_of(const struct gm_backward_point *point)
 }
 
 /* Runs a lane; `terms` and `y` are scratch. */
-static void run(struct gm_lane *lane, long steps, struct gm_modified_energy *energy, double *y,
+static void run(struct gm_lane *lane, int64_t steps, struct gm_modified_energy *energy, double *y,
                 const struct gm_listener *listener, struct gm_backward_point *point)
 {
     double first[GM_BACKWARD_POWERS], terms[GM_BACKWARD_POWERS];
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
-    const long looks = steps < LOOKS ? steps : LOOKS;
+    const int64_t looks = steps < LOOKS ? steps : LOOKS;
     look(lane, energy, y, first);
-    for (long i = 0; i <= looks && lane->run->status == GM_OK && !gm_listener_stops(listener); i++) {
+    for (int64_t i = 0; i <= looks && lane->run->status == GM_OK && !gm_listener_stops(listener); i++) {
         if (i > 0) {
-            const long step = looks == steps ? i : (long)((double)steps * (double)i / (double)looks);
+            const int64_t step = looks == steps ? i : (int64_t)((double)steps * (double)i / (double)looks);
             gm_lane_to(lane, step, ((const struct gm_timing *)lane->parameters)->until);
             if (gm_lane_stopped(lane)) { /* by a shorter step, whose H~ is another one */
                 break;

@@ -115,7 +115,7 @@ static double error_of(const struct gm_lane *lane, const struct gm_observable *e
 
 /* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
    the way is asked for. */
-static void run_to(struct gm_lane *lane, long steps,
+static void run_to(struct gm_lane *lane, int64_t steps,
                    double (*value)(const struct gm_lane *lane, const struct gm_observable *observable),
                    const struct gm_observable *observable, double *largest,
                    const struct gm_listener *listener)
@@ -124,7 +124,7 @@ static void run_to(struct gm_lane *lane, long steps,
     const double started = gm_clock_processor_seconds();
     while (gm_run_goes_on(lane->run, steps, until) && gm_clock_processor_seconds() - started < most_seconds &&
            !gm_lane_stopped(lane) && !gm_listener_stops(listener)) {
-        const long left = steps - lane->run->steps, burst = largest ? 1 : 1000;
+        const int64_t left = steps - lane->run->steps, burst = largest ? 1 : 1000;
         gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
         if (largest) {
             *largest = fmax(*largest, value(lane, observable));
@@ -137,7 +137,7 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
-    const long some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
+    const int64_t some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
     double before = evaluate(lane, kept), after = -INFINITY, worst = -INFINITY;
     if (plan->settle > 0 && all > 2 * plan->settle && !lane->scheme->family->own_time) {
         run_to(lane, plan->settle, evaluate, kept, &before, listener);

@@ -12,7 +12,7 @@ struct gm_work_point {
     double dt, t;      /* the step, and the time reached */
     double resolution; /* value of the plan's parameter where that varies, or its reciprocal where smaller is
                           finer (gm_work_resolution); else 0 */
-    long steps;
+    int64_t steps;
     double error;   /* NAN where the run failed */
     double seconds; /* processor time, best of several */
     double evaluations, solves;

@@ -45,21 +45,22 @@ static bool stopped(const struct gm_work_table *table)
     return gm_listener_stops(table->listener);
 }
 
-static bool goes_on(const struct gm_work_table *table, const struct gm_lane *lane, long steps)
+static bool goes_on(const struct gm_work_table *table, const struct gm_lane *lane, int64_t steps)
 {
     return gm_run_goes_on(lane->run, steps, timing_of(table)->until) && !gm_lane_stopped(lane);
 }
 
 /* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
    time. A run that its scene may stop is followed in any case. */
-static double run_through(const struct gm_work_table *table, struct gm_lane *lane, long steps, bool follow,
+static double run_through(const struct gm_work_table *table, struct gm_lane *lane, int64_t steps, bool follow,
                           double most)
 {
     const double size = (double)(lane->problem.n * lane->problem.m), until = timing_of(table)->until;
-    const long burst = (long)fmax(1, fmin(1e5, 1e6 / size));
+    const int64_t burst = (int64_t)fmax(1, fmin(1e5, 1e6 / size));
     double spent = 0;
     while (goes_on(table, lane, steps) && spent < most && !stopped(table)) {
-        const long left = steps - lane->run->steps, stop = lane->run->steps + (left < burst ? left : burst);
+        const int64_t left = steps - lane->run->steps,
+                      stop = lane->run->steps + (left < burst ? left : burst);
         const double started = gm_clock_processor_seconds();
         if (follow || lane->scene->stop) {
             gm_lane_to(lane, stop, until);
@@ -75,13 +76,13 @@ static double run_through(const struct gm_work_table *table, struct gm_lane *lan
 static void run_reference(const struct gm_work_table *table, struct gm_lane *lane)
 {
     const size_t all = table->scheme_count * table->step_count * table->resolution_count;
-    const long steps = gm_run_steps_at(lane->run, timing_of(table)->until);
+    const int64_t steps = gm_run_steps_at(lane->run, timing_of(table)->until);
     for (int percent = 0; percent < 100 && !stopped(table); percent++) {
         char what[32];
         snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
         gm_listener_hears(table->listener, what, 0, all);
         const double share = (percent + 1) / 100.;
-        run_through(table, lane, percent < 99 ? (long)(share * (double)steps) : steps, false, INFINITY);
+        run_through(table, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, false, INFINITY);
     }
 }
 
@@ -204,7 +205,7 @@ static double error_behind(const struct gm_work_table *table, const struct gm_la
         problem->exact->solution(problem, lane->run->t, lane->start, state, problem->m);
         error = error_of(table, lane, state);
     } else if (state && gap > 0) {
-        const long steps = (long)fmin(ceil(gap / table->reference_step), 1e5);
+        const int64_t steps = (int64_t)fmin(ceil(gap / table->reference_step), 1e5);
         const struct gm_settings settings = {.compensated = 1};
         struct gm_run *run =
             gm_run_open(problem, table->trusted, &settings, until, gap / (double)steps, reference);
@@ -258,7 +259,7 @@ static void time_runs(struct measuring *measuring)
             return;
         }
         const struct gm_run *run = lane->run;
-        const long steps = gm_run_steps_at(run, timing_of(table)->until);
+        const int64_t steps = gm_run_steps_at(run, timing_of(table)->until);
         const double seconds = run_through(table, lane, steps, false, most_seconds);
         const bool whole = !goes_on(table, lane, steps);
         point->seconds = whole ? fmin(point->seconds, seconds) : point->seconds;
@@ -289,9 +290,9 @@ static void follow_run(struct measuring *measuring)
 {
     enum { SLICES = 100 };
     struct gm_lane *lane = measuring->followed;
-    const long steps = gm_run_steps_at(lane->run, timing_of(measuring->table)->until);
+    const int64_t steps = gm_run_steps_at(lane->run, timing_of(measuring->table)->until);
     for (int i = 1; i <= SLICES && !atomic_load(&measuring->needless); i++) {
-        const long slice = i < SLICES ? (long)((double)steps * i / SLICES) : steps;
+        const int64_t slice = i < SLICES ? (int64_t)((double)steps * i / SLICES) : steps;
         run_through(measuring->table, lane, slice, true, INFINITY);
     }
     measuring->recalled = error_of(measuring->table, lane, NULL);

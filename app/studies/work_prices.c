@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an error costs, of the points that were measured: the best ones where the resolution varies, prices,
    the table as CSV. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -169,7 +170,7 @@ bool gm_work_write(const struct gm_work_table *table, const char *path)
             if (table->resolution) {
                 fprintf(csv, "%.17g,", gm_work_resolution(table, point->resolution));
             }
-            fprintf(csv, "%.17g,%ld,%.17g,%s,", point->dt, point->steps, point->t,
+            fprintf(csv, "%.17g,%" PRId64 ",%.17g,%s,", point->dt, point->steps, point->t,
                     gm_status_name(point->status));
             if (isfinite(point->error)) {
                 fprintf(csv, "%.17g", point->error);

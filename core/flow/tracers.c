@@ -113,7 +113,7 @@ static void enter_with_air(const struct gm_flow *flow, double share, struct gm_f
 }
 
 /* Where a tracer comes in, at its step: with the air of inlets or, every fourth of smoke, at a source. */
-static void enter(const struct gm_flow *flow, size_t tracer, long step, struct gm_flow_place *place)
+static void enter(const struct gm_flow *flow, size_t tracer, int64_t step, struct gm_flow_place *place)
 {
     const bool smokes = flow->smoking_count > 0 && (tracer % 4 == 0 || flow->inflow.count == 0);
     double w[3];
@@ -151,7 +151,7 @@ static double incoming(const struct gm_flow *flow, double dt)
                : 0.5;
 }
 
-void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
                       const double *y, double *out)
 {
     const struct gm_complex *complex = flow->complex;

@@ -8,7 +8,7 @@
    interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: nothing else is
    read or written. Who leaves through an outlet comes back at the inflow, at a place that `step` and its
    number decide. */
-void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
                       const double *y, double *out);
 
 /* Has the tracers of the start y wait outside, to come in one after the other. */

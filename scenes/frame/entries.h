@@ -8,12 +8,12 @@
 
 struct gm_entries { /* the record of one track */
     size_t width, count;
-    size_t kept;    /* entries in memory; count is less while an earlier step is looked at */
-    long every;     /* of the intervals, this many make one entry (doubled by thinning) */
-    double *times;  /* count */
-    long *steps;    /* count: after how many steps each was made */
-    double *values; /* count * width */
-    long skipped;   /* of a section: so many crossings more go unrecorded (after thinning) */
+    size_t kept;     /* entries in memory; count is less while an earlier step is looked at */
+    int64_t every;   /* of the intervals, this many make one entry (doubled by thinning) */
+    double *times;   /* count */
+    int64_t *steps;  /* count: after how many steps each was made */
+    double *values;  /* count * width */
+    int64_t skipped; /* of a section: so many crossings more go unrecorded (after thinning) */
     /* of a section: its value after the step before, for each of so many members that have their own; NAN: not
        known */
     double *before;

@@ -38,7 +38,7 @@ static void merge_pairs(struct gm_history *history)
     history->in_last = history->per_bin;
 }
 
-void gm_history_add(struct gm_history *history, double t, long step, const double *values)
+void gm_history_add(struct gm_history *history, double t, int64_t step, const double *values)
 {
     if (history->count == GM_HISTORY_BINS && history->in_last == history->per_bin) {
         merge_pairs(history);
@@ -64,7 +64,7 @@ void gm_history_add(struct gm_history *history, double t, long step, const doubl
     history->kept = history->count;
 }
 
-void gm_history_show(struct gm_history *history, long step)
+void gm_history_show(struct gm_history *history, int64_t step)
 {
     if (history->series == 0) {
         return;

@@ -258,7 +258,7 @@ static bool make_together(struct gm_lane *lane, size_t count, double *states)
 
 /* Makes steps as far as the lane is not stopped by the next ones, which are followed one by one then: to look
    at each takes longer than a short step. */
-static void follow_together(struct gm_lane *lane, long steps)
+static void follow_together(struct gm_lane *lane, int64_t steps)
 {
     enum { TOGETHER = 64 };
     struct gm_run *run = lane->run;
@@ -278,13 +278,13 @@ static void follow_together(struct gm_lane *lane, long steps)
     follow(lane);
 }
 
-enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
+enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
 {
     if (lane->scene->follow == 0 || lane->unfollowed) {
         return gm_run_to(lane->run, steps, until);
     }
     /* steps that the scheme chooses may each be as long as many */
-    const long most = lane->scheme->family->own_time ? 1 : lane->scene->follow;
+    const int64_t most = lane->scheme->family->own_time ? 1 : lane->scene->follow;
     bool stopped = gm_lane_stopped(lane);
     if (lane->followed > lane->run->steps) { /* it was set back */
         lane->followed = lane->run->steps;
@@ -293,7 +293,7 @@ enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
         follow_together(lane, steps);
     }
     while (!stopped && gm_run_goes_on(lane->run, steps, until)) {
-        const long due = lane->followed + most;
+        const int64_t due = lane->followed + most;
         gm_run_to(lane->run, due < steps ? due : steps, until);
         if (lane->run->steps >= due || lane->run->status != GM_OK) {
             stopped = follow(lane);
@@ -408,7 +408,7 @@ void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named)
 
 static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
 {
-    const long step = lane->run->steps;
+    const int64_t step = lane->run->steps;
     struct gm_switch *longer = realloc(lane->switches, (lane->switch_count + 1) * sizeof *lane->switches);
     if (!longer) {
         return false;
@@ -429,7 +429,7 @@ static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
     return true;
 }
 
-static void show_switches(struct gm_lane *lane, long step)
+static void show_switches(struct gm_lane *lane, int64_t step)
 {
     lane->switch_count = lane->switches_kept;
     while (lane->switch_count > 0 && lane->switches[lane->switch_count - 1].step > step) {
@@ -670,7 +670,7 @@ bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
     if (!gm_run_load(lane->run, snapshot)) {
         return false;
     }
-    const long step = lane->run->steps;
+    const int64_t step = lane->run->steps;
     lane->scheme = lane->run->scheme;
     ((struct gm_timing *)lane->parameters)->dt = lane->run->dt;
     show_switches(lane, step);

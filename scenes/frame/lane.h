@@ -18,7 +18,7 @@ struct gm_shown {
 /* A scheme that took over in flight, after so many steps. */
 struct gm_switch {
     const struct gm_scheme *scheme;
-    long step;
+    int64_t step;
     double t;
 };
 
@@ -44,8 +44,8 @@ struct gm_lane {
     struct gm_worked *worked;   /* GM_WORKED */
     struct gm_behind behind;    /* of sections, and of the stop */
     int side; /* of the scene's stop at the start: -1 below 0, 1; 0: on it, until the first step leaves it */
-    long followed;   /* after how many steps it was looked at last */
-    bool unfollowed; /* nobody asks what lies on the way: gm_lane_to makes its steps at once */
+    int64_t followed; /* after how many steps it was looked at last */
+    bool unfollowed;  /* nobody asks what lies on the way: gm_lane_to makes its steps at once */
 };
 
 /* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_MESSAGE bytes) if the
@@ -87,7 +87,7 @@ bool gm_lane_stopped(const struct gm_lane *lane);
 
 /* Advances to an end (gm_run_to), or to where it is stopped, following on the way as the scene asks; records
    nothing. */
-enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until);
+enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until);
 
 /* How the lane is called, and its panel and colour. */
 void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named);

@@ -68,11 +68,11 @@ static void pass_run(struct walk *walk, struct gm_run *run)
 }
 
 /* Steps of a record, in order, none after the run's; `stride` lies between one and the next. */
-static bool are_steps(const long *steps, size_t count, size_t stride, long last)
+static bool are_steps(const int64_t *steps, size_t count, size_t stride, int64_t last)
 {
-    long before = 0;
+    int64_t before = 0;
     for (size_t i = 0; i < count; i++) {
-        const long step = *(const long *)(const void *)((const char *)steps + i * stride);
+        const int64_t step = *(const int64_t *)(const void *)((const char *)steps + i * stride);
         if (step < before || step > last) {
             return false;
         }
@@ -82,12 +82,12 @@ static bool are_steps(const long *steps, size_t count, size_t stride, long last)
 }
 
 /* Numbers that are doubled, or counted on, and must not pass what a long holds. */
-static bool can_grow(long number)
+static bool can_grow(int64_t number)
 {
-    return number >= 0 && number <= LONG_MAX / 4;
+    return number >= 0 && number <= INT64_MAX / 4;
 }
 
-static void pass_history(struct walk *walk, struct gm_history *history, long last)
+static void pass_history(struct walk *walk, struct gm_history *history, int64_t last)
 {
     pass_count(walk, &history->count, GM_HISTORY_BINS);
     pass(walk, &history->per_bin, sizeof history->per_bin);
@@ -104,7 +104,7 @@ static void pass_history(struct walk *walk, struct gm_history *history, long las
 }
 
 static void pass_entries(struct walk *walk, struct gm_entries *entries, const struct gm_track *track,
-                         long last)
+                         int64_t last)
 {
     pass_count(walk, &entries->count, track->bound);
     pass(walk, &entries->every, sizeof entries->every);
@@ -124,7 +124,7 @@ static void pass_entries(struct walk *walk, struct gm_entries *entries, const st
 static void walk_lane(struct walk *walk, struct gm_lane *lane)
 {
     pass_run(walk, lane->run);
-    const long last = lane->run->steps;
+    const int64_t last = lane->run->steps;
     pass(walk, &lane->side, sizeof lane->side);
     walk->damaged |= lane->side < -1 || lane->side > 1;
     pass_history(walk, &lane->history, last);

@@ -130,7 +130,8 @@ struct gm_stability {
     size_t step_count;
     const char *
         kept; /* key of the observable that is lost below half of its start, gained above twice; NULL: none */
-    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
+    int64_t
+        settle; /* where that swings by itself: the largest value of so many first steps is compared to that
                     of so many last ones; 0: the end to the start */
     const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
     bool throughout;            /* its largest value on the way counts, and not that at the end */
@@ -192,7 +193,7 @@ struct gm_scene {
     size_t figure_count;
     const struct gm_work *work;
     const struct gm_stability *stability; /* NULL: the scene has no such map */
-    long
+    int64_t
         follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
 
     /* The time at the start; NULL: 0. */

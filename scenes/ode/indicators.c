@@ -81,7 +81,7 @@ static const struct gm_growth *followed_to(const struct gm_view *view)
 {
     struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
     struct followed *followed = worked->data;
-    const long steps = view->run->steps;
+    const int64_t steps = view->run->steps;
     const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
     if (followed && (earlier || followed->scheme != view->scheme)) {
         worked->data = NULL; /* another scheme, or an earlier step is looked at */

@@ -79,8 +79,10 @@ grep -q '^ *slope .*1\.0.*3\.0.*5\.0' out || fail "no slopes: $(cat out)"
 status 0 work-precision kepler scheme=verlet dt=.02,.01 until=3 --measure modified_energy2_error --size 320x180
 awk -F, 'NR > 1 { if (last && (last / $8 < 12 || last / $8 > 20)) exit 1; last = $8 }' kepler-work-precision.csv ||
     fail "the modified energy is not of order 4 in work-precision"
-for scene in disc kepler henon-heiles stiff vortices oscillator; do
-    status 0 render $scene scheme=midpoint,rk4 until=.5 show=modified --size 320x180 -o $scene.svg
+for words in disc kepler 'henon-heiles q2=.1 overlay=no' stiff vortices oscillator; do
+    scene=${words%% *}
+    # shellcheck disable=SC2086
+    status 0 render $words scheme=midpoint,rk4 until=.5 show=modified --size 320x180 -o $scene.svg
     grep -q 'not symplectic' $scene.svg || fail "$scene: no reason in the picture"
 done
 [ "$failures" = 0 ] && echo "backward: all passed"

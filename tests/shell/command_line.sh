@@ -116,11 +116,11 @@ status 1 --theme light
 cmp -s err tui.err || fail "--theme without a command: $(cat err)"
 refused 1 'there is no option --foo' --foo
 # a number and its noun
-status 0 render disc scheme=rk4 until=1 --frames 1 --size 64x64 --out one
-[ "$(cat err)" = 'geomint: wrote 1 frame, one/disc-render-*.png' ] || fail "1 frame: $(cat err)"
-status 0 render disc scheme=rk4 until=1 --frames 1 --size 64x64 --out one
+status 0 render disc scheme=rk4 steps=9 --frames 1 --size 64x64 --out single
+[ "$(cat err)" = 'geomint: wrote 1 frame, single/disc-render-*.png' ] || fail "1 frame: $(cat err)"
+status 0 render disc scheme=rk4 steps=9 --frames 1 --size 64x64 --out single
 grep -q '1 of 1 frame is there already' err || fail "1 frame is there: $(cat err)"
-status 0 sweep disc scheme=rk4 until=1 --table one.csv
+status 0 sweep disc scheme=rk4 until=1 --table single.csv
 grep -q '1 of 1 run made now' err || fail "1 run: $(cat err)"
 refused 1 'whole number' run disc steps=-1
 refused 1 'equal length' run disc scheme=rk2,rk4 dt=1,2,3 zip=yes

@@ -77,6 +77,13 @@ if [ -n "$found" ]; then
     status=1
 fi
 
+# a count of steps has 64 bits wherever it is compiled, and a long has not
+found=$(grep -rnE --include='*.[ch]' '\blong \*?steps?( =|;|,|\)| <)|task->steps.*\blong\b' core render scenes app library)
+if [ -n "$found" ]; then
+    printf 'a count of steps is an int64_t:\n%s\n' "$found"
+    status=1
+fi
+
 # every include of the project's own names its folder
 found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app library tests |
     grep -vE '"(core|render|scenes|app|library|tests)/')

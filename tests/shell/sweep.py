@@ -240,6 +240,7 @@ def test_statuses(folder):
     # a run that is ok and yet lost what it should keep has its warning beside its status
     alone = subprocess.run([geomint, "run", *words[:1], "scheme=explicit-euler", "dt=0.1", "until=100", "points=3",
                             "--json"], capture_output=True, text=True)
+    check(content(table).splitlines()[1].count(b',ok,"') == 1, "in quotes")
     warnings = [row["warning"] for row in found]
     check(warnings[0] == json.loads(alone.stdout)["warning"] != "" and warnings[1:] == [""] * 3, f"{warnings}")
     done = sweep(*words, "--retry", "warning")

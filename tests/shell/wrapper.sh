@@ -198,7 +198,7 @@ fi
 run "$folder/geomint" demo
 check "the demonstration is made" same "$status" 0
 check "with the library, for Python" says log '/build -n app/geomint library/libgeomint.so.1'
-check "it says how long it takes" says err 'which take about a minute'
+check "it says how long it takes" says err 'which take about half a minute'
 check "and what each picture shows" says err 'RK4 loses energy'
 check "as it makes it" says out '<render><kepler><scheme=rk4,rk4sym>'
 check "in its folder" says out "$folder/demo"

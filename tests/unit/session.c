@@ -306,6 +306,42 @@ static void names_follow_changes(void **unused)
     gm_session_close(&session);
 }
 
+/* Lanes as words are these lanes again, where the scene has others of its own. */
+static void words_are_whole(void **unused)
+{
+    (void)unused;
+    static char *const typed[][3] = {{"burgers", "scheme=ftcs", "lambda=0"},
+                                     {"henon-heiles", "scheme=verlet,rk4", "q2=.1"},
+                                     {"kdv", "scheme=box", "dt=.05"}};
+    for (size_t i = 0; i < GM_COUNT(typed); i++) {
+        struct gm_request request, again;
+        struct gm_session session;
+        bool restart = false;
+        assert_true(gm_request_parse(&request, 3, typed[i], 1, message));
+        assert_true(gm_session_open(&session, &request, message));
+        const struct gm_parameter *until = gm_scene_parameter(session.scene, "until");
+        assert_true(gm_session_set(&session, 0, until, false, "3", &restart, message));
+        assert_true(gm_session_restart(&session, message)); /* these are not the typed words any more */
+        char *text = gm_request_format(&session.log);
+        struct gm_arguments words = {0};
+        assert_true(text && gm_arguments_split(&words, text));
+        assert_true(gm_request_parse(&again, words.count, words.words, GM_RENDER_SCHEMES, message));
+        assert_int_equal(again.count, request.count);
+        assert_int_equal(again.overlay, request.overlay);
+        for (size_t k = 0; k < again.count; k++) {
+            assert_ptr_equal(again.lanes[k].scheme, request.lanes[k].scheme);
+            struct gm_timing *timing = request.lanes[k].parameters;
+            timing->until = 3;
+            assert_memory_equal(again.lanes[k].parameters, timing, session.scene->size);
+        }
+        gm_request_close(&again);
+        gm_arguments_close(&words);
+        free(text);
+        gm_session_close(&session);
+        gm_request_close(&request);
+    }
+}
+
 /* What is out of range is refused as on the command line, by the same sentence. */
 static void ranges_hold(void **unused)
 {
@@ -641,19 +677,13 @@ static void searches_prefer_names(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(past_is_visited),
-        cmocka_unit_test(forks_share_the_past),
-        cmocka_unit_test(time_runs_both_ways),
-        cmocka_unit_test(lanes_are_overlaid),
-        cmocka_unit_test(names_follow_changes),
-        cmocka_unit_test(ranges_hold),
-        cmocka_unit_test(sliders_move_finely),
-        cmocka_unit_test(sliders_tell_places),
-        cmocka_unit_test(switches_are_told),
-        cmocka_unit_test(searches_prefer_names),
-        cmocka_unit_test(sliders_walk_through_words),
-        cmocka_unit_test(long_texts_stay_whole),
-        cmocka_unit_test(what_was_asked_for_is_saved),
+        cmocka_unit_test(past_is_visited),       cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways),   cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(names_follow_changes),  cmocka_unit_test(ranges_hold),
+        cmocka_unit_test(words_are_whole),       cmocka_unit_test(sliders_move_finely),
+        cmocka_unit_test(sliders_tell_places),   cmocka_unit_test(switches_are_told),
+        cmocka_unit_test(searches_prefer_names), cmocka_unit_test(sliders_walk_through_words),
+        cmocka_unit_test(long_texts_stay_whole), cmocka_unit_test(what_was_asked_for_is_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -479,7 +479,7 @@ static const struct {
      "coordinates: dt\nH: q\n",
      1, 14, "the name dt is reserved"},
     {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice"},
-    {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
+    {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinate"},
     {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 3, 8, "p_q has no value at the start"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, r = 2\n", 3, 15, "no name r"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, q = 2\n", 3, 15, "start: q is said twice"},

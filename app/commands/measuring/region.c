@@ -41,7 +41,7 @@ static double place(const struct region *region, size_t i)
 }
 
 /* Whether the family keeps more than one step in mind. */
-static long steps_of(const struct gm_scheme *scheme)
+static int64_t steps_of(const struct gm_scheme *scheme)
 {
     return scheme->family->not_resumable ? 24 : 1;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint work-precision: error against run time and evaluations. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -69,7 +70,7 @@ static void print_json_point(const struct gm_work_table *table, const struct gm_
         printf(",");
     }
     gm_json_number_pair("dt", point->dt);
-    printf(",\"steps\":%ld,", point->steps);
+    printf(",\"steps\":%" PRId64 ",", point->steps);
     gm_json_number_pair("t", point->t);
     printf(",\"status\":\"%s\",", gm_status_name(point->status));
     gm_json_number_pair("error", point->error);

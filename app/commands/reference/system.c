@@ -538,7 +538,10 @@ static bool tidy(struct report *report, gm_node_id *node)
 {
     const struct gm_naming naming = gm_system_naming(&report->system);
     if (*node != GM_NO_NODE && report->system.graph.places[*node] == GM_NO_PLACE) {
-        *node = gm_formula_tidied(&report->system.graph, *node, &naming);
+        const gm_node_id tidied = gm_formula_tidied(&report->system.graph, *node, &naming);
+        char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
+        *node = text ? tidied : *node; /* what is multiplied out may be too long to be read */
+        free(text);
     }
     return !report->system.graph.failed;
 }

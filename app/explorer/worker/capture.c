@@ -3,6 +3,7 @@
 #include "app/explorer/worker/capture.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -128,14 +129,14 @@ static void put_arguments(FILE *stream, const char *text, bool view)
 /* Where the lanes are: the steps, if they have made equally many. */
 static void put_end(FILE *stream, const struct gm_session *session)
 {
-    long steps = session->lanes[0]->run->steps;
+    int64_t steps = session->lanes[0]->run->steps;
     for (size_t i = 1; i < session->count; i++) {
         if (session->lanes[i]->run->steps != steps) {
             fprintf(stream, " until=%.17g", gm_session_time(session));
             return;
         }
     }
-    fprintf(stream, " steps=%ld", steps);
+    fprintf(stream, " steps=%" PRId64, steps);
 }
 
 static void put_changes(FILE *stream, const struct gm_request *log)
@@ -145,7 +146,7 @@ static void put_changes(FILE *stream, const struct gm_request *log)
     FILE *changes = log->change_count > 0 ? open_memstream(&list, &size) : NULL;
     for (size_t i = 0; changes && i < log->change_count; i++) {
         const struct gm_change *change = &log->changes[i];
-        fprintf(changes, "%s%zu:%ld:%s", i == 0 ? "" : ",", change->lane, change->step, change->text);
+        fprintf(changes, "%s%zu:%" PRId64 ":%s", i == 0 ? "" : ",", change->lane, change->step, change->text);
     }
     if (changes && fclose(changes) == 0) {
         fputs(" --changes ", stream);

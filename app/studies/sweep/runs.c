@@ -2,6 +2,7 @@
 /* The runs of a sweep: from a number to a run, and from a run to a row. */
 #include "app/request/interrupt.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -315,10 +316,12 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
 {
     const struct gm_lane *lane = drive->lane;
     fprintf(stream, "%s,", status);
-    gm_csv_put_text(stream, warning);
+    if (warning[0]) {
+        gm_csv_put_quoted(stream, warning);
+    }
     if (lane) {
         const struct gm_run *run = lane->run;
-        fprintf(stream, ",%.17g,%ld,%.0f,%.0f,%.6g", run->t, run->steps,
+        fprintf(stream, ",%.17g,%" PRId64 ",%.0f,%.0f,%.6g", run->t, run->steps,
                 gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
                 drive->seconds);
     } else {
@@ -419,9 +422,9 @@ static double seconds_of(const struct gm_sweep *sweep, size_t run)
         gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message) &&
         (drive.lane = gm_request_open_lane(&request, 0, message))) {
         const struct gm_run *state = drive.lane->run;
-        const long steps = request.lanes[0].steps;
+        const int64_t steps = request.lanes[0].steps;
         seconds = gm_clock_seconds() - started;
-        for (long goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
+        for (int64_t goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
              goal *= 2) {
             gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
         }

@@ -190,7 +190,7 @@ static double *refine(const struct gm_certified_system *system, const struct gm_
     double *end = malloc(n * sizeof *end);
     bool good = end && gm_field_begin(&subject, system->start);
     if (good) {
-        good = gm_run_advance(subject.run, (long)STEPS << k) == GM_OK;
+        good = gm_run_advance(subject.run, (int64_t)STEPS << k) == GM_OK;
         memcpy(end, gm_run_state(subject.run), n * sizeof *end);
         refined->dt[k] = system->dt;
         refined->error[k] = system->error ? system->error(system->error_data, subject.run->t, end) : NAN;

@@ -354,7 +354,7 @@ static struct gm_progress advance(const struct gm_task *task)
     if (work->companion[0]) {
         memcpy(work->companion[0], task->y + points, size);
     }
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         const double t = task->t0 + (double)(task->n + k + 1) * task->dt;
         progress.status = make_step(task, burgers, work->level, work->scratch, t, &progress);
         if (progress.status != GM_OK) {

@@ -166,7 +166,7 @@ static struct gm_progress advance(const struct gm_task *task)
         .sigma = fixed ? 0 : heat->lambda * task->dt,
     };
     memcpy(work->level[0], task->y, work->points * sizeof(double));
-    for (long i = 0; i < task->steps; i++) {
+    for (int64_t i = 0; i < task->steps; i++) {
         const double t = task->t0 + (double)(task->n + i + 1) * task->dt;
         step.u = work->level[i % 2];
         step.v = work->level[(i + 1) % 2];

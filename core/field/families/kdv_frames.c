@@ -265,7 +265,7 @@ static struct gm_progress advance(const struct gm_task *task)
     memcpy(work->level[1], task->y, size);
     memcpy(work->level[0], task->y + points, size);
     close_ring(work->level[1], points);
-    for (long i = 0; i < task->steps; i++) {
+    for (int64_t i = 0; i < task->steps; i++) {
         if (i == 0 && back) { /* along the levels it came from */
             memcpy(work->level[2], task->y + points, size);
             close_ring(work->level[2], points);

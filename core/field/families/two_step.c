@@ -95,7 +95,7 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     } else if (row->keeps_change) {
         subtract(work->change, task->y, task->y + points, points);
     }
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         if (k > 0 || regular) {
             progress.status =
                 row->step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);

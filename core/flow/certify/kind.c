@@ -124,7 +124,7 @@ static bool solve_by_gsl(const struct gm_flow *flow, double until, double *omega
 
 /* A run of a scheme; NULL when memory is short. */
 static struct gm_run *run_for(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                              long steps, const double *start)
+                              int64_t steps, const double *start)
 {
     const struct gm_settings settings = {0};
     struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, dt, start);
@@ -149,7 +149,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
     bool good = gm_flow_start_vorticity(flow, exact, start);
     memcpy(exact, gm_flow_block(flow, start, GM_FLOW_OMEGA), flow->complex->vertices * sizeof *exact);
     good = good && solve_by_gsl(flow, until, exact);
-    long steps = 64;
+    int64_t steps = 64;
     for (int i = 0; good && i < LADDER; i++, steps *= 2) {
         struct gm_run *run = run_for(&problem, scheme, until / (double)steps, steps, start);
         good = run && run->status == GM_OK;

@@ -31,7 +31,7 @@ static double measure_order(const struct gm_mesh_subject *subject, const struct 
     const size_t half = subject->problem.n / 2;
     double before[MOST] = {0}, previous = 0, order = NAN, t_before = 0;
     for (int i = 0; i < STEPS; i++) {
-        const long steps = 5L << i;
+        const int64_t steps = INT64_C(5) << i;
         struct gm_run *run =
             gm_run_open(&subject->problem, scheme, &settings, 0, until / (double)steps, subject->start);
         if (!run || gm_run_advance(run, steps) != GM_OK) {
@@ -153,7 +153,7 @@ static double symplecticity_defect(const struct gm_mesh_subject *subject, const 
 }
 
 static double energy_drift(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                           long steps)
+                           int64_t steps)
 {
     const double initial = gm_mesh_energy(&subject->mesh, subject->start);
     double state[MOST];

@@ -30,7 +30,7 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
 }
 
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                             long steps, const double *from, double *end)
+                             int64_t steps, const double *from, double *end)
 {
     struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
     if (!run) {

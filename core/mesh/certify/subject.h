@@ -36,7 +36,7 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
 
 /* Steps of a run that starts from the state `from`; false if it fails. */
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                             long steps, const double *from, double *end);
+                             int64_t steps, const double *from, double *end);
 
 /* Numbers that follow from a start; false if it fails. */
 typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,

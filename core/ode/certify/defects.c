@@ -293,7 +293,7 @@ double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme
 static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  bool reflected)
 {
-    const long steps = scheme->family->own_time ? 3 : 1;
+    const int64_t steps = scheme->family->own_time ? 3 : 1;
     const size_t n = gm_subject_components(subject, scheme);
     const double scale = subject->scale > 0 ? subject->scale : 1, push = 1e-12 * scale;
     double start[MOST], back[MOST], pushed[MOST];

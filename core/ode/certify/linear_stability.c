@@ -38,7 +38,7 @@ enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 
 /* |y| after `steps` steps from y, all of length h. */
 static double grown(const struct gm_problem *problem, const struct gm_scheme *scheme, double h,
-                    const double *y, long steps, double *end)
+                    const double *y, int64_t steps, double *end)
 {
     const struct gm_settings settings = {.binding = 20, .tau0 = 0.1, .newmark_beta = 0.25};
     struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, h, y);
@@ -63,7 +63,7 @@ static double spectral_radius(double a, double b, double c, double d)
     return square < 0 ? sqrt(determinant) : fabs(half) + sqrt(square);
 }
 
-double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, long steps)
+double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, int64_t steps)
 {
     switch (gm_linear_test_of(scheme)) {
     case GM_TEST_PLANE: {
@@ -183,13 +183,13 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 }
 
 /* What a step adds to 1 at the distance x. */
-static double excess(const struct gm_scheme *scheme, double re, double im, double x, long steps)
+static double excess(const struct gm_scheme *scheme, double re, double im, double x, int64_t steps)
 {
     const double growth = gm_linear_growth(scheme, x * re, x * im, steps);
     return isnan(growth) ? INFINITY : growth - 1;
 }
 
-double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, long steps)
+double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, int64_t steps)
 {
     enum { SAMPLES = 5000, HALVINGS = 40 };
     const double rounding = 1e-7, noise = 1e-12;

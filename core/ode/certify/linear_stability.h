@@ -14,7 +14,7 @@ enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme);
 
 /* |y| after a step by |y| before it, found by stepping: in the long run, over `steps` steps, for methods that
    remember more than one. NAN where the step fails. re, im: z; the oscillator takes re = 0. */
-double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, long steps);
+double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, int64_t steps);
 
 /* The same from the coefficients: |R(z)| of a Runge-Kutta method, the spectral radius of a splitting. NAN for
    families whose coefficients say nothing of it. */
@@ -23,6 +23,6 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 /* How far from 0 along the direction (re, im), of length 1, nothing grows: `reach` where nothing does up to
    there. Growth within the rounding of a symplectic map, 1e-7, is none; but where the excess over 1 falls
    from there towards 0 like a power of the distance, every step grows and the limit is 0. */
-double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, long steps);
+double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, int64_t steps);
 
 #endif

@@ -42,13 +42,13 @@ void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *
 
 /* Makes `steps` steps of m members, whole and end [component * m + member]; false if it fails. */
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        long steps, size_t m, const double *whole, double *end);
+                        int64_t steps, size_t m, const double *whole, double *end);
 
 /* Where a run that turns round after `steps` steps is after so many more: by the step -dt, or with p
    reflected in every copy of phase space; where it turns, the first component is pushed by `push`, if it is
    not 0. It remembers what the scheme remembers. False if a step fails. */
-bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt, long steps,
-                     bool reflected, double push, double *end);
+bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                     int64_t steps, bool reflected, double push, double *end);
 
 /* The order: the slope of log error against log dt, against GSL's Prince-Dormand stepper at its tightest
    tolerance. NaN if it cannot be measured: then nothing is settled. */

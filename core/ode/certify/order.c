@@ -45,7 +45,7 @@ static bool solve_at_times(const struct gm_subject *subject, double until,
 
 /* NaN if the run fails */
 static double error_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                       const struct gm_settings *settings, double dt, long steps_between,
+                       const struct gm_settings *settings, double dt, int64_t steps_between,
                        double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
     struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
@@ -135,10 +135,10 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     /* the finest steps, a factor of two apart, whose error stands clear of round-off */
     double x[GM_LADDER], e[GM_LADDER];
     int count = 0;
-    long between = 0;
+    int64_t between = 0;
     /* of the highest orders that is where steps are large */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
-        const long before = between;
+        const int64_t before = between;
         const double finer = (own_time ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
         between = lround(finer);
         if (!own_time && between == before) {

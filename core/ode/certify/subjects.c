@@ -213,7 +213,7 @@ void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *
 
 /* The map of both copies of phase space, which no run shows: the memory is given and taken. */
 static bool advance_doubled(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            const struct gm_settings *settings, double dt, long steps, const double *whole,
+                            const struct gm_settings *settings, double dt, int64_t steps, const double *whole,
                             double *end)
 {
     const size_t count = problem->n * problem->m;
@@ -246,7 +246,7 @@ static struct gm_settings settings_for(double dt)
 }
 
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        long steps, size_t m, const double *whole, double *end)
+                        int64_t steps, size_t m, const double *whole, double *end)
 {
     const struct gm_settings settings = settings_for(dt);
     struct gm_problem problem = subject->problem;
@@ -275,7 +275,7 @@ static void reflect(const struct gm_subject *subject, const struct gm_scheme *sc
 
 /* Two copies of phase space remember nothing else. */
 static bool turn_doubled(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                         long steps, bool reflected, double push, double *end)
+                         int64_t steps, bool reflected, double push, double *end)
 {
     double start[2 * GM_SUBJECT_COMPONENTS], there[2 * GM_SUBJECT_COMPONENTS];
     gm_subject_start(subject, scheme, start);
@@ -293,8 +293,8 @@ static bool turn_doubled(const struct gm_subject *subject, const struct gm_schem
     return good;
 }
 
-bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt, long steps,
-                     bool reflected, double push, double *end)
+bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                     int64_t steps, bool reflected, double push, double *end)
 {
     if (scheme->family->doubled) {
         return turn_doubled(subject, scheme, dt, steps, reflected, push, end);

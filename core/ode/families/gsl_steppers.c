@@ -33,7 +33,7 @@ struct workspace {
     double dt, tolerance;        /* that the drivers were set for */
     double *state;               /* n * m, after the last good step */
     double *y;                   /* n */
-    long good;                   /* that step, counted from the run's first */
+    int64_t good;                /* that step, counted from the run's first */
     enum gm_status status;       /* why the step after it failed */
 };
 
@@ -184,7 +184,7 @@ static bool set_up(const struct gm_task *task, struct workspace *workspace)
 
 struct stretch {
     const struct gm_task *task;
-    long done;
+    int64_t done;
 };
 
 /* Under the guard: a stepper solves its linear equations in memory that it takes at every step. */

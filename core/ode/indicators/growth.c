@@ -29,7 +29,7 @@ struct gm_growth {
     /* What they were after 0, every, 2 every ... steps; when all are full every other one goes. */
     struct sums records[RECORDS];
     size_t recorded;
-    long every;
+    int64_t every;
 };
 
 /* Whether the last component is the time: orbits beside one another have the same. */
@@ -91,7 +91,7 @@ void gm_growth_close(struct gm_growth *growth)
     free(growth);
 }
 
-static void record(struct gm_growth *growth, long steps)
+static void record(struct gm_growth *growth, int64_t steps)
 {
     if (steps % growth->every != 0) {
         return;
@@ -117,18 +117,18 @@ static void add(struct gm_growth *growth, double step, double length)
     sums->average += sums->time > 0 ? 2 * sums->moment / sums->time * step : 0;
 }
 
-bool gm_growth_to(struct gm_growth *growth, long steps)
+bool gm_growth_to(struct gm_growth *growth, int64_t steps)
 {
     struct gm_stretch made[BLOCK];
     const struct gm_run *run = growth->run;
     while (!growth->failed && run->steps < steps) {
-        const long before = run->steps, left = steps - before;
+        const int64_t before = run->steps, left = steps - before;
         const size_t block = left < BLOCK ? (size_t)left : BLOCK;
         double t = run->t;
         const size_t count = gm_tangent_advance(growth->tangent, growth->v, block, made);
         for (size_t i = 0; i < count; i++) {
             add(growth, fabs(made[i].t - t), made[i].length);
-            record(growth, before + (long)i + 1);
+            record(growth, before + (int64_t)i + 1);
             t = made[i].t;
         }
         growth->failed = count < block;
@@ -141,7 +141,7 @@ const double *gm_growth_state(const struct gm_growth *growth)
     return gm_run_state(growth->run);
 }
 
-long gm_growth_steps(const struct gm_growth *growth)
+int64_t gm_growth_steps(const struct gm_growth *growth)
 {
     return growth->run->steps;
 }

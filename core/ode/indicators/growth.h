@@ -28,11 +28,11 @@ void gm_growth_close(struct gm_growth *growth);
 
 /* Goes on until so many steps are made in all; it goes back to none. False where the orbit, or one beside it,
    comes to no number before. */
-bool gm_growth_to(struct gm_growth *growth, long steps);
+bool gm_growth_to(struct gm_growth *growth, int64_t steps);
 
 /* The state to which it came, n numbers, after so many steps. */
 const double *gm_growth_state(const struct gm_growth *growth);
-long gm_growth_steps(const struct gm_growth *growth);
+int64_t gm_growth_steps(const struct gm_growth *growth);
 
 /* NaN while no time has passed. */
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth);

@@ -564,7 +564,7 @@ static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, s
         memcpy(tangent->before, tangent->y, bytes);
         memcpy(v, tangent->dy, bytes);
         made[i] =
-            (struct gm_stretch){run->t0 + (double)(run->n + (long)i + 1) * run->dt, normalise(tangent, v)};
+            (struct gm_stretch){run->t0 + (double)(run->n + (int64_t)i + 1) * run->dt, normalise(tangent, v)};
         good = good && made[i].length > 0;
     }
     return good;
@@ -578,7 +578,7 @@ static bool advance_together(struct gm_tangent *tangent, double *v, size_t steps
     memcpy(tangent->plus, v, bytes);
     gm_run_save(tangent->run, tangent->snapshot);
     const bool good = follow_stages(tangent, v, steps, made) &&
-                      gm_run_advance(tangent->run, (long)steps) == GM_OK &&
+                      gm_run_advance(tangent->run, (int64_t)steps) == GM_OK &&
                       memcmp(gm_run_state(tangent->run), tangent->before, bytes) == 0;
     if (!good) {
         gm_run_load(tangent->run, tangent->snapshot);

@@ -33,7 +33,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     struct K(block) block[GM_ABREAST];
 #pragma GCC unroll 8
     for (int b = 0; b < GM_ABREAST; b++) {
-        const long rest = (long)task->problem->m - (long)first - b * (long)GM_LANES;
+        const int64_t rest = (int64_t)task->problem->m - (int64_t)first - b * (int64_t)GM_LANES;
         counts[b] = (struct K(counts)){.lanes = rest < 0          ? 0
                                                 : rest < GM_LANES ? (int)rest
                                                                   : GM_LANES,
@@ -42,10 +42,10 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         GM_PRIME(&block[b], parameters, &counts[b]);
     }
     /* after a failure the burst is one step, until it is found */
-    long done = 0, most = GM_BURST;
+    int64_t done = 0, most = GM_BURST;
     while (done < progress->done) {
-        const long left = progress->done - done;
-        const long burst = left < most ? left : most;
+        const int64_t left = progress->done - done;
+        const int64_t burst = left < most ? left : most;
         struct K(counts) counts_before[GM_ABREAST];
         struct K(block) before[GM_ABREAST];
 #pragma GCC unroll 8
@@ -60,7 +60,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
             }
         }
         mask solved = K(all)(), farthest = K(other)(solved);
-        for (long i = 0; i < burst; i++) {
+        for (int64_t i = 0; i < burst; i++) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
@@ -112,7 +112,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
         K(block_ask_ahead)(task, first + (size_t)(b * GM_LANES));
         GM_PRIME(&block[b], parameters, counts);
     }
-    long left = task->steps;
+    int64_t left = task->steps;
     do {
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {

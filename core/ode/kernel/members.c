@@ -61,7 +61,7 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
         if (members->carry) {
             gather(task->carry, members->carry, n, m, member);
         }
-        for (long done = 0; done < progress.done; done++) {
+        for (int64_t done = 0; done < progress.done; done++) {
             enum gm_status status = step(task, members, &progress);
             if (status == GM_OK && !is_within(members->y, n, task->limit)) {
                 status = GM_BLOW_UP;

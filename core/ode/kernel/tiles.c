@@ -67,7 +67,7 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
                     struct gm_progress *progress)
 {
     const size_t active = gm_tile_components(task->problem) * tile->members;
-    for (long done = 0; done < progress->done; done++) {
+    for (int64_t done = 0; done < progress->done; done++) {
         enum gm_status status = step(task, tile, progress);
         if (status == GM_OK && !are_within(tile->y, active, task->limit)) {
             status = GM_BLOW_UP;

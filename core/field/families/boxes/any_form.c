@@ -234,7 +234,7 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_collocation *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
     size_t known = recall(work, task->memory);
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         guess(work, known);
         progress.status = gm_collocation_step(work, task->dt, &progress);
         if (progress.status == GM_OK && !gm_field_within(work->high, of_level(work), task->limit)) {

@@ -124,7 +124,7 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     memcpy(work->next_u, task->memory, size);
     memcpy(work->next_v, task->memory + count, size);
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         memcpy(work->u, work->next_u, size);
         memcpy(work->v, work->next_v, size);
         progress.status = gm_gauss_step(work, task->problem, task->dt, NULL, &progress);

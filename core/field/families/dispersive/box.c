@@ -304,7 +304,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     if (equation->complex_valued) {
         memcpy(next + points, task->y + points, size);
     }
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         memcpy(now, next, 2 * size);
         progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
         if (!equation->complex_valued) {

@@ -138,7 +138,7 @@ static struct gm_progress advance(const struct gm_task *task)
     double *now = work->level[0], *other = work->level[1];
     memcpy(now, task->y, size);
     memcpy(other, task->y + work->points, size);
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         step(work, task->problem, task->dt, now, other);
         progress.evaluations += 4;
         if (!gm_field_within(other, work->points, task->limit)) {

@@ -48,7 +48,7 @@ static struct gm_progress advance(const struct gm_task *task)
     double *p = task->out, *q = p + line->points;
     struct gm_progress progress = {.status = GM_OK};
     memcpy(p, task->y, 2 * line->points * sizeof *p);
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         progress.iterations++;
         if (!nls_first(line, task->dt, p, q)) {
             progress.status = GM_NO_CONVERGENCE;

@@ -76,7 +76,7 @@ static struct gm_progress advance(const struct gm_task *task)
         psi[2 * i] = task->y[i];
         psi[2 * i + 1] = task->y[points + i];
     }
-    for (long step = 0; step < task->steps; step++) {
+    for (int64_t step = 0; step < task->steps; step++) {
         nonlinear_half(psi, points, task->dt / 2);
         gm_fourier_forward(work->fourier, (double complex *)(void *)psi);
         for (size_t i = 0; i < points; i++) {

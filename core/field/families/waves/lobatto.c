@@ -243,7 +243,7 @@ static struct gm_progress advance(const struct gm_task *task)
     memcpy(work->u, task->memory, size);
     memcpy(work->v, task->memory + points, size);
     work->fresh = false;
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         progress.status =
             make_step(work, task->scheme->coefficients, task->problem, task->dt, NULL, &progress);
         if (progress.status == GM_OK && !gm_field_within(work->u, points, task->limit)) {

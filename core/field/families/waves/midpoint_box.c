@@ -125,7 +125,7 @@ static struct gm_progress advance(const struct gm_task *task)
     memcpy(work->u[0], task->y + points, size);
     memcpy(work->v[1], task->memory, size);
     memcpy(work->v[0], task->memory + points, size);
-    for (long k = 0; k < task->steps; k++) {
+    for (int64_t k = 0; k < task->steps; k++) {
         if (k > 0 || gap == -task->dt) {
             centred_step(work, task->problem, task->dt);
             progress.evaluations++;

@@ -43,7 +43,7 @@ static struct gm_progress loop(const struct gm_task *task)
     const size_t count = task->problem->n * task->problem->m;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
     memcpy(task->out, task->y, count * sizeof(double));
-    for (long done = 0; done < progress.done; done++) {
+    for (int64_t done = 0; done < progress.done; done++) {
         pass(task, task->out);
         if (!is_within(task->out, count, task->limit)) {
             progress.done = done;
