@@ -3,13 +3,16 @@
    distance from the solution that it tells. */
 #include "scenes/ode/system/observed.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/fourier.h"
 #include "core/ode/variational/manifold.h"
 #include "core/system/names.h"
 #include "scenes/frame/rows.h"
+#include "scenes/ode/hamiltonian.h"
 #include "scenes/ode/system/pieces.h"
 
 /* ---- formulas in flight ---- */
@@ -85,18 +88,49 @@ static double solution_error(const struct gm_view *view)
     return error;
 }
 
-/* Signed area of the polygon of the members, measured from the centre so that little cancels. */
+/* Fewer points are an ellipse, however far they are from the edge. */
+enum { LEAST_EDGE = 5 };
+
+static size_t edge_points(const struct gm_view *view)
+{
+    const size_t points = view->problem->m - 1;
+    return ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC && points >= LEAST_EDGE
+               ? points
+               : 0;
+}
+
+static const char *why_no_area(const struct gm_view *view)
+{
+    return edge_points(view) > 0 ? GM_UNRESOLVED_EDGE : "with members= of at least 6 in a disc alone";
+}
+
+/* Signed area within the members, measured from the centre so that little cancels. They carry no tangents: the
+   derivatives are those of the trigonometric polynomial through them. */
 static double area(const struct gm_view *view)
 {
-    const struct gm_system_lane *lane = view->parameters;
-    const size_t m = view->problem->m, points = lane->shape == GM_SHAPE_DISC ? m - 1 : 0;
+    const size_t points = edge_points(view), m = view->problem->m;
     const double *x = view->state, *y = view->state + m;
-    double twice = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t next = i + 1 < points ? i + 1 : 0;
-        twice += (x[i] - x[points]) * (y[next] - y[points]) - (x[next] - x[points]) * (y[i] - y[points]);
+    if (points == 0) {
+        return NAN;
     }
-    return points >= 3 ? twice / 2 : NAN;
+    double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
+    struct gm_fourier *fourier = gm_fourier_open(points);
+    double value = NAN;
+    if (edge && fourier) {
+        for (size_t i = 0; i < points; i++) {
+            edge[i] = along[i] = x[i] - x[points] + I * (y[i] - y[points]);
+        }
+        gm_fourier_forward(fourier, along);
+        for (size_t k = 0; k < points; k++) {
+            const double wave = 2 * k < points ? (double)k : (double)k - (double)points;
+            along[k] *= 2 * k == points ? 0 : I * wave;
+        }
+        gm_fourier_inverse(fourier, along);
+        value = gm_edge_area(edge, along, points);
+    }
+    gm_fourier_close(fourier);
+    free(edge);
+    return value;
 }
 
 double gm_system_stop(const struct gm_view *view)
@@ -288,20 +322,17 @@ static bool add_solution_error(struct gm_system_scene *own)
 /* The area of a disc of members, in the plane. */
 static bool add_area(struct gm_system_scene *own)
 {
-    static const char one_member[] = "with members= of at least 4 in a disc alone";
     const struct gm_own_system *system = &own->system;
-    if (system->n != 2) {
-        return true;
-    }
-    struct gm_observable error =
-        GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = one_member);
-    /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
-    error.kept = false;
-    return add_observable(own,
-                          (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                              .missing = one_member),
-                          GM_NO_NODE) &&
-           (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
+    return system->n != 2 ||
+           (add_observable(own,
+                           (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
+                                                               .why = why_no_area),
+                           GM_NO_NODE) &&
+            (system->kind > GM_LAGRANGIAN || is_forced(system) ||
+             add_observable(own,
+                            (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
+                                                                     .why = why_no_area),
+                            GM_NO_NODE)));
 }
 
 /* Says which line makes a second observable of that name; false. */
