@@ -32,6 +32,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .tracks = lane->entries,
         .run = lane->run,
         .worked = lane->worked,
+        .cancelled = lane->cancelled,
         .side = lane->side,
     };
 }
@@ -45,8 +46,23 @@ static double divisor_of(const struct gm_observable *observable, const struct gm
     before.state = view->start;
     before.t = view->t0;
     *initial = gm_observe(observable, &before);
-    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view->parameters));
+    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view));
     return divisor > 0 ? divisor : 1;
+}
+
+/* Which observables start as a difference of large terms: round-off, or little more. */
+static void find_cancelled(struct gm_lane *lane)
+{
+    const double most = 1e-8;
+    struct gm_view before = gm_lane_view(lane);
+    before.state = lane->start;
+    before.t = lane->t0;
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        before.observable = &lane->scene->observables[i];
+        const double terms = before.observable->terms ? before.observable->terms(&before) : 0;
+        const bool cancels = terms > 0 && fabs(gm_observe(before.observable, &before)) <= most * terms;
+        lane->cancelled[i] = cancels && isfinite(terms) ? terms : 0;
+    }
 }
 
 /* `near`: where an angle was when it was last looked at */
@@ -476,6 +492,7 @@ void gm_lane_close(struct gm_lane *lane)
         }
     }
     free(lane->worked);
+    free(lane->cancelled);
     gm_run_close(lane->run);
     if (lane->scene->close) {
         lane->scene->close(&lane->problem);
@@ -557,11 +574,13 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
-    if (!lane->run || !lane->worked ||
+    lane->cancelled = calloc(scene->observable_count + 1, sizeof *lane->cancelled);
+    if (!lane->run || !lane->worked || !lane->cancelled ||
         !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
         !open_tracks(lane)) {
         return gm_refuse(sentence, "not enough memory");
     }
+    find_cancelled(lane);
     if (scene->stop) {
         lane->run->looks_back = true;
         const struct gm_view view = gm_lane_view(lane);
@@ -635,6 +654,7 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
         return NULL;
     }
     memcpy(other->start, lane->start, lane->problem.n * lane->problem.m * sizeof *other->start);
+    find_cancelled(other);
     ((struct gm_timing *)other->parameters)->dt = lane->run->dt;
     return other;
 }

@@ -42,6 +42,7 @@ struct gm_lane {
     struct gm_entries *entries; /* one per track */
     double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
     struct gm_worked *worked;   /* GM_WORKED */
+    double *cancelled;          /* per observable: struct gm_view */
     struct gm_behind behind;    /* of sections, and of the stop */
     int side; /* of the scene's stop at the start: -1 below 0, 1; 0: on it, until the first step leaves it */
     long followed;   /* after how many steps it was looked at last */

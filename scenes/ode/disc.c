@@ -18,10 +18,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/linear/curve.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
 #include "scenes/ode/asked.h"
-#include "scenes/ode/hamiltonian.h"
 
 enum { Q, XI_1, XI_2, P, ETA_1, ETA_2, COMPONENTS };
 enum { OSCILLATOR, PENDULUM };
@@ -100,7 +100,7 @@ static double area(const struct gm_view *view)
         along[i] =
             y[XI_1 * m + i] * dq + y[XI_2 * m + i] * dp + I * (y[ETA_1 * m + i] * dq + y[ETA_2 * m + i] * dp);
     }
-    const double value = edge ? gm_edge_area(edge, along, points) : NAN;
+    const double value = edge ? gm_curve_area(edge, along, points) : NAN;
     free(edge);
     return value;
 }

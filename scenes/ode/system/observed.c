@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/curve.h"
 #include "core/linear/fourier.h"
 #include "core/ode/variational/manifold.h"
 #include "core/system/names.h"
 #include "scenes/frame/rows.h"
-#include "scenes/ode/hamiltonian.h"
 #include "scenes/ode/system/pieces.h"
 
 /* ---- formulas in flight ---- */
@@ -28,6 +28,12 @@ static double observed(const struct gm_view *view)
 {
     const struct gm_system_scene *own = gm_system_scene_of(view);
     return value_of(&own->formulas[view->observable - own->observables], view);
+}
+
+static double terms(const struct gm_view *view)
+{
+    const struct gm_system_scene *own = gm_system_scene_of(view);
+    return value_of(&own->terms[view->observable - own->observables], view);
 }
 
 /* Of a Lagrangian system, whose formulas hold velocities. */
@@ -126,7 +132,7 @@ static double area(const struct gm_view *view)
             along[k] *= 2 * k == points ? 0 : I * wave;
         }
         gm_fourier_inverse(fourier, along);
-        value = gm_edge_area(edge, along, points);
+        value = gm_curve_area(edge, along, points);
     }
     gm_fourier_close(fourier);
     free(edge);
@@ -175,13 +181,53 @@ bool gm_system_check_exact(struct gm_system_scene *own, const struct gm_problem 
     return good;
 }
 
+/* A node with the magnitudes of its terms in their place, and of their factors; GM_NO_NODE: out of memory. */
+static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count),
+               *sizes = calloc((size_t)root + 1, sizeof *sizes);
+    for (size_t k = 0; parts && sizes && k < count; k++) {
+        const gm_node_id i = parts[k];
+        const struct gm_node node = graph->nodes[i];
+        switch (node.operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_ADD, sizes[node.a], sizes[node.b]);
+            break;
+        case GM_OPERATION_NEGATE:
+            sizes[i] = sizes[node.a];
+            break;
+        case GM_OPERATION_MULTIPLY:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_MULTIPLY, sizes[node.a], sizes[node.b]);
+            break;
+        case GM_OPERATION_DIVIDE:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_DIVIDE, sizes[node.a],
+                                     gm_simplified(graph, GM_OPERATION_ABS, node.b, node.b));
+            break;
+        default:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_ABS, i, i);
+        }
+    }
+    const gm_node_id found = parts && sizes && !graph->failed ? sizes[root] : GM_NO_NODE;
+    free(parts);
+    free(sizes);
+    return found;
+}
+
 static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
 {
     const size_t i = own->observable_count;
     own->observables[i] = row;
     own->observable_count++;
-    return row.key && row.title &&
-           (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+    bool good =
+        row.key && row.title && (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+    if (good && row.error && node != GM_NO_NODE) {
+        const gm_node_id sizes = sizes_of(&own->system.graph, node);
+        own->observables[i].terms = terms;
+        good = sizes != GM_NO_NODE && gm_system_open_tape(own, &own->terms[i], &sizes, 1);
+    }
+    return good;
 }
 
 static bool is_forced(const struct gm_own_system *system)
@@ -233,7 +279,7 @@ static bool add_energy(struct gm_system_scene *own, const struct gm_problem *pro
         kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
              : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
     energy.evaluate = lagrangian ? legendre_energy : observed;
-    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
+    return add_observable(own, energy, system->energy);
 }
 
 /* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
@@ -355,8 +401,9 @@ bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_pro
     const size_t most = own->system.item_count + 7;
     own->observables = calloc(most, sizeof *own->observables);
     own->formulas = calloc(most, sizeof *own->formulas);
-    bool good = own->observables && own->formulas && add_energy(own, problem) && add_named(own) &&
-                add_defects(own, problem) && add_solution_error(own) && add_area(own);
+    own->terms = calloc(most, sizeof *own->terms);
+    bool good = own->observables && own->formulas && own->terms && add_energy(own, problem) &&
+                add_named(own) && add_defects(own, problem) && add_solution_error(own) && add_area(own);
     for (size_t i = 0; i < own->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
             const char *key = own->observables[i].key, *other = own->observables[k].key;
