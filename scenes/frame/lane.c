@@ -123,7 +123,7 @@ long gm_lane_lost(const struct gm_lane *lane)
         const double divisor = divisor_of(observable, &view, &initial), value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
-        const bool decayed = divisor == fabs(initial) && fabs(value) < GM_LOST_BELOW * divisor;
+        const bool decayed = divisor == fabs(initial) && value * initial < GM_LOST_BELOW * initial * initial;
         if ((error > GM_LOST_ABOVE || decayed) && error > most) {
             most = error;
             lost = (long)i;
@@ -142,13 +142,14 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_observable *observable = &lane->scene->observables[lost];
     const struct gm_view view = gm_lane_view(lane);
     const double error = gm_lane_observe(lane, (size_t)lost);
-    if (error > GM_LOST_ABOVE) {
-        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
-    } else {
-        double initial = 0;
-        divisor_of(observable, &view, &initial);
+    double initial = 0;
+    divisor_of(observable, &view, &initial);
+    const double left = gm_observe(observable, &view) / initial;
+    if (error <= GM_LOST_ABOVE && left >= 0) {
         snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
-                 observable->key, error, gm_observe(observable, &view) / initial);
+                 observable->key, error, left);
+    } else {
+        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
     }
 }
 

@@ -120,7 +120,7 @@ refused 1 'it needs a potential V(q) < 0' run ./bottom.system q=3 p=0 scheme=log
 refused 1 'it needs a potential V(q) < 0 .*, T(0) = 0' run system H='cosh(p1)+cosh(p2)-1/sqrt(q1^2+q2^2)' q1=1 q2=0 p1=0 p2=1 scheme=logh2
 refused 1 'scheme logh2 .*it needs a single member, for its time is its own' run ./bottom.system members=10 scheme=logh2
 "$geomint" run outer-planets scheme=logh2 --json >out || fail "the outer planets in another time"
-grep -q '"warning":"the last step leads far beyond until = ' out || fail "a step far beyond the end: $(cat out)"
+grep -q '"warning":"[^"]*the last step leads far beyond until = ' out || fail "a step far beyond the end: $(cat out)"
 "$geomint" run kepler scheme=logh2 --json >out || fail "Kepler in another time"
 grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 "$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
