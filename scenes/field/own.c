@@ -411,7 +411,7 @@ static double crest(const struct gm_view *view)
 }
 
 /* The integral of a density of components, of their means in the cells. */
-static double integral_of_cells(const struct gm_view *view, const struct gm_tape *density)
+static double integral_of_cells(const struct gm_view *view, const struct gm_tape *density, bool magnitude)
 {
     const struct gm_own_system *system = &field_of(view)->system;
     const struct gm_line *line = &view->problem->line;
@@ -424,14 +424,14 @@ static double integral_of_cells(const struct gm_view *view, const struct gm_tape
         }
         values[system->velocities] = gm_line_node(line, i) + line->dx / 2;
         gm_tape_values(density, values, &value, 1);
-        sum += value;
+        sum += magnitude ? fabs(value) : value;
     }
     free(values);
     return sum * line->dx;
 }
 
 /* The integral of a density on a moving mesh, of the middles of its elements. */
-static double integral_of_elements(const struct gm_view *view, const struct gm_tape *density)
+static double integral_of_elements(const struct gm_view *view, const struct gm_tape *density, bool magnitude)
 {
     const struct gm_own_system *system = &field_of(view)->system;
     const struct gm_mesh mesh = gm_mesh_of(view);
@@ -450,28 +450,28 @@ static double integral_of_elements(const struct gm_view *view, const struct gm_t
         values[system->velocities] = (now[1] + before[1]) / 2;
         values[system->velocities + 1] = slope;
         gm_tape_values(density, values, &value, 1);
-        sum += width * value;
+        sum += width * (magnitude ? fabs(value) : value);
         memcpy(before, now, sizeof now);
     }
     free(values);
     return sum;
 }
 
-/* The integral of a density, of a wave in the middle between the two levels of the state. */
-static double integral(const struct gm_view *view)
+/* The integral of a density or of its magnitude, of a wave in the middle between the two levels of the state. */
+static double integral_of(const struct gm_view *view, bool magnitude)
 {
     const struct own_field *own = field_of(view);
     const struct gm_own_system *system = &own->system;
     const size_t number = (size_t)(view->observable - own->observables) - own->first_density;
     const struct gm_line *line = &view->problem->line;
     if (own->evolves) {
-        return gm_own_evolution_integral(view->problem, number, view->state);
+        return gm_own_evolution_integral(view->problem, number, magnitude, view->state);
     }
     if (own->is_form) {
-        return integral_of_cells(view, &own->densities[number]);
+        return integral_of_cells(view, &own->densities[number], magnitude);
     }
     if (own->moves) {
-        return integral_of_elements(view, &own->densities[number]);
+        return integral_of_elements(view, &own->densities[number], magnitude);
     }
     const double *u = view->state, *other = u + line->points, gap = other[line->points];
     double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
@@ -484,10 +484,20 @@ static double integral(const struct gm_view *view)
         values[system->velocities + 1] =
             ((u[right] + other[right] - u[left] - other[left]) / 2 + jump) / (2 * line->dx);
         gm_tape_values(&own->densities[number], values, &density, 1);
-        sum += gm_line_share(line, i) * density;
+        sum += gm_line_share(line, i) * (magnitude ? fabs(density) : density);
     }
     free(values);
     return sum * line->dx;
+}
+
+static double integral(const struct gm_view *view)
+{
+    return integral_of(view, false);
+}
+
+static double terms(const struct gm_view *view)
+{
+    return integral_of(view, true);
 }
 
 /* The error, where it is known, and what is kept: of a wave its energies, of an evolution what its file names, of a form
@@ -802,7 +812,8 @@ static bool make_observables(struct own_field *own, char *sentence)
         }
         own->observables[own->observable_count++] =
             kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(key, integral, item->name, item->name,
-                                                            .least = item->scale, .missing = infinite)
+                                                            .least = item->scale, .terms = terms,
+                                                            .missing = infinite)
                  : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
     }
     return true;

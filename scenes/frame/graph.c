@@ -104,7 +104,8 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
             return gm_picture_text(picture, "%s", gm_observable_title(observable, text, sizeof text));
         }
     }
-    const double scale = gm_observable_scale(observable, lanes[0]->parameters);
+    const struct gm_view view = gm_lane_view(lanes[0]);
+    const double scale = gm_observable_scale(observable, &view);
     const char *x = observable->symbol;
     const char *front = gm_picture_text(picture, "%s  |%s − %s₀|", observable->title, x, x);
     return divisor == 1      ? front

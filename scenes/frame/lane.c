@@ -32,6 +32,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .tracks = lane->entries,
         .run = lane->run,
         .worked = lane->worked,
+        .cancelled = lane->cancelled,
         .side = lane->side,
     };
 }
@@ -45,8 +46,23 @@ static double divisor_of(const struct gm_observable *observable, const struct gm
     before.state = view->start;
     before.t = view->t0;
     *initial = gm_observe(observable, &before);
-    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view->parameters));
+    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view));
     return divisor > 0 ? divisor : 1;
+}
+
+/* Which observables start as a difference of large terms: round-off, or little more. */
+static void find_cancelled(struct gm_lane *lane)
+{
+    const double most = 1e-8;
+    struct gm_view before = gm_lane_view(lane);
+    before.state = lane->start;
+    before.t = lane->t0;
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        before.observable = &lane->scene->observables[i];
+        const double terms = before.observable->terms ? before.observable->terms(&before) : 0;
+        const bool cancels = terms > 0 && fabs(gm_observe(before.observable, &before)) <= most * terms;
+        lane->cancelled[i] = cancels && isfinite(terms) ? terms : 0;
+    }
 }
 
 /* `near`: where an angle was when it was last looked at */
@@ -107,7 +123,7 @@ long gm_lane_lost(const struct gm_lane *lane)
         const double divisor = divisor_of(observable, &view, &initial), value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
-        const bool decayed = divisor == fabs(initial) && fabs(value) < GM_LOST_BELOW * divisor;
+        const bool decayed = divisor == fabs(initial) && value * initial < GM_LOST_BELOW * initial * initial;
         if ((error > GM_LOST_ABOVE || decayed) && error > most) {
             most = error;
             lost = (long)i;
@@ -126,13 +142,14 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_observable *observable = &lane->scene->observables[lost];
     const struct gm_view view = gm_lane_view(lane);
     const double error = gm_lane_observe(lane, (size_t)lost);
-    if (error > GM_LOST_ABOVE) {
-        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
-    } else {
-        double initial = 0;
-        divisor_of(observable, &view, &initial);
+    double initial = 0;
+    divisor_of(observable, &view, &initial);
+    const double left = gm_observe(observable, &view) / initial;
+    if (error <= GM_LOST_ABOVE && left >= 0) {
         snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
-                 observable->key, error, gm_observe(observable, &view) / initial);
+                 observable->key, error, left);
+    } else {
+        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
     }
 }
 
@@ -476,6 +493,7 @@ void gm_lane_close(struct gm_lane *lane)
         }
     }
     free(lane->worked);
+    free(lane->cancelled);
     gm_run_close(lane->run);
     if (lane->scene->close) {
         lane->scene->close(&lane->problem);
@@ -557,11 +575,13 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
-    if (!lane->run || !lane->worked ||
+    lane->cancelled = calloc(scene->observable_count + 1, sizeof *lane->cancelled);
+    if (!lane->run || !lane->worked || !lane->cancelled ||
         !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
         !open_tracks(lane)) {
         return gm_refuse(sentence, "not enough memory");
     }
+    find_cancelled(lane);
     if (scene->stop) {
         lane->run->looks_back = true;
         const struct gm_view view = gm_lane_view(lane);
@@ -635,6 +655,7 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
         return NULL;
     }
     memcpy(other->start, lane->start, lane->problem.n * lane->problem.m * sizeof *other->start);
+    find_cancelled(other);
     ((struct gm_timing *)other->parameters)->dt = lane->run->dt;
     return other;
 }

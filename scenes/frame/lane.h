@@ -42,6 +42,7 @@ struct gm_lane {
     struct gm_entries *entries; /* one per track */
     double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
     struct gm_worked *worked;   /* GM_WORKED */
+    double *cancelled;          /* per observable: struct gm_view */
     struct gm_behind behind;    /* of sections, and of the stop */
     int side; /* of the scene's stop at the start: -1 below 0, 1; 0: on it, until the first step leaves it */
     int64_t followed; /* after how many steps it was looked at last */
@@ -67,9 +68,9 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 
 /* What the exact motion keeps is lost if its error is above the one, or if less than the other is left of its
-   start, where that is what the error is divided by. */
+   start, where that is what the error is divided by: a change of sign leaves nothing. */
 #define GM_LOST_ABOVE 10.
-#define GM_LOST_BELOW 0.01
+#define GM_LOST_BELOW 0.1
 /* The observable that tells of the greatest loss in this lane now; -1: none, or the run has failed, which
    says more. */
 long gm_lane_lost(const struct gm_lane *lane);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,9 +73,11 @@ double gm_observe(const struct gm_observable *observable, const struct gm_view *
     return observable->evaluate(&asked);
 }
 
-double gm_observable_scale(const struct gm_observable *observable, const void *parameters)
+double gm_observable_scale(const struct gm_observable *observable, const struct gm_view *view)
 {
-    return observable->scale ? observable->scale(parameters) : observable->least;
+    const double natural = observable->scale ? observable->scale(view->parameters) : observable->least;
+    const bool cancels = observable->terms && view->cancelled;
+    return fmax(natural, cancels ? view->cancelled[observable - view->scene->observables] : 0);
 }
 
 void *gm_scene_defaults(const struct gm_scene *scene)

@@ -45,6 +45,7 @@ struct gm_view {
     size_t member;                          /* that a track with `each` is asked of */
     const struct gm_observable *observable; /* the one that is evaluated (gm_observe) */
     struct gm_worked *worked;               /* the lane's, GM_WORKED of them */
+    const double *cancelled;                /* of each of the scene's observables: its terms, or 0; or NULL */
     int side;                               /* of the scene's stop at the start: struct gm_lane */
 };
 
@@ -60,7 +61,9 @@ struct gm_observable {
     double (*scale)(const void *parameters); /* natural scale of an error; NULL: 0 */
     double least;                            /* such a scale, where it is a number; else 0 */
     const char *scale_text;                  /* as it is written: "1 for the pendulum" */
-    bool kept;                               /* the exact motion keeps x */
+    /* The sum of the magnitudes of x's terms: the scale where they cancel at the start. NULL: they do not. */
+    double (*terms)(const struct gm_view *view);
+    bool kept; /* the exact motion keeps x */
     /* Why there may be no value (NaN), NULL: there always is one; or what tells why there was none, if
        anything. */
     const char *missing;
@@ -256,7 +259,7 @@ bool gm_observables_clash(const char *key, const char *other);
 /* Whether the scene's stop has changed its sign. */
 bool gm_view_stopped(const struct gm_view *view);
 /* The natural scale of an error. */
-double gm_observable_scale(const struct gm_observable *observable, const void *parameters);
+double gm_observable_scale(const struct gm_observable *observable, const struct gm_view *view);
 
 /* The scene's own struct with every parameter at its default; malloc'ed, NULL when memory is short. */
 void *gm_scene_defaults(const struct gm_scene *scene);

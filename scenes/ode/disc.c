@@ -10,11 +10,15 @@
        figures 4, 5   the same of symplectic Euler and of the midpoint rule
 
    The members of the ensemble are the points of the disc's edge and, last, its centre. Every member carries
-   two tangent vectors: their mean determinant is the area's factor without the coarseness of a polygon, and
-   the edge between two points is drawn as the cubic that the tangents give. */
+   two tangent vectors: they give the edge's derivative, and so its area without the coarseness of a polygon;
+   their mean determinant is the area's factor; and the edge between two points is drawn as the cubic that they
+   give. */
+#include <complex.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
+#include "core/linear/curve.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
 #include "scenes/ode/asked.h"
@@ -85,18 +89,21 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     }
 }
 
-/* Signed area of the polygon, measured from the centre so that little cancels. */
+/* Measured from the centre so that little cancels; the tangent map M turns the start's edge into the present one. */
 static double area(const struct gm_view *view)
 {
     const size_t m = view->problem->m, points = m - 1;
-    const double *q = view->state + Q * m, *p = view->state + P * m;
-    const double q_centre = q[points], p_centre = p[points];
-    double twice = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t next = i + 1 < points ? i + 1 : 0;
-        twice += (q[i] - q_centre) * (p[next] - p_centre) - (q[next] - q_centre) * (p[i] - p_centre);
+    const double *y = view->state, *q = view->start + Q * m, *p = view->start + P * m;
+    double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
+    for (size_t i = 0; edge && i < points; i++) {
+        const double dq = p[points] - p[i], dp = q[i] - q[points];
+        edge[i] = y[Q * m + i] - y[Q * m + points] + I * (y[P * m + i] - y[P * m + points]);
+        along[i] =
+            y[XI_1 * m + i] * dq + y[XI_2 * m + i] * dp + I * (y[ETA_1 * m + i] * dq + y[ETA_2 * m + i] * dp);
     }
-    return twice / 2;
+    const double value = edge ? gm_curve_area(edge, along, points) : NAN;
+    free(edge);
+    return value;
 }
 
 static double area_tangent(const struct gm_view *view)
@@ -129,8 +136,8 @@ static double natural_energy(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    GM_OBSERVABLE("area", area, "area"),
-    GM_KEPT_OBSERVABLE("area_error", area, "A", "area error"),
+    GM_OBSERVABLE("area", area, "area", .missing = GM_UNRESOLVED_EDGE),
+    GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = GM_UNRESOLVED_EDGE),
     GM_OBSERVABLE("area_tangent", area_tangent,
                   "determinant of the tangent map, mean over the edge and the centre"),
     GM_OBSERVABLE("energy", energy, "energy of the centre"),
@@ -400,8 +407,10 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             const struct gm_view view = gm_lane_view(walk.lane);
             struct gm_view before = view;
             before.state = view.start;
+            const double factor = area(&view) / area(&before);
             panel = gm_walk_panel(picture, &walk,
-                                  gm_picture_text(picture, "area × %.3f", area(&view) / area(&before)));
+                                  isnan(factor) ? GM_UNRESOLVED_EDGE
+                                                : gm_picture_text(picture, "area × %.3f", factor));
             panel->x = x;
             panel->y = y;
             if (gm_walk_has_left(&walk, has_left)) {

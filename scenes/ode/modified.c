@@ -100,8 +100,7 @@ static double error_of(const struct gm_view *view, int power)
     const double initial = energy_of(worked, &worked->start, &before, power);
     const int plain = gm_scene_observable(view->scene, "energy_error");
     const double scale =
-        plain >= 0 ? gm_observable_scale(gm_scene_observable_at(view->scene, (size_t)plain), view->parameters)
-                   : 0;
+        plain >= 0 ? gm_observable_scale(gm_scene_observable_at(view->scene, (size_t)plain), view) : 0;
     const double divisor = fmax(fabs(worked->start.terms[0]), scale);
     return fabs(energy_of(worked, &worked->now, view, power) - initial) / (divisor > 0 ? divisor : 1);
 }

@@ -769,6 +769,9 @@ void gm_system_scene_close(const struct gm_scene *scene)
     for (size_t i = 0; own->formulas && i < own->observable_count; i++) {
         gm_tape_close(&own->formulas[i]);
     }
+    for (size_t i = 0; own->terms && i < own->observable_count; i++) {
+        gm_tape_close(&own->terms[i]);
+    }
     struct gm_tape *const others[] = {&own->where,     &own->stop,      &own->exact,
                                       &own->timing[0], &own->timing[1], &own->timing[2]};
     for (size_t i = 0; i < GM_COUNT(others); i++) {
@@ -781,6 +784,7 @@ void gm_system_scene_close(const struct gm_scene *scene)
     free(own->shows);
     free(own->observables);
     free(own->formulas);
+    free(own->terms);
     free(own->variables);
     free(own->rows);
     free(own->initial);

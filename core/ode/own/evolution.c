@@ -578,7 +578,8 @@ double gm_own_evolution_exact(const struct gm_problem *problem, size_t field, do
     return values[field];
 }
 
-double gm_own_evolution_integral(const struct gm_problem *problem, size_t density, const double *y)
+double gm_own_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
+                                 const double *y)
 {
     struct own *own = own_of(problem);
     const size_t points = own->line.points;
@@ -590,7 +591,7 @@ double gm_own_evolution_integral(const struct gm_problem *problem, size_t densit
     gm_tape_block(&own->densities[density], room->inputs, points, room->rates, points, points);
     double sum = 0;
     for (size_t i = 0; i < gm_line_seen(&own->line); i++) {
-        sum += gm_line_share(&own->line, i) * room->rates[i];
+        sum += gm_line_share(&own->line, i) * (magnitude ? fabs(room->rates[i]) : room->rates[i]);
     }
     give_back(own, room);
     return sum * own->line.dx;

@@ -49,7 +49,8 @@ void gm_own_evolution_start(const struct gm_problem *problem, double *y);
 /* The exact solution of a field as the file tells it; NaN where it does not. */
 double gm_own_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t);
 
-/* The integral of a density. */
-double gm_own_evolution_integral(const struct gm_problem *problem, size_t density, const double *y);
+/* The integral of a density, or of its magnitude. */
+double gm_own_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
+                                 const double *y);
 
 #endif

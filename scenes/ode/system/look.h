@@ -37,6 +37,7 @@ struct gm_system_scene {
     size_t row_count, first_start;
     struct gm_observable *observables;
     struct gm_tape *formulas; /* of each observable */
+    struct gm_tape *terms;    /* of each error: the sum of the magnitudes of its terms */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
     struct gm_sight *sights; /* the first is what show=all shows; the last pair_count are planes */

@@ -3,10 +3,13 @@
    distance from the solution that it tells. */
 #include "scenes/ode/system/observed.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/curve.h"
+#include "core/linear/fourier.h"
 #include "core/ode/variational/manifold.h"
 #include "core/system/names.h"
 #include "scenes/frame/rows.h"
@@ -25,6 +28,12 @@ static double observed(const struct gm_view *view)
 {
     const struct gm_system_scene *own = gm_system_scene_of(view);
     return value_of(&own->formulas[view->observable - own->observables], view);
+}
+
+static double terms(const struct gm_view *view)
+{
+    const struct gm_system_scene *own = gm_system_scene_of(view);
+    return value_of(&own->terms[view->observable - own->observables], view);
 }
 
 /* Of a Lagrangian system, whose formulas hold velocities. */
@@ -85,18 +94,49 @@ static double solution_error(const struct gm_view *view)
     return error;
 }
 
-/* Signed area of the polygon of the members, measured from the centre so that little cancels. */
+/* Fewer points are an ellipse, however far they are from the edge. */
+enum { LEAST_EDGE = 5 };
+
+static size_t edge_points(const struct gm_view *view)
+{
+    const size_t points = view->problem->m - 1;
+    return ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC && points >= LEAST_EDGE
+               ? points
+               : 0;
+}
+
+static const char *why_no_area(const struct gm_view *view)
+{
+    return edge_points(view) > 0 ? GM_UNRESOLVED_EDGE : "with members= of at least 6 in a disc alone";
+}
+
+/* Signed area within the members, measured from the centre so that little cancels. They carry no tangents: the
+   derivatives are those of the trigonometric polynomial through them. */
 static double area(const struct gm_view *view)
 {
-    const struct gm_system_lane *lane = view->parameters;
-    const size_t m = view->problem->m, points = lane->shape == GM_SHAPE_DISC ? m - 1 : 0;
+    const size_t points = edge_points(view), m = view->problem->m;
     const double *x = view->state, *y = view->state + m;
-    double twice = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t next = i + 1 < points ? i + 1 : 0;
-        twice += (x[i] - x[points]) * (y[next] - y[points]) - (x[next] - x[points]) * (y[i] - y[points]);
+    if (points == 0) {
+        return NAN;
     }
-    return points >= 3 ? twice / 2 : NAN;
+    double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
+    struct gm_fourier *fourier = gm_fourier_open(points);
+    double value = NAN;
+    if (edge && fourier) {
+        for (size_t i = 0; i < points; i++) {
+            edge[i] = along[i] = x[i] - x[points] + I * (y[i] - y[points]);
+        }
+        gm_fourier_forward(fourier, along);
+        for (size_t k = 0; k < points; k++) {
+            const double wave = 2 * k < points ? (double)k : (double)k - (double)points;
+            along[k] *= 2 * k == points ? 0 : I * wave;
+        }
+        gm_fourier_inverse(fourier, along);
+        value = gm_curve_area(edge, along, points);
+    }
+    gm_fourier_close(fourier);
+    free(edge);
+    return value;
 }
 
 double gm_system_stop(const struct gm_view *view)
@@ -141,13 +181,53 @@ bool gm_system_check_exact(struct gm_system_scene *own, const struct gm_problem 
     return good;
 }
 
+/* A node with the magnitudes of its terms in their place, and of their factors; GM_NO_NODE: out of memory. */
+static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count),
+               *sizes = calloc((size_t)root + 1, sizeof *sizes);
+    for (size_t k = 0; parts && sizes && k < count; k++) {
+        const gm_node_id i = parts[k];
+        const struct gm_node node = graph->nodes[i];
+        switch (node.operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_ADD, sizes[node.a], sizes[node.b]);
+            break;
+        case GM_OPERATION_NEGATE:
+            sizes[i] = sizes[node.a];
+            break;
+        case GM_OPERATION_MULTIPLY:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_MULTIPLY, sizes[node.a], sizes[node.b]);
+            break;
+        case GM_OPERATION_DIVIDE:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_DIVIDE, sizes[node.a],
+                                     gm_simplified(graph, GM_OPERATION_ABS, node.b, node.b));
+            break;
+        default:
+            sizes[i] = gm_simplified(graph, GM_OPERATION_ABS, i, i);
+        }
+    }
+    const gm_node_id found = parts && sizes && !graph->failed ? sizes[root] : GM_NO_NODE;
+    free(parts);
+    free(sizes);
+    return found;
+}
+
 static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
 {
     const size_t i = own->observable_count;
     own->observables[i] = row;
     own->observable_count++;
-    return row.key && row.title &&
-           (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+    bool good =
+        row.key && row.title && (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+    if (good && row.error && node != GM_NO_NODE) {
+        const gm_node_id sizes = sizes_of(&own->system.graph, node);
+        own->observables[i].terms = terms;
+        good = sizes != GM_NO_NODE && gm_system_open_tape(own, &own->terms[i], &sizes, 1);
+    }
+    return good;
 }
 
 static bool is_forced(const struct gm_own_system *system)
@@ -199,7 +279,7 @@ static bool add_energy(struct gm_system_scene *own, const struct gm_problem *pro
         kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
              : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
     energy.evaluate = lagrangian ? legendre_energy : observed;
-    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
+    return add_observable(own, energy, system->energy);
 }
 
 /* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
@@ -288,20 +368,17 @@ static bool add_solution_error(struct gm_system_scene *own)
 /* The area of a disc of members, in the plane. */
 static bool add_area(struct gm_system_scene *own)
 {
-    static const char one_member[] = "with members= of at least 4 in a disc alone";
     const struct gm_own_system *system = &own->system;
-    if (system->n != 2) {
-        return true;
-    }
-    struct gm_observable error =
-        GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = one_member);
-    /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
-    error.kept = false;
-    return add_observable(own,
-                          (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                              .missing = one_member),
-                          GM_NO_NODE) &&
-           (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
+    return system->n != 2 ||
+           (add_observable(own,
+                           (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
+                                                               .why = why_no_area),
+                           GM_NO_NODE) &&
+            (system->kind > GM_LAGRANGIAN || is_forced(system) ||
+             add_observable(own,
+                            (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
+                                                                     .why = why_no_area),
+                            GM_NO_NODE)));
 }
 
 /* Says which line makes a second observable of that name; false. */
@@ -324,8 +401,9 @@ bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_pro
     const size_t most = own->system.item_count + 7;
     own->observables = calloc(most, sizeof *own->observables);
     own->formulas = calloc(most, sizeof *own->formulas);
-    bool good = own->observables && own->formulas && add_energy(own, problem) && add_named(own) &&
-                add_defects(own, problem) && add_solution_error(own) && add_area(own);
+    own->terms = calloc(most, sizeof *own->terms);
+    bool good = own->observables && own->formulas && own->terms && add_energy(own, problem) &&
+                add_named(own) && add_defects(own, problem) && add_solution_error(own) && add_area(own);
     for (size_t i = 0; i < own->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
             const char *key = own->observables[i].key, *other = own->observables[k].key;

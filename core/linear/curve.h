@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_LINEAR_CURVE_H
+#define GM_CORE_LINEAR_CURVE_H
+
+#include <stddef.h>
+
+/* Signed area within a closed smooth curve, given by `count` points x + i y at equal distances of a parameter
+   from 0 to 2 pi, and its derivatives there. NaN where points and derivatives part: too few points are left
+   between two bends. */
+double gm_curve_area(const double _Complex *points, const double _Complex *derivatives, size_t count);
+#define GM_UNRESOLVED_EDGE "the members no longer resolve the edge of the disc"
+
+#endif
