@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "app/output/csv.h"
+#include "app/request/drive.h"
 #include "app/request/fitting.h"
 
 enum { LOOKS = 400 /* at a run, at most */ };
@@ -177,12 +178,18 @@ static void run(struct gm_lane *lane, long steps, struct gm_modified_energy *ene
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
     const long looks = steps < LOOKS ? steps : LOOKS;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
+    double each = 0;
     look(lane, energy, y, first);
     for (long i = 0; i <= looks && lane->run->status == GM_OK && !gm_listener_stops(listener); i++) {
         if (i > 0) {
             const long step = looks == steps ? i : (long)((double)steps * (double)i / (double)looks);
-            gm_lane_to(lane, step, ((const struct gm_timing *)lane->parameters)->until);
-            if (gm_lane_stopped(lane)) { /* by a shorter step, whose H~ is another one */
+            while (gm_run_goes_on(lane->run, step, until) && !gm_lane_stopped(lane) &&
+                   !gm_listener_stops(listener)) {
+                gm_lane_burst(lane, step, until, &each);
+            }
+            /* by a shorter step, whose H~ is another one; or on the way */
+            if (gm_lane_stopped(lane) || gm_listener_stops(listener)) {
                 break;
             }
         }
