@@ -410,7 +410,7 @@ static double sum_of(const struct gm_sweep *sweep,
     enum { SAMPLES = 5 };
     const size_t runs = gm_sweep_share(sweep);
     double sum = 0;
-    for (size_t i = 0; i < SAMPLES; i++) {
+    for (size_t i = 0; i < SAMPLES && runs > 0; i++) {
         char message[GM_MESSAGE];
         struct gm_arguments arguments;
         struct gm_request request = {0};
