@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/confirmed.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
 #include "app/output/say.h"
@@ -403,6 +404,15 @@ static int paint_all(struct work *work, const char *name)
     return status;
 }
 
+/* A large picture takes long to paint and to pack. */
+static bool write_still(struct gm_print *print, struct work *work, char *message)
+{
+    gm_interrupts_end(true);
+    const bool written = gm_still_write(print, work->request, lanes_of(work), message);
+    gm_interrupts_end(false);
+    return written;
+}
+
 /* One picture: of no sequence, so that nothing of it is kept to go on from. */
 static int paint_still(struct work *work, const char *name)
 {
@@ -419,7 +429,7 @@ static int paint_still(struct work *work, const char *name)
     const bool driven = path && drive_to(work, 0, message);
     if (gm_interrupted) {
         status = GM_EXIT_INTERRUPTED;
-    } else if (!driven || !gm_still_write(&print, work->request, lanes_of(work), message)) {
+    } else if (!driven || !write_still(&print, work, message)) {
         status = gm_press_fail(path, message);
         status = gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
     } else {
@@ -528,6 +538,10 @@ static int command_render(const struct gm_options *options)
         !take_changes(&request, options->changes, message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&request);
+    }
+    if (!gm_command_confirmed(options, &request)) {
+        gm_request_close(&request);
+        return GM_EXIT_USAGE;
     }
     gm_catch_interrupts();
     snprintf(name, sizeof name, "%s-render", request.scene->name);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/confirmed.h"
 #include "app/data/meta.h"
 #include "app/data/profile.h"
 #include "app/data/rows.h"
@@ -860,6 +861,10 @@ static int command_run(const struct gm_options *options)
                           message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&request);
+    }
+    if (!gm_command_confirmed(options, &request)) {
+        gm_request_close(&request);
+        return GM_EXIT_USAGE;
     }
     gm_catch_interrupts();
     struct outputs outputs = {.options = options,

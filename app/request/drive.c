@@ -12,15 +12,13 @@
 #include "core/schemes.h"
 #include "render/clock.h"
 
-/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
-   it is known what a step takes, that says how many. In single steps an ensemble that does not fit in the cache
-   would go to memory and back for each. */
-static int64_t burst_of(const struct gm_drive *drive)
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble or int64_t formulas:
+   the first step tells what one takes, and that says how many. In single steps an ensemble that does not fit in the
+   cache would go to memory and back for each. */
+static int64_t burst_of(double each)
 {
     static const double at_once = 0.02; /* seconds */
-    const struct gm_problem *problem = &drive->lane->problem;
-    const double guess = 2e5 / (double)(problem->n * problem->m);
-    const double burst = drive->each > 0 ? fmax(guess, at_once / drive->each) : guess;
+    const double burst = each > 0 ? at_once / each : 1;
     return burst < 1 ? 1 : burst > 1e5 ? 100000 : (int64_t)burst;
 }
 
@@ -84,6 +82,17 @@ static double asking(void)
         }
     }
     return least;
+}
+
+double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *each)
+{
+    const int64_t before = lane->run->steps, left = steps - before, burst = burst_of(*each);
+    const double start = gm_clock_processor_seconds();
+    gm_lane_to(lane, before + (left < burst ? left : burst), until);
+    const double took = gm_clock_processor_seconds() - start;
+    const int64_t made = lane->run->steps - before;
+    *each = fmax(took / (double)(made > 0 ? made : 1), shortest);
+    return took;
 }
 
 /* In single steps, with a row after each. */
@@ -151,7 +160,8 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
         if (left <= 0) {
             break;
         }
-        const int64_t burst = record ? 1 : burst_of(drive), stop = before + (left < burst ? left : burst);
+        const double each = drive->unmeasured > 0 ? fmax(drive->each, shortest) : drive->each;
+        const int64_t burst = record ? 1 : burst_of(each), stop = before + (left < burst ? left : burst);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
@@ -295,4 +305,27 @@ void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
     gm_lane_warning(drive->lane, text, size);
     const size_t used = strlen(text);
     snprintf(text + used, size - used, "%s%s", used && end[0] ? "; " : "", end);
+}
+
+double gm_drive_seconds(const struct gm_request *request, size_t index)
+{
+    static const double enough = 0.2;
+    char message[GM_MESSAGE];
+    const double started = gm_clock_seconds();
+    struct gm_drive drive = {.request = request, .index = index};
+    drive.lane = gm_request_open_lane(request, index, message);
+    if (!drive.lane) {
+        return 0;
+    }
+    const struct gm_run *state = drive.lane->run;
+    const long steps = request->lanes[index].steps;
+    const double opening = gm_clock_seconds() - started;
+    for (long goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
+         goal *= 2) {
+        gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
+    }
+    const double part = (state->t - drive.lane->t0) / (request->lanes[index].end - drive.lane->t0);
+    const bool on_the_way = part > 0 && part < 1 && state->status == GM_OK;
+    gm_lane_close(drive.lane);
+    return opening + (on_the_way ? drive.seconds / part : drive.seconds);
 }

@@ -54,4 +54,11 @@ void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
    is nothing. */
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 
+/* Makes as many steps of a lane towards an end (gm_lane_to) as take about a fiftieth of a second, so that whoever makes
+   many can answer an interruption. `*each`, at first 0, is the time of one. Returns the processor time. */
+double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *each);
+
+/* What a lane of a request will take by the clock, judged by its first steps; 0: it cannot be opened. */
+double gm_drive_seconds(const struct gm_request *request, size_t index);
+
 #endif

@@ -3,13 +3,28 @@
 #include "app/request/interrupt.h"
 
 #include <stddef.h>
+#include <unistd.h>
+
+#include "app/ground/exit.h"
 
 volatile sig_atomic_t gm_interrupted;
+static volatile sig_atomic_t ends;
 
 static void interrupt(int number)
 {
     (void)number;
     gm_interrupted = gm_interrupted + 1;
+    if (ends) {
+        _exit(GM_EXIT_INTERRUPTED);
+    }
+}
+
+void gm_interrupts_end(bool at_once)
+{
+    ends = at_once;
+    if (at_once && gm_interrupted) {
+        _exit(GM_EXIT_INTERRUPTED);
+    }
 }
 
 void gm_catch_interrupts(void)

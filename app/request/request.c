@@ -651,6 +651,13 @@ void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters)
     return copy;
 }
 
+double gm_request_steps(const struct gm_request *request, size_t index)
+{
+    const struct gm_lane_spec *spec = &request->lanes[index];
+    const bool own_time = spec->scheme && spec->scheme->family->own_time;
+    return own_time ? 0 : (double)spec->steps;
+}
+
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)
 {
     const struct gm_lane_spec *spec = &request->lanes[index];

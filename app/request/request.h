@@ -90,6 +90,9 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
 /* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
 void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);
 
+/* The steps of a lane; 0 where its scheme chooses them. */
+double gm_request_steps(const struct gm_request *request, size_t index);
+
 /* Opens lane `index` at its start; NULL with a sentence. */
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
 

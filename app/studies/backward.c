@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "app/output/csv.h"
+#include "app/request/drive.h"
 #include "app/request/fitting.h"
 #include "app/request/words.h"
 
@@ -179,12 +180,18 @@ static void run(struct gm_lane *lane, int64_t steps, struct gm_modified_energy *
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
     const int64_t looks = steps < LOOKS ? steps : LOOKS;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
+    double each = 0;
     look(lane, energy, y, first);
     for (int64_t i = 0; i <= looks && lane->run->status == GM_OK && !gm_listener_stops(listener); i++) {
         if (i > 0) {
             const int64_t step = looks == steps ? i : (int64_t)((double)steps * (double)i / (double)looks);
-            gm_lane_to(lane, step, ((const struct gm_timing *)lane->parameters)->until);
-            if (gm_lane_stopped(lane)) { /* by a shorter step, whose H~ is another one */
+            while (gm_run_goes_on(lane->run, step, until) && !gm_lane_stopped(lane) &&
+                   !gm_listener_stops(listener)) {
+                gm_lane_burst(lane, step, until, &each);
+            }
+            /* by a shorter step, whose H~ is another one; or on the way */
+            if (gm_lane_stopped(lane) || gm_listener_stops(listener)) {
                 break;
             }
         }

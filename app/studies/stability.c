@@ -9,6 +9,7 @@
 
 #include "app/cores/pool.h"
 #include "app/request/words.h"
+#include "app/request/drive.h"
 #include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
@@ -122,10 +123,10 @@ static void run_to(struct gm_lane *lane, int64_t steps,
 {
     const double until = ((const struct gm_timing *)lane->parameters)->until;
     const double started = gm_clock_processor_seconds();
+    double each = 0;
     while (gm_run_goes_on(lane->run, steps, until) && gm_clock_processor_seconds() - started < most_seconds &&
            !gm_lane_stopped(lane) && !gm_listener_stops(listener)) {
-        const int64_t left = steps - lane->run->steps, burst = largest ? 1 : 1000;
-        gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
+        gm_lane_burst(lane, largest ? lane->run->steps + 1 : steps, until, &each);
         if (largest) {
             *largest = fmax(*largest, value(lane, observable));
         }

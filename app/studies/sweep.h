@@ -54,6 +54,8 @@ void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row
 /* What all runs of the share will take of a processor, in seconds, judged by the first steps of some of
    them. */
 double gm_sweep_seconds(const struct gm_sweep *sweep);
+/* How many steps all runs make, judged by a few of them. */
+double gm_sweep_steps(const struct gm_sweep *sweep);
 
 /* The words that a row's status may be, and `warning`, of one that is ok with a warning: as a list. */
 extern const char gm_sweep_statuses[];

@@ -10,6 +10,7 @@
 
 #include "app/cores/pool.h"
 #include "app/native/engine.h"
+#include "app/request/drive.h"
 #include "core/larger.h"
 #include "core/schemes.h"
 #include "render/clock.h"
@@ -55,19 +56,10 @@ static bool goes_on(const struct gm_work_table *table, const struct gm_lane *lan
 static double run_through(const struct gm_work_table *table, struct gm_lane *lane, int64_t steps, bool follow,
                           double most)
 {
-    const double size = (double)(lane->problem.n * lane->problem.m), until = timing_of(table)->until;
-    const int64_t burst = (int64_t)fmax(1, fmin(1e5, 1e6 / size));
-    double spent = 0;
+    double spent = 0, each = 0;
+    lane->unfollowed = !follow && !lane->scene->stop;
     while (goes_on(table, lane, steps) && spent < most && !stopped(table)) {
-        const int64_t left = steps - lane->run->steps,
-                      stop = lane->run->steps + (left < burst ? left : burst);
-        const double started = gm_clock_processor_seconds();
-        if (follow || lane->scene->stop) {
-            gm_lane_to(lane, stop, until);
-        } else {
-            gm_run_to(lane->run, stop, until);
-        }
-        spent += gm_clock_processor_seconds() - started;
+        spent += gm_lane_burst(lane, steps, timing_of(table)->until, &each);
     }
     return spent;
 }

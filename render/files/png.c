@@ -7,6 +7,8 @@
 #include <libdeflate.h>
 #include <math.h>
 #include <png.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -182,7 +184,7 @@ static bool write_directly(const char *path, struct stream *stream, const struct
     return write_descriptor(descriptor, stream, image);
 }
 
-static bool write_and_rename(const char *path, struct stream *stream, const struct image *image)
+static bool write_aside(const char *path, struct stream *stream, const struct image *image)
 {
     char *temporary = gm_temporary_name(path, ".tmp");
     int descriptor = temporary ? open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
@@ -200,6 +202,19 @@ static bool write_and_rename(const char *path, struct stream *stream, const stru
         unlink(temporary);
     }
     free(temporary);
+    return written;
+}
+
+static bool write_and_rename(const char *path, struct stream *stream, const struct image *image)
+{
+    /* who ends the process on a signal would leave a half file; packing, which takes long, is over */
+    sigset_t ends, unblocked;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    sigaddset(&ends, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ends, &unblocked);
+    const bool written = write_aside(path, stream, image);
+    pthread_sigmask(SIG_SETMASK, &unblocked, NULL);
     return written;
 }
 

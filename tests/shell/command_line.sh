@@ -216,7 +216,7 @@ python3 -c 'import json, sys; assert all([json.loads(line) for line in sys.stdin
 for how in --json "--csv -"; do
     rm -f interrupted.csv out
     # shellcheck disable=SC2086
-    "$geomint" run disc scheme=verlet steps=1e12 --every 100 $([ "$how" = --json ] && echo --csv interrupted.csv) $how >out 2>err &
+    "$geomint" run disc scheme=verlet steps=1e12 --yes --every 100 $([ "$how" = --json ] && echo --csv interrupted.csv) $how >out 2>err &
     pid=$!
     tries=0
     while [ "$(cat interrupted.csv out 2>/dev/null | wc -l)" -lt 10 ] && [ $tries -lt 6000 ]; do

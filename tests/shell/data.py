@@ -413,7 +413,7 @@ def continued():
 
 def interrupted():
     """SIGINT: what is there is complete."""
-    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save i.npz --csv i.csv".split(),
+    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --yes --every 1000 --save i.npz --csv i.csv".split(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while not os.path.exists("i.csv") or os.path.getsize("i.csv") == 0:  # which is written many rows at a time
         time.sleep(0.01)
@@ -565,7 +565,7 @@ def beside():
             rows_stay("a checkpoint without room", "--checkpoint small/c.check", 3,
                       ["cannot write small/c.check: No space left on device", written])
     # without anything beside it a run whose rows nobody reads ends
-    process = subprocess.Popen([GEOMINT] + "run kepler scheme=verlet,rk4 steps=1e14 --csv -".split(), stdout=subprocess.PIPE,
+    process = subprocess.Popen([GEOMINT] + "run kepler scheme=verlet,rk4 steps=1e14 --yes --csv -".split(), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE)
     process.stdout.readline()
     process.stdout.close()
@@ -668,7 +668,7 @@ def refusals():
         check(len(done.stderr.splitlines()) == 1, f"no room for a row: {done.stderr}")
         check(not os.path.exists(f"none.{ending}.part"), "no room for a row: nothing stays")
         check(ending == "pvd" or not os.path.exists(f"none.{ending}"), "no room for a row: no half file")
-    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save two.npz".split(),
+    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --yes --every 1000 --save two.npz".split(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while not os.path.exists("two.npz.part/lane-0"):
         time.sleep(0.01)

@@ -192,6 +192,14 @@ refused 1 'no scheme' render disc --changes 0:1:scheme=nothing
 refused 1 'cannot be changed' render disc --changes 0:1:points=7
 refused 1 'whole number from 0 to 1e15' run disc steps=99999999999999999999
 refused 1 'steps; 1e15 is the most' run disc dt=1e-6 until=1e12
+# what would take very long is asked about first, with how many steps and how long
+for command in run render backward work-precision; do
+    refused 1 '^geomint: these are 1e+15 steps, which take about [0-9.e+]* years; --yes makes them$' \
+        $command disc scheme=midpoint until=1e12 dt=1e-3
+done
+refused 1 '; --yes makes them$' stability kepler until=1e12
+refused 1 '^geomint: these are 2 runs, which take about .*; --yes makes them$' \
+    sweep disc scheme=midpoint radius=0.1,0.2 until=1e12 dt=1e-3
 refused 1 'no .mp4, .webm or .gif' render disc --movie a.avi
 refused 1 'no .mp4, .webm or .gif' tour area --movie a.avi
 [ -n "$(find . -name '*.csv')" ] && fail 'a refused command wrote a file'

@@ -25,6 +25,12 @@ POLITE = ['SIGINT', 'SIGTERM', 'SIGQUIT', 'SIGHUP', 'SIGUSR1', 'SIGUSR2', 'SIGAL
           'SIGIO', 'SIGPWR', 'SIGSTKFLT', 'SIGRTMIN', 'SIGRTMAX']
 FAULTS = ['SIGSEGV', 'SIGABRT', 'SIGBUS', 'SIGFPE', 'SIGILL', 'SIGTRAP', 'SIGSYS']
 FEW = ['SIGTERM', 'SIGHUP', 'SIGUSR1', 'SIGALRM', 'SIGXCPU', 'SIGSEGV']
+LONG = ['run disc until=1e8 dt=1e-3', 'run disc until=1e12 dt=1e-3 --yes', 'run disc points=1e6 until=1e6',
+        "run system H=p^2/2+sum(i=1..1000,cos(q*i)/i^3) q=1 p=0 until=1e6", 'render disc until=1e8 dt=1e-3 --yes',
+        'render kepler until=1e9 --frames 9', 'work-precision kepler until=1e7', 'stability kepler until=1e6',
+        'backward disc until=1e12 dt=1e-3 --yes', 'backward disc until=1e8 dt=1e-3',
+        'sweep kepler eccentricity=0..0.9:1000 until=1e7 --yes', 'certify all', 'figures --out made']
+SHORT = ['list', 'cache', 'manual', 'complete run ke', '--version']
 NUMBERS = {name: int(getattr(signal, name, 16)) for name in POLITE + FAULTS}  # 16: SIGSTKFLT, which Python lacks
 
 
@@ -90,9 +96,9 @@ class Session:
                 break
             self.take(data)
         if self.status is None:
-            ended, status = os.waitpid(self.pid, os.WNOHANG)
+            ended, status, used = os.wait4(self.pid, os.WNOHANG)
             if ended:
-                self.status = status
+                self.status, self.used = status, used.ru_utime + used.ru_stime
                 if self.reads:
                     self.look()
 
@@ -219,6 +225,44 @@ def faulting(number):
     yield from ends(session, 'SIGSEGV')
 
 
+def taken(session):
+    """Of a processor, in seconds: a busy machine has nothing to do with it."""
+    try:
+        with open(f'/proc/{session.pid}/stat', encoding='ascii') as stat:
+            return sum(map(int, stat.read().rpartition(')')[2].split()[11:15])) / os.sysconf('SC_CLK_TCK')
+    except (FileNotFoundError, ProcessLookupError):
+        return 0
+
+
+def interrupted(name, words, under_way=0.5):
+    """A command that would go on for long, and has begun to: it ends within two seconds of a processor."""
+    session = Session(f'{name} in geomint {words}', [geomint, *words.split()])
+    yield session
+    yield lambda: session.ended() or taken(session) >= under_way
+    if session.ended():
+        session.error = f'it ends by itself: {session.seen[-200:]}'
+        return
+    before = taken(session)
+    session.send(name)
+    yield session.ended
+    if session.status != 130 << 8:
+        session.error = f'its status is {session.status:#x}'
+    elif session.used - before > 2:
+        session.error = f'it goes on for {session.used - before:.1f} s'
+    elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
+        session.error = f'it leaves {left}'
+
+
+def short(words):
+    """A command that hardly takes any time."""
+    session = Session(f'SIGINT in geomint {words}', [geomint, *words.split()])
+    yield session
+    session.send('SIGINT')
+    yield session.ended
+    if session.status not in (0, 130 << 8, NUMBERS['SIGINT']) or session.used > 2:
+        session.error = f'its status is {session.status:#x} after {session.used} s'
+
+
 def deaf():
     """A terminal that takes nothing: who insists is heard."""
     session = yield from opened('SIGTERM while the terminal takes nothing', [geomint, 'disc'])
@@ -302,6 +346,12 @@ def plays():
             yield painting(name, moment)
         if shutil.which('ffmpeg'):
             yield recording(name)
+    for name in 'SIGINT', 'SIGTERM':
+        for words in LONG:
+            yield interrupted(name, words)
+        yield interrupted(name, 'render disc --size 12000x12000', 1)
+    for words in SHORT:
+        yield short(words)
     yield faulting(0)
     yield faulting(1)
     yield deaf()

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "app/commands/confirmed.h"
 #include "app/commands/measuring/charted.h"
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
@@ -19,6 +20,10 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
     if (!study->open(&table, &options->arguments, options->measure, message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&table.request);
+    }
+    if (!gm_command_confirmed(options, &table.request)) {
+        study->close(&table);
+        return GM_EXIT_USAGE;
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;

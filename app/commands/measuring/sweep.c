@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/confirmed.h"
 #include "app/commands/measuring/charted.h"
 #include "app/cores/pool.h"
 #include "app/output/say.h"
@@ -22,30 +23,14 @@ static size_t cores_of(const struct gm_options *options)
     return options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
 }
 
-/* "3.2 years" */
-static void put_duration(double seconds, char *text, size_t size)
-{
-    static const struct {
-        double seconds;
-        const char *name;
-    } units[] = {
-        {365.25 * 86400, "years"}, {86400, "days"}, {3600, "hours"}, {60, "minutes"}, {1, "seconds"}};
-    size_t unit = 0;
-    while (unit + 1 < GM_COUNT(units) && seconds < 2 * units[unit].seconds) {
-        unit++;
-    }
-    const double count = seconds / units[unit].seconds;
-    snprintf(text, size, count < 1e5 ? "%.*f %s" : "%.*g %s", count < 9.5 ? 1 : 0, count, units[unit].name);
-}
-
 static bool is_confirmed(const struct gm_sweep *sweep, const struct gm_options *options)
 {
     const size_t runs = gm_sweep_share(sweep);
-    if ((double)runs <= many || options->yes) {
+    if (options->yes || ((double)runs <= many && gm_sweep_steps(sweep) <= gm_many_steps)) {
         return true;
     }
     char duration[64];
-    put_duration(gm_sweep_seconds(sweep) / (double)cores_of(options), duration, sizeof duration);
+    gm_put_duration(gm_sweep_seconds(sweep) / (double)cores_of(options), duration, sizeof duration);
     gm_complain("these are %zu runs, which take about %s with %zu at once; --yes makes them", runs, duration,
                 cores_of(options));
     return false;

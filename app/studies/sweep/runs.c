@@ -408,42 +408,34 @@ void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row
 
 /* ---- how long it takes ---- */
 
-/* What a run will take, judged by its first steps. */
-static double seconds_of(const struct gm_sweep *sweep, size_t run)
-{
-    const double enough = 0.2;
-    char message[GM_MESSAGE];
-    struct gm_arguments arguments;
-    struct gm_request request = {0};
-    const double started = gm_clock_seconds();
-    double seconds = 0;
-    struct gm_drive drive = {.request = &request};
-    if (words_of(sweep, run, NULL, NULL, &arguments) &&
-        gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message) &&
-        (drive.lane = gm_request_open_lane(&request, 0, message))) {
-        const struct gm_run *state = drive.lane->run;
-        const int64_t steps = request.lanes[0].steps;
-        seconds = gm_clock_seconds() - started;
-        for (int64_t goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
-             goal *= 2) {
-            gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
-        }
-        const double part = (state->t - drive.lane->t0) / (request.lanes[0].end - drive.lane->t0);
-        seconds += part > 0 && part < 1 && state->status == GM_OK ? drive.seconds / part : drive.seconds;
-    }
-    gm_lane_close(drive.lane);
-    gm_request_close(&request);
-    gm_arguments_close(&arguments);
-    return seconds;
-}
-
-double gm_sweep_seconds(const struct gm_sweep *sweep)
+/* Of all runs, judged by a few of them. */
+static double sum_of(const struct gm_sweep *sweep,
+                     double (*of)(const struct gm_request *request, size_t index))
 {
     enum { SAMPLES = 5 };
     const size_t runs = gm_sweep_share(sweep);
     double sum = 0;
-    for (size_t i = 0; i < SAMPLES; i++) {
-        sum += seconds_of(sweep, gm_sweep_run(sweep, (runs - 1) / (SAMPLES - 1) * i));
+    for (size_t i = 0; i < SAMPLES && runs > 0; i++) {
+        char message[GM_MESSAGE];
+        struct gm_arguments arguments;
+        struct gm_request request = {0};
+        const size_t run = gm_sweep_run(sweep, (runs - 1) / (SAMPLES - 1) * i);
+        if (words_of(sweep, run, NULL, NULL, &arguments) &&
+            gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message)) {
+            sum += of(&request, 0);
+        }
+        gm_request_close(&request);
+        gm_arguments_close(&arguments);
     }
     return sum / SAMPLES * (double)runs;
+}
+
+double gm_sweep_seconds(const struct gm_sweep *sweep)
+{
+    return sum_of(sweep, gm_drive_seconds);
+}
+
+double gm_sweep_steps(const struct gm_sweep *sweep)
+{
+    return sum_of(sweep, gm_request_steps);
 }
