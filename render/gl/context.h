@@ -15,7 +15,7 @@ enum { GM_CONTEXT_TAKES = 512 << 20 };
 
 struct gm_context;
 
-/* Loads the library of a kind, which stays. False with the reason: "libEGL.so.1 is not installed". */
+/* Loads the library of a kind, which stays. False with the reason. */
 bool gm_context_load(enum gm_context_kind kind, char *message, size_t size);
 
 /* Opens a context and makes it current. NULL on failure, with the reason. */

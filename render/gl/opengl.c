@@ -229,6 +229,14 @@ static bool use_alone(struct engine *engine, char *message)
            (engine->context ? gm_context_use(engine->context) : engine_open(engine, message));
 }
 
+bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size)
+{
+    take_turn();
+    const bool loaded = gm_context_load(kind, message, size);
+    end_turn(&engines[kind]);
+    return loaded;
+}
+
 void gm_opengl_set_up(enum gm_context_kind kind)
 {
     char message[GM_MESSAGE]; /* the first picture meets the same reason, and tells it */

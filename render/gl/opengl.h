@@ -12,6 +12,9 @@
 
 struct gm_opengl;
 
+/* Loads the library of a kind, which stays. False with the reason: "libEGL.so.1 is not installed". */
+bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size);
+
 /* Sets up what all pictures of a kind share, which the first of them does else: beside a run, for instance. */
 void gm_opengl_set_up(enum gm_context_kind kind);
 

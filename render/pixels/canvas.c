@@ -44,7 +44,7 @@ bool gm_canvas_choose(const char *painter, char *message)
     if (found == CHOICES) {
         return gm_refuse(message, "\"%.40s\" is no painter: %s", word, rule);
     }
-    if (found < OWN && !gm_context_load((enum gm_context_kind)found, reason, sizeof reason)) {
+    if (found < OWN && !gm_opengl_load((enum gm_context_kind)found, reason, sizeof reason)) {
         return gm_refuse(message, "%s cannot be loaded (%s): %s", word, reason, rule);
     }
     chosen = (enum choice)found;
@@ -59,7 +59,7 @@ static enum choice painter_of(bool live)
     if (chosen != AUTO) {
         return chosen;
     }
-    return live || gm_address_space_is_limited() || !gm_context_load(GM_CONTEXT_OSMESA, reason, sizeof reason)
+    return live || gm_address_space_is_limited() || !gm_opengl_load(GM_CONTEXT_OSMESA, reason, sizeof reason)
                ? OWN
                : OSMESA;
 }

@@ -119,7 +119,7 @@ def test_likeness():
 def test_painters():
     """What paints is not seen: OSMesa's pixels are those of the program's own rasteriser, but for single steps."""
     cases = ["render disc --theme dark", "render kepler", "render couette until=0.1", "render wave", "stability --region rk4"]
-    for words in cases[:3] if FEW else cases + ["render cavity until=0.1", "render kdv", "render rigid-body --size 900x700",
+    for words in cases[:3] if FEW else cases + ["render cavity columns=32 rows=0", "render rigid-body --size 900x700",
                                                 "render kepler scheme=verlet until=30 --size 80x60mm"]:
         for painter in ("own", "osmesa"):
             geomint(f"{words} --painter {painter} -o {painter}.png")
