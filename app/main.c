@@ -19,6 +19,7 @@
 #include "core/memory.h"
 #include "render/address_space.h"
 #include "render/gl/context.h"
+#include "render/pixels/canvas.h"
 
 /* What may stand first: a command or a scene. */
 static const char *first_word(size_t i, const void *data)
@@ -143,11 +144,13 @@ static int run(int argc, char *argv[])
     char message[GM_MESSAGE];
     struct gm_options options;
     int status = GM_EXIT_USAGE;
-    if (gm_options_parse(&options, command->bit, argc, argv, first, message)) {
+    if (gm_options_parse(&options, command->bit, argc, argv, first, message) &&
+        (!(command->bit & GM_PAINTS) || gm_canvas_choose(options.painter, message))) {
         char kernels[4096];
         gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
         gm_engine_choose(options.engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         status = command->function(&options);
+        gm_canvas_settle();
     } else {
         gm_complain("%s", message);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of a handle's lanes. A context of OpenGL, where one is asked for, is current in a thread: so pictures are
+/* Pictures of a handle's lanes. A context of OpenGL is current in a thread: so pictures are
    drawn in a thread that knows nothing of the host, one at a time. */
 #include <pthread.h>
 #include <stdio.h>
@@ -65,7 +65,10 @@ static void draw(void *data)
         for (size_t i = 0; i < handle->request.count; i++) {
             drawing->lanes[i] = handle->drawn[i].lane;
         }
-        if (!(drawing->path ? print : paint)(drawing, message)) {
+        const bool pixels = !drawing->path || drawing->format == GM_FORMAT_PNG;
+        if (pixels && !gm_canvas_choose(NULL, message)) {
+            gm_handle_refuse(handle, GEOMINT_USAGE, message);
+        } else if (!(drawing->path ? print : paint)(drawing, message)) {
             gm_handle_refuse(handle, gm_memory_refusals() > 0 ? GEOMINT_MEMORY : GEOMINT_FILE, message);
         }
     } else if (gm_memory_refusals() > 0) { /* of this thread, which gm_call_end does not see */

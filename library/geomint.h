@@ -23,8 +23,8 @@
    mistake; that an array is too short nobody can see.
 
    A process that is forked off goes on with the handles that it has got, if no other thread was in the
-   library at that moment; where GEOMINT_GL asks for OpenGL it paints no pixels if its parent has (GEOMINT_FILE), as
-   OpenGL's threads are not there. */
+   library at that moment. Where its parent has painted, OpenGL's threads are not there: the own rasteriser paints, and
+   GEOMINT_PAINTER=osmesa is refused (GEOMINT_FILE). */
 #ifndef GEOMINT_H
 #define GEOMINT_H
 
@@ -146,8 +146,9 @@ int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, doubl
 /* Draws all lanes as they are now into rgba: height rows of width * 4 bytes, the top row first; red, green,
    blue, and 255. Width and height are from 64 to 16384 pixels. A scene may show its past, so the steps made
    so far are made once more beside the lanes, looked at one by one, when it is first drawn. `scale` is that
-   of letters and lines, from 1/4 to 4; 0: 1. GEOMINT_FILE: there is no font, or not the OpenGL that
-   GEOMINT_GL asks for. */
+   of letters and lines, from 1/4 to 4; 0: 1. What paints is OSMesa, where it can be loaded, or what the
+   environment variable GEOMINT_PAINTER names: auto, osmesa, egl or own. GEOMINT_USAGE: it names another, or one
+   that cannot be loaded; GEOMINT_FILE: there is no font. */
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);
 /* Writes the picture to a file whose name ends with .png, .svg or .pdf, and which tells how it was made;
    folders that are missing are made. Width, height and scale as above; of .svg and .pdf pixels are 1/96 inch.

@@ -12,6 +12,7 @@
 #include "app/own/system.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
+#include "render/pixels/canvas.h"
 #include "render/vector/svg.h"
 
 /* The texts that it reads. */
@@ -28,11 +29,12 @@ enum {
     TITLE,
     SYSTEM,
     ROOM,
+    PAINTER,
     TEXTS
 };
 static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
                                         GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_PAGE,
-                                        GM_KEY_TITLE,   GM_KEY_SYSTEM,    GM_KEY_ROOM};
+                                        GM_KEY_TITLE,   GM_KEY_SYSTEM,    GM_KEY_ROOM,    GM_KEY_PAINTER};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -139,6 +141,16 @@ static int chart_again(const struct gm_options *options, const char *command)
     return status;
 }
 
+/* What painted the PNG paints it again, unless somebody says otherwise. */
+static bool take_painter(const struct gm_options *options, char *painter, char *message)
+{
+    if (options->painter || options->format != GM_FORMAT_PNG || !painter) {
+        return true;
+    }
+    painter[strcspn(painter, ",")] = '\0'; /* what else it tells are versions */
+    return gm_canvas_choose(painter, message);
+}
+
 /* A number of a text within bounds; 0 for no text. False where it is damaged. */
 static bool take_number(const char *text, double low, double high, double *number)
 {
@@ -199,6 +211,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         gm_complain("%s cannot be made again: %s", path, message);
     } else {
         gm_catch_interrupts();
+        gm_press_expect(print.format);
         lanes = calloc(request.count, sizeof *lanes);
         if (!lanes || !same_room(&request, texts[ROOM], message) ||
             !drive(&request, lanes, texts[STEPS], message)) {
@@ -244,9 +257,14 @@ static int command_again(const struct gm_options *options)
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    const int status = !recall_system(texts) ? GM_EXIT_MEMORY
-                       : texts[COMMAND]      ? chart_again(options, texts[COMMAND])
-                                             : picture_again(options, texts);
+    int status = GM_EXIT_USAGE;
+    if (!drawn && !take_painter(options, texts[PAINTER], message)) {
+        gm_complain("%.300s cannot be made again: %s", path, message);
+    } else {
+        status = !recall_system(texts) ? GM_EXIT_MEMORY
+                 : texts[COMMAND]      ? chart_again(options, texts[COMMAND])
+                                       : picture_again(options, texts);
+    }
     for (size_t i = 0; i < TEXTS; i++) {
         free(texts[i]);
     }

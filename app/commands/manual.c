@@ -165,7 +165,7 @@ static void put_surroundings(void)
         {"141", "a broken pipe"},
     };
     static const char *const environment[][2] = {
-        {"GEOMINT_GL", "osmesa or egl: pictures by this OpenGL, and not by geomint's own rasteriser"},
+        {"GEOMINT_PAINTER", "auto, osmesa, egl or own: what paints pixels, where --painter does not say it"},
         {"GEOMINT_COLOURS", "truecolor, 256, 16 or none, whatever the terminal says"},
         {"GEOMINT_GRAPHICS",
          "kitty, sixel, braille, quadrants, half or ascii: what pictures in the terminal are made of"},

@@ -72,6 +72,8 @@ static const struct row rows[] = {
      "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
     {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
      "format of pictures whose names do not tell it (png)"},
+    {"--painter", TEXT, GM_PAINTS, AT(painter), "auto|osmesa|egl|own",
+     "what paints pixels: OSMesa, where it is, and own in the terminal (auto)"},
     {"--title", TITLE, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.title), "TEXT",
      "title of the picture instead of its own"},
     {"--size", SIZE, PAINTS, AT(look.width), "WxH", "pixels (1280x720), or lengths: 16x9cm, 160x90mm"},

@@ -28,6 +28,8 @@ enum gm_command {
     GM_COMPLETE = 1 << 30,
     /* those that draw what they measured */
     GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
+    /* those that paint pixels */
+    GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
@@ -36,6 +38,7 @@ struct gm_options {
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
+    const char *painter;
     const char *format_name;
     enum gm_engine engine;            /* auto, if it is not given */
     enum gm_format format;            /* of pictures: png, unless the two before say otherwise */

@@ -426,6 +426,7 @@ static int paint_still(struct work *work, const char *name)
     }
     struct gm_print print = {.path = path, .format = options->format, .look = options->look};
     int status = GM_EXIT_FILE;
+    gm_press_expect(print.format);
     const bool driven = path && drive_to(work, 0, message);
     if (gm_interrupted) {
         status = GM_EXIT_INTERRUPTED;

@@ -398,6 +398,7 @@ static int make(const struct gm_figure_job *job, const struct gm_figure_output *
         snprintf(outcome->message, sizeof outcome->message, "it has more than %d lanes", GM_FIGURE_LANES);
         return GM_EXIT_USAGE;
     }
+    gm_press_expect(GM_FORMAT_PNG);
     for (size_t i = 0; i < request->count; i++) {
         lanes[i] = gm_request_open_lane(request, i, outcome->message);
         struct gm_drive drive = {.lane = lanes[i], .request = request, .index = i};

@@ -54,6 +54,13 @@ static bool no_memory(const struct gm_appearance *look, char *message)
     return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
 }
 
+void gm_press_expect(enum gm_format format)
+{
+    if (format == GM_FORMAT_PNG) {
+        gm_canvas_expect();
+    }
+}
+
 struct gm_press *gm_press_open(const struct gm_print *print, char *message)
 {
     const struct gm_appearance *look = &print->look;

@@ -24,6 +24,9 @@ const char *gm_format_name(enum gm_format format);
 bool gm_format_find(const char *name, enum gm_format *format);
 bool gm_format_of(const char *path, enum gm_format *format);
 
+/* Begins, beside the run whose picture it will print, what takes long of opening a press. */
+void gm_press_expect(enum gm_format format);
+
 /* A press for one format and look, which outlives it. NULL on failure, with a sentence (GM_MESSAGE bytes). */
 struct gm_press;
 struct gm_press *gm_press_open(const struct gm_print *print, char *message);

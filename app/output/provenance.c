@@ -112,7 +112,7 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
         take_look(provenance, look) &&
         (!request->scene->source || take(provenance, GM_KEY_SYSTEM, format("%s", request->scene->source))) &&
         (!request->scene->room || take(provenance, GM_KEY_ROOM, format("%s", request->scene->mark))) &&
-        take(provenance, "geomint:context", format("%s", backend));
+        take(provenance, GM_KEY_PAINTER, format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);
     }
@@ -156,7 +156,7 @@ bool gm_provenance_of_command(struct gm_provenance *provenance, const char *comm
     const bool good = options && take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
                       take(provenance, GM_KEY_COMMAND, format("%s%s", command, options)) &&
                       (!system || take(provenance, GM_KEY_SYSTEM, format("%s", system))) &&
-                      take(provenance, "geomint:context", format("%s", backend));
+                      take(provenance, GM_KEY_PAINTER, format("%s", backend));
     free(options);
     if (!good) {
         gm_provenance_close(provenance);

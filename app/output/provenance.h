@@ -27,6 +27,7 @@ struct gm_provenance {
 #define GM_KEY_PAGE "geomint:page"       /* 80x60, in mm; none: the pixels say */
 #define GM_KEY_TITLE "geomint:title"     /* over the picture; none: the scene's */
 #define GM_KEY_SYSTEM "geomint:system"   /* the text of a system, where the scene is one of a file */
+#define GM_KEY_PAINTER "geomint:painter" /* of a PNG as gm_canvas_backend; else what wrote it */
 #define GM_KEY_ROOM "geomint:room" /* the name of a room of a file, with a checksum of it and of its mesh */
 
 /* of a chart, instead of all these: the words of its command line */

@@ -7,12 +7,11 @@
 /* A way to get an OpenGL context without a screen; `self` is what its open returned. The libraries are never
    unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
 struct gm_backend {
-    const char *key;                           /* in GEOMINT_GL */
-    const char *name;                          /* for people */
-    const char *const *libraries;              /* the first that is there will do; ends with NULL */
-    void *(*open)(char *message, size_t size); /* current on return; NULL with the reason on failure */
+    void *(*load)(char *message, size_t size);                /* its library, or NULL */
+    void *(*open)(void *library, char *message, size_t size); /* current on return, or NULL */
     void (*close)(void *self);
     bool (*use)(void *self);
+    void (*release)(void *self);
     gm_library_function (*find)(void *self, const char *name);
 };
 

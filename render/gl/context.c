@@ -10,17 +10,17 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "render/address_space.h"
 #include "render/gl/backend.h"
 #include "render/message.h"
 
-static const struct gm_backend *const backends[] = {
+static const struct gm_backend *const backends[GM_CONTEXT_KINDS] = {
 #ifdef GM_HAVE_OSMESA
-    &gm_backend_osmesa,
+    [GM_CONTEXT_OSMESA] = &gm_backend_osmesa,
 #endif
 #ifdef GM_HAVE_EGL
-    &gm_backend_egl,
+    [GM_CONTEXT_EGL] = &gm_backend_egl,
 #endif
-    NULL,
 };
 
 struct gm_context {
@@ -28,64 +28,36 @@ struct gm_context {
     void *self;
 };
 
-static struct gm_context *open_with(const struct gm_backend *backend, char *message, size_t size)
+static void *load(enum gm_context_kind kind, char *message, size_t size)
+{
+    snprintf(message, size, "this geomint was built without it");
+    void *library = backends[kind] ? backends[kind]->load(message, size) : NULL;
+    if (!library && gm_address_space_is_limited() && !gm_address_space_has(GM_CONTEXT_TAKES)) {
+        snprintf(message, size, "there is not enough memory for it");
+    }
+    return library;
+}
+
+bool gm_context_load(enum gm_context_kind kind, char *message, size_t size)
+{
+    return load(kind, message, size) != NULL;
+}
+
+struct gm_context *gm_context_open(enum gm_context_kind kind, char *message, size_t size)
 {
     struct gm_context *context = malloc(sizeof *context);
     if (!context) {
-        snprintf(message, size, "There is not enough memory for an OpenGL context.");
+        snprintf(message, size, "there is not enough memory for it");
         return NULL;
     }
-    *context = (struct gm_context){.backend = backend, .self = backend->open(message, size)};
+    void *library = load(kind, message, size);
+    *context = (struct gm_context){.backend = backends[kind],
+                                   .self = library ? backends[kind]->open(library, message, size) : NULL};
     if (!context->self) {
         free(context);
         return NULL;
     }
     return context;
-}
-
-static void unknown_backend(const char *wanted, char *message, size_t size)
-{
-    char known[64] = "";
-    for (size_t i = 0; backends[i]; i++) {
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
-                 backends[i]->key);
-    }
-    snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only %s.", wanted,
-             known[0] != '\0' ? known : "none");
-}
-
-/* Whether the environment variable GEOMINT_GL lets this one be tried. */
-static bool is_wanted(const struct gm_backend *backend)
-{
-    const char *wanted = getenv("GEOMINT_GL");
-    return !wanted || wanted[0] == '\0' || strcmp(wanted, backend->key) == 0;
-}
-
-struct gm_context *gm_context_open(char *message, size_t size)
-{
-    const char *wanted = getenv("GEOMINT_GL");
-    char reasons[2][192] = {"", ""};
-    size_t tried = 0;
-    for (size_t i = 0; backends[i]; i++) {
-        if (!is_wanted(backends[i])) {
-            continue;
-        }
-        struct gm_context *context = open_with(backends[i], reasons[tried], sizeof reasons[tried]);
-        if (context) {
-            return context;
-        }
-        tried++;
-    }
-    if (tried == 0 && wanted && wanted[0] != '\0') {
-        unknown_backend(wanted, message, size);
-    } else if (tried == 0) {
-        snprintf(message, size,
-                 "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
-    } else {
-        snprintf(message, size, "No OpenGL context could be opened: %s%s%s.", reasons[0],
-                 tried > 1 ? "; " : "", reasons[1]);
-    }
-    return NULL;
 }
 
 void gm_context_close(struct gm_context *context)
@@ -102,14 +74,14 @@ bool gm_context_use(const struct gm_context *context)
     return context->backend->use(context->self);
 }
 
+void gm_context_release(const struct gm_context *context)
+{
+    context->backend->release(context->self);
+}
+
 gm_library_function gm_context_find(const struct gm_context *context, const char *name)
 {
     return context->backend->find(context->self, name);
-}
-
-const char *gm_context_name(const struct gm_context *context)
-{
-    return context->backend->name;
 }
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
@@ -128,17 +100,13 @@ static void end(int number)
 
 static void make_sentence(void)
 {
-    const char *driver = getenv("GALLIUM_DRIVER");
     struct rlimit space;
     const bool limited = getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
     const int length =
         snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
     const size_t used = (size_t)length;
-    exit_status = !driver && limited ? 5 : 3; /* not enough memory; no file was written */
-    if (driver) {
-        snprintf(sentence + used, sizeof sentence - used,
-                 "; the environment variable GALLIUM_DRIVER asks for its driver \"%.60s\".\n", driver);
-    } else if (limited) {
+    exit_status = limited ? 5 : 3; /* not enough memory; no file was written */
+    if (limited) {
         snprintf(sentence + used, sizeof sentence - used, "; its address space is limited to %.0f MB.\n",
                  (double)space.rlim_cur / 1e6);
     } else {

@@ -51,17 +51,21 @@ static bool egl_use(void *self)
            egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context);
 }
 
+static void egl_release(void *self)
+{
+    struct egl *egl = self;
+    egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl->release_thread();
+}
+
 static void egl_close(void *self)
 {
     struct egl *egl = self;
     if (egl->context != EGL_NO_CONTEXT) {
-        egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        egl_release(self);
         egl->destroy_context(egl->display, egl->context);
     }
     /* The display is not terminated: EGL shares it between all contexts of the process. */
-    if (egl->release_thread) {
-        egl->release_thread();
-    }
     free(egl);
 }
 
@@ -102,14 +106,14 @@ static const char *context_create(struct egl *egl)
     return NULL;
 }
 
-static const char *const libraries[] = {"libEGL.so.1", NULL};
-
-static void *egl_open(char *message, size_t size)
+static void *egl_load(char *message, size_t size)
 {
-    void *library = gm_library_open(libraries, message, size);
-    if (!library) {
-        return NULL;
-    }
+    static const char *const libraries[] = {"libEGL.so.1", NULL};
+    return gm_library_open(libraries, message, size);
+}
+
+static void *egl_open(void *library, char *message, size_t size)
+{
     struct egl *egl = calloc(1, sizeof *egl);
     if (!egl) {
         snprintf(message, size, "there is not enough memory for EGL");
@@ -131,11 +135,10 @@ static gm_library_function egl_find(void *self, const char *name)
 }
 
 const struct gm_backend gm_backend_egl = {
-    .key = "egl",
-    .name = "EGL",
-    .libraries = libraries,
+    .load = egl_load,
     .open = egl_open,
     .close = egl_close,
     .use = egl_use,
+    .release = egl_release,
     .find = egl_find,
 };

@@ -29,13 +29,10 @@
     X(CompileShader, COMPILESHADER)                                                                          \
     X(CreateProgram, CREATEPROGRAM)                                                                          \
     X(CreateShader, CREATESHADER)                                                                            \
-    X(DeleteBuffers, DELETEBUFFERS)                                                                          \
     X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                                                \
-    X(DeleteProgram, DELETEPROGRAM)                                                                          \
     X(DeleteRenderbuffers, DELETERENDERBUFFERS)                                                              \
     X(DeleteShader, DELETESHADER)                                                                            \
     X(DeleteTextures, DELETETEXTURES)                                                                        \
-    X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                                \
     X(Disable, DISABLE)                                                                                      \
     X(DrawArrays, DRAWARRAYS)                                                                                \
     X(DrawElements, DRAWELEMENTS)                                                                            \

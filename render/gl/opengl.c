@@ -12,23 +12,29 @@
 #include "render/gl/stream.h"
 #include "render/message.h"
 
-enum { MAP_STEPS = 256, MAP_ROWS = 2 };
+enum { MAP_STEPS = 16 * 255 + 1 /* as the rasteriser */, MAP_ROWS = 2 };
 
-struct gm_opengl {
-    struct gm_context *context;
+/* What the pictures of a kind share: to make it takes longer than to draw one. */
+struct engine {
+    struct gm_context *context; /* NULL: not yet */
     struct gm_gl gl;
     struct gm_stream stream;
+    char name[GM_MESSAGE];
+};
+static struct engine engines[GM_CONTEXT_KINDS];
+
+struct gm_opengl {
+    struct engine *engine;
     int width, height;
     enum gm_theme theme;
     GLuint framebuffer, colour_buffer, stencil_buffer;
     GLuint atlas, maps;
     int atlas_height; /* of the texture */
-    char name[GM_MESSAGE];
 };
 
 static bool framebuffer_open(struct gm_opengl *opengl, char *message)
 {
-    const struct gm_gl *gl = &opengl->gl;
+    const struct gm_gl *gl = &opengl->engine->gl;
     GLint most = 0, viewport[2] = {0, 0};
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
@@ -54,8 +60,8 @@ static bool framebuffer_open(struct gm_opengl *opengl, char *message)
         gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, opengl->width, opengl->height);
         gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
                                     opengl->stencil_buffer);
-        if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
-            gl->GetError() == GL_NO_ERROR) {
+        if (gl->GetError() == GL_NO_ERROR &&
+            gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) {
             return true;
         }
     }
@@ -64,17 +70,17 @@ static bool framebuffer_open(struct gm_opengl *opengl, char *message)
     return false;
 }
 
-static void texture_parameters(const struct gm_gl *gl, GLint filter)
+static void texture_parameters(const struct gm_gl *gl)
 {
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 static void textures_open(struct gm_opengl *opengl)
 {
-    const struct gm_gl *gl = &opengl->gl;
+    const struct gm_gl *gl = &opengl->engine->gl;
     unsigned char texels[MAP_ROWS][MAP_STEPS][4];
     for (int map = 0; map < MAP_ROWS; map++) {
         for (int i = 0; i < MAP_STEPS; i++) {
@@ -87,60 +93,66 @@ static void textures_open(struct gm_opengl *opengl)
     gl->GenTextures(1, &opengl->atlas);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, opengl->atlas);
-    texture_parameters(gl, GL_NEAREST);
+    texture_parameters(gl);
     gl->GenTextures(1, &opengl->maps);
     gl->ActiveTexture(GL_TEXTURE1);
     gl->BindTexture(GL_TEXTURE_2D, opengl->maps);
-    texture_parameters(gl, GL_LINEAR);
+    texture_parameters(gl);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-static bool open_alone(struct gm_opengl *opengl, char *message)
+static bool complete(struct engine *engine, char *message)
 {
-    opengl->context = gm_context_open(message, GM_MESSAGE);
-    if (!opengl->context) {
-        return false;
-    }
-    const char *missing = gm_gl_load(&opengl->gl, opengl->context);
+    const char *missing = gm_gl_load(&engine->gl, engine->context);
     if (missing) {
         return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
     }
-    const char *version = (const char *)opengl->gl.GetString(GL_VERSION);
-    const char *renderer = (const char *)opengl->gl.GetString(GL_RENDERER);
+    const char *version = (const char *)engine->gl.GetString(GL_VERSION);
+    const char *renderer = (const char *)engine->gl.GetString(GL_RENDERER);
     const char *mesa = strstr(version, "Mesa");
-    snprintf(opengl->name, sizeof opengl->name, "%s, OpenGL %.3s, %s%s%s", gm_context_name(opengl->context),
-             version, renderer, mesa ? ", " : "", mesa ? mesa : "");
-    if (!framebuffer_open(opengl, message) ||
-        !gm_stream_open(&opengl->stream, &opengl->gl, opengl->width, opengl->height, message)) {
-        return false;
+    snprintf(engine->name, sizeof engine->name, "OpenGL %.3s, %s%s%s", version, renderer, mesa ? ", " : "",
+             mesa ? mesa : "");
+    return gm_stream_open(&engine->stream, &engine->gl, message);
+}
+
+static bool engine_open(struct engine *engine, char *message)
+{
+    char reason[GM_MESSAGE / 2];
+    engine->context = gm_context_open((enum gm_context_kind)(engine - engines), reason, sizeof reason);
+    if (!engine->context) {
+        return gm_refuse(message, "No OpenGL context could be opened: %s.", reason);
     }
-    textures_open(opengl);
-    return true;
+    if (!complete(engine, message)) {
+        gm_context_close(engine->context);
+        engine->context = NULL;
+    }
+    return engine->context;
 }
 
 static void close_alone(struct gm_opengl *opengl)
 {
-    if (opengl->context && opengl->gl.Viewport && gm_context_use(opengl->context)) {
-        const struct gm_gl *gl = &opengl->gl;
-        gm_stream_close(&opengl->stream);
+    const struct engine *engine = opengl->engine;
+    if (engine->context && gm_context_use(engine->context)) {
+        const struct gm_gl *gl = &engine->gl;
         gl->DeleteTextures(1, &opengl->atlas);
         gl->DeleteTextures(1, &opengl->maps);
         gl->DeleteFramebuffers(1, &opengl->framebuffer);
         gl->DeleteRenderbuffers(1, &opengl->colour_buffer);
         gl->DeleteRenderbuffers(1, &opengl->stencil_buffer);
     }
-    gm_context_close(opengl->context);
     free(opengl);
 }
 
 const char *gm_opengl_name(const struct gm_opengl *opengl)
 {
-    return opengl->name;
+    return opengl->engine->name;
 }
 
-static void update_atlas(struct gm_opengl *opengl, const struct gm_atlas *atlas)
+static void bind_textures(struct gm_opengl *opengl, const struct gm_atlas *atlas)
 {
-    const struct gm_gl *gl = &opengl->gl;
+    const struct gm_gl *gl = &opengl->engine->gl;
+    gl->ActiveTexture(GL_TEXTURE1);
+    gl->BindTexture(GL_TEXTURE_2D, opengl->maps);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, opengl->atlas);
     if (atlas->height != opengl->atlas_height) {
@@ -156,7 +168,7 @@ static void update_atlas(struct gm_opengl *opengl, const struct gm_atlas *atlas)
 
 static void clear(const struct gm_opengl *opengl)
 {
-    const struct gm_gl *gl = &opengl->gl;
+    const struct gm_gl *gl = &opengl->engine->gl;
     const struct gm_rgb paper = gm_theme_colour(opengl->theme, GM_PAPER);
     gl->BindFramebuffer(GL_FRAMEBUFFER, opengl->framebuffer);
     gl->Viewport(0, 0, opengl->width, opengl->height);
@@ -168,14 +180,15 @@ static void clear(const struct gm_opengl *opengl)
 static bool draw_alone(struct gm_opengl *opengl, const struct gm_batch *batch, const struct gm_atlas *atlas,
                        unsigned char *rgba)
 {
-    if (!gm_context_use(opengl->context)) {
+    struct engine *engine = opengl->engine;
+    if (!gm_context_use(engine->context)) {
         return false;
     }
-    update_atlas(opengl, atlas);
+    bind_textures(opengl, atlas);
     clear(opengl);
-    const bool drawn = gm_stream_draw(&opengl->stream, batch, opengl->width, opengl->height);
-    opengl->gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    opengl->gl.ReadPixels(0, 0, opengl->width, opengl->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    const bool drawn = gm_stream_draw(&engine->stream, batch, opengl->width, opengl->height);
+    engine->gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    engine->gl.ReadPixels(0, 0, opengl->width, opengl->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     return drawn;
 }
 
@@ -189,42 +202,71 @@ static void take_turn(void)
     gm_context_guard();
 }
 
-static void end_turn(void)
+static void end_turn(const struct engine *engine)
 {
+    if (engine->context) {
+        gm_context_release(engine->context);
+    }
     gm_context_unguard();
     pthread_mutex_unlock(&turn);
 }
 
-enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
-
-/* Whether OpenGL is where it was loaded: its threads are not in a process that was forked off afterwards, which would
+/* Whether OpenGL is where it was set up: its threads are not in a process that was forked off afterwards, which would
    wait for them for ever. False with a sentence. */
 static bool is_here(char *message)
 {
-    static pid_t loaded_in;
-    loaded_in = loaded_in ? loaded_in : getpid();
-    return loaded_in == getpid() ||
+    static pid_t set_up_in;
+    set_up_in = set_up_in ? set_up_in : getpid();
+    return set_up_in == getpid() ||
            gm_refuse(message,
                      "A process that was forked from one that had painted by OpenGL cannot paint by it.");
 }
 
-struct gm_opengl *gm_opengl_open(int width, int height, enum gm_theme theme, char *message)
+/* Makes the engine current, which is opened when it is first wanted. */
+static bool use_alone(struct engine *engine, char *message)
+{
+    return is_here(message) &&
+           (engine->context ? gm_context_use(engine->context) : engine_open(engine, message));
+}
+
+bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size)
+{
+    take_turn();
+    const bool loaded = gm_context_load(kind, message, size);
+    end_turn(&engines[kind]);
+    return loaded;
+}
+
+void gm_opengl_set_up(enum gm_context_kind kind)
+{
+    char message[GM_MESSAGE]; /* the first picture meets the same reason, and tells it */
+    take_turn();
+    use_alone(&engines[kind], message);
+    end_turn(&engines[kind]);
+}
+
+struct gm_opengl *gm_opengl_open(enum gm_context_kind kind, int width, int height, enum gm_theme theme,
+                                 char *message)
 {
     struct gm_opengl *opengl = calloc(1, sizeof *opengl);
     if (!opengl) {
         gm_refuse(message, "There is not enough memory for a picture.");
         return NULL;
     }
-    *opengl = (struct gm_opengl){.width = width, .height = height, .theme = theme};
+    struct engine *engine = &engines[kind];
+    *opengl = (struct gm_opengl){.engine = engine, .width = width, .height = height, .theme = theme};
     take_turn();
-    const bool here = is_here(message), good = here && open_alone(opengl, message);
-    if (!good) {
+    const bool here = is_here(message);
+    const bool good = use_alone(engine, message) && framebuffer_open(opengl, message);
+    if (good) {
+        textures_open(opengl);
+    } else {
         close_alone(opengl);
-        if (here && !gm_address_space_has(TAKEN)) {
+        if (here && !gm_address_space_has(GM_CONTEXT_TAKES)) {
             gm_refuse(message, "There is not enough memory to paint pictures.");
         }
     }
-    end_turn();
+    end_turn(engine);
     return good ? opengl : NULL;
 }
 
@@ -233,9 +275,10 @@ void gm_opengl_close(struct gm_opengl *opengl)
     if (!opengl) {
         return;
     }
+    const struct engine *engine = opengl->engine;
     take_turn();
     close_alone(opengl);
-    end_turn();
+    end_turn(engine);
 }
 
 bool gm_opengl_draw(struct gm_opengl *opengl, const struct gm_batch *batch, const struct gm_atlas *atlas,
@@ -244,8 +287,8 @@ bool gm_opengl_draw(struct gm_opengl *opengl, const struct gm_batch *batch, cons
     take_turn();
     const bool drawn = draw_alone(opengl, batch, atlas, rgba);
     if (!drawn) {
-        gm_address_space_has(TAKEN); /* notes a refusal that was Mesa's */
+        gm_address_space_has(GM_CONTEXT_TAKES); /* notes a refusal that was Mesa's */
     }
-    end_turn();
+    end_turn(opengl->engine);
     return drawn;
 }

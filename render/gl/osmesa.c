@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* OSMesa: Mesa's renderer into memory. Mesa 25.1 was the last to ship it. */
+/* OSMesa: Mesa's renderer into memory. Mesa has dropped it since 25.1. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <GL/gl.h>
 #include <GL/osmesa.h>
@@ -26,24 +27,36 @@ static bool osmesa_use(void *self)
     return osmesa->make_current(osmesa->context, osmesa->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
 }
 
+static void osmesa_release(void *self)
+{
+    struct osmesa *osmesa = self;
+    osmesa->make_current(NULL, NULL, 0, 0, 0);
+}
+
 static void osmesa_close(void *self)
 {
     struct osmesa *osmesa = self;
     if (osmesa->context) {
-        osmesa->make_current(NULL, NULL, 0, 0, 0);
+        osmesa_release(self);
         osmesa->destroy(osmesa->context);
     }
     free(osmesa);
 }
 
-static const char *const libraries[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
-
-static void *osmesa_open(char *message, size_t size)
+/* OSMesa crashes of a driver that it does not know, as one for a graphics card. */
+static void *osmesa_load(char *message, size_t size)
 {
-    void *library = gm_library_open(libraries, message, size);
-    if (!library) {
+    static const char *const libraries[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
+    const char *driver = getenv("GALLIUM_DRIVER");
+    if (driver && *driver && strcmp(driver, "llvmpipe") != 0 && strcmp(driver, "softpipe") != 0) {
+        snprintf(message, size, "it has no driver %.40s, for which GALLIUM_DRIVER asks", driver);
         return NULL;
     }
+    return gm_library_open(libraries, message, size);
+}
+
+static void *osmesa_open(void *library, char *message, size_t size)
+{
     struct osmesa *osmesa = calloc(1, sizeof *osmesa);
     if (!osmesa) {
         snprintf(message, size, "there is not enough memory for OSMesa");
@@ -85,11 +98,10 @@ static gm_library_function osmesa_find(void *self, const char *name)
 }
 
 const struct gm_backend gm_backend_osmesa = {
-    .key = "osmesa",
-    .name = "OSMesa",
-    .libraries = libraries,
+    .load = osmesa_load,
     .open = osmesa_open,
     .close = osmesa_close,
     .use = osmesa_use,
+    .release = osmesa_release,
     .find = osmesa_find,
 };

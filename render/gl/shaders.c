@@ -23,8 +23,9 @@ static const char fragment_head[] =
     "in vec4 ink;\n"
     "out vec4 pixel;\n"
     "vec3 mapped(float value) {\n"
-    "    float inside = clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;\n"
-    "    return texture(maps, vec2(inside, 0.25 + 0.5 * ink.r)).rgb;\n"
+    "    int last = textureSize(maps, 0).x - 1;\n"
+    "    ivec2 shade = ivec2(clamp(value, 0.0, 1.0) * float(last) + 0.5, ink.r + 0.5);\n"
+    "    return texelFetch(maps, shade, 0).rgb;\n"
     "}\n"
     "float covered() { return clamp(edge.z + 0.5 - length(edge.xy), 0.0, 1.0); }\n";
 
@@ -69,14 +70,11 @@ static bool link_program(const struct gm_gl *gl, GLuint program, const char *fra
 bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height)
 {
     static const char *const samplers[] = {"glyphs", "maps", "image"}; /* in order of texture units */
-    if (programs[program] != 0) {
-        gl->UseProgram(programs[program]);
-        return true;
-    }
-    const GLuint made = programs[program] = gl->CreateProgram();
-    const bool linked = link_program(gl, made, fragment_sources[program]);
+    const bool is_new = programs[program] == 0;
+    const GLuint made = programs[program] = is_new ? gl->CreateProgram() : programs[program];
+    const bool linked = !is_new || link_program(gl, made, fragment_sources[program]);
     gl->UseProgram(made); /* an error of GL where it is not linked, which all later uses repeat */
-    for (int unit = 0; linked && unit < 3; unit++) {
+    for (int unit = 0; is_new && linked && unit < 3; unit++) {
         const GLint location = gl->GetUniformLocation(made, samplers[unit]);
         if (location >= 0) {
             gl->Uniform1i(location, unit);
@@ -86,11 +84,4 @@ bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program pr
         gl->Uniform2f(gl->GetUniformLocation(made, "scale"), 2.0f / (float)width, 2.0f / (float)height);
     }
     return linked;
-}
-
-void gm_shaders_close(const struct gm_gl *gl, GLuint *programs)
-{
-    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
-        gl->DeleteProgram(programs[i]);
-    }
 }

@@ -7,10 +7,8 @@
 
 /* The programs of a batch (struct gm_vertex says what its vertices mean). */
 
-/* Uses the program, made when it is first wanted (most pictures need few of the five), for pictures of so many
-   pixels, which stay the same. False if this OpenGL cannot compile it. */
+/* Uses the program, made when it is first wanted (most pictures need few of the five), for a picture of so many
+   pixels. False if this OpenGL cannot compile it. */
 bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height);
-/* Those that were made; others are 0. */
-void gm_shaders_close(const struct gm_gl *gl, GLuint *programs);
 
 #endif

@@ -9,10 +9,10 @@
 /* Bits of the stencil: the upper one for inside and outside, the others number groups painted once. */
 enum { INSIDE_BIT = 0x80, ONCE_BITS = 0x7f };
 
-bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, int width, int height, char *message)
+bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, char *message)
 {
     *stream = (struct gm_stream){.gl = gl};
-    if (!gm_shaders_use(gl, stream->programs, GM_PROGRAM_INK, width, height)) {
+    if (!gm_shaders_use(gl, stream->programs, GM_PROGRAM_INK, 1, 1)) {
         return gm_refuse(message, "This OpenGL cannot compile the painter's shaders.");
     }
     gl->GenVertexArrays(1, &stream->array);
@@ -31,20 +31,6 @@ bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, int width,
         gl->EnableVertexAttribArray(i);
     }
     return true;
-}
-
-void gm_stream_close(struct gm_stream *stream)
-{
-    const struct gm_gl *gl = stream->gl;
-    if (gl) {
-        gm_shaders_close(gl, stream->programs);
-        gl->DeleteBuffers(1, &stream->buffer);
-        gl->DeleteBuffers(1, &stream->index_buffer);
-        gl->DeleteVertexArrays(1, &stream->array);
-        gl->DeleteTextures((GLsizei)stream->image_count, stream->images);
-    }
-    free(stream->images);
-    free(stream->texels);
 }
 
 /* A texture that no image of this frame uses yet; 0 when memory is short. */
@@ -169,7 +155,10 @@ bool gm_stream_draw(struct gm_stream *stream, const struct gm_batch *batch, int 
             rounds = call->once / ONCE_BITS;
             forget_groups(gl);
         }
-        gm_shaders_use(gl, stream->programs, call->program, width, height); /* or GL has an error to tell */
+        if (i == 0 || call[-1].program != call->program) {
+            gm_shaders_use(gl, stream->programs, call->program, width,
+                           height); /* or GL has an error to tell */
+        }
         gl->Scissor(call->scissor[0], call->scissor[1], call->scissor[2], call->scissor[3]);
         set_stencil(gl, call);
         const bool colour = call->stencil != GM_STENCIL_INVERT;

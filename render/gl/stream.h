@@ -14,11 +14,8 @@ struct gm_stream {
     size_t texel_capacity;
 };
 
-/* For pictures of width x height pixels; needs a current context. False, with a sentence in message, when
-   shaders do not compile. */
-bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, int width, int height, char *message);
-/* In the context that it was opened in. */
-void gm_stream_close(struct gm_stream *stream);
+/* Needs a current context, with which it ends. False, with a sentence in message, when shaders do not compile. */
+bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, char *message);
 
 /* Draws everything into the bound framebuffer of width x height pixels. The glyph atlas is bound to texture
    unit 0, the colour maps to unit 1. */

@@ -2,6 +2,8 @@
 #ifndef GM_RENDER_LAYOUT_APPEARANCE_H
 #define GM_RENDER_LAYOUT_APPEARANCE_H
 
+#include <stdbool.h>
+
 #include "render/layout/theme.h"
 
 /* Bounds of a side, in pixels, of the scale, and of pixels an inch, where somebody says them. */
@@ -21,6 +23,7 @@ struct gm_appearance {
     double dpi;
     double page_width, page_height; /* of a drawing, in mm; 0: the pixels at their dpi, 96 where it is 0 */
     const char *title;              /* instead of the picture's own; NULL: that */
+    bool live; /* for a screen, which is looked at while it is painted; else for a file */
 };
 
 #endif

@@ -2,6 +2,7 @@
 /* A picture as triangles of a batch, drawn by the program's own rasteriser or by OpenGL. */
 #include "render/pixels/canvas.h"
 
+#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +11,9 @@
 #include <immintrin.h>
 #endif
 
+#include "render/address_space.h"
 #include "render/drawing/page.h"
+#include "render/files/thread.h"
 #include "render/gl/opengl.h"
 #include "render/pixels/rasteriser.h"
 #include "render/triangles/brush.h"
@@ -21,13 +24,71 @@ struct gm_canvas {
     struct gm_opengl *opengl; /* NULL: the rasteriser draws */
     struct gm_rasteriser rasteriser;
     unsigned char *rgba;
+    char backend[GM_MESSAGE];
 };
 
-/* Whether the environment asks for OpenGL. */
-static bool wants_opengl(void)
+enum choice { OSMESA = GM_CONTEXT_OSMESA, EGL = GM_CONTEXT_EGL, OWN, AUTO, CHOICES };
+static const char *const names[CHOICES] = {"osmesa", "egl", "own", "auto"};
+static enum choice chosen = AUTO;
+
+bool gm_canvas_choose(const char *painter, char *message)
 {
-    const char *wanted = getenv("GEOMINT_GL");
-    return wanted && wanted[0] != '\0';
+    static const char rule[] = "--painter and GEOMINT_PAINTER take auto, osmesa, egl or own";
+    char reason[GM_MESSAGE / 2];
+    const char *word = painter ? painter : getenv("GEOMINT_PAINTER");
+    word = word && *word ? word : names[AUTO];
+    int found = 0;
+    while (found < CHOICES && strcmp(names[found], word) != 0) {
+        found++;
+    }
+    if (found == CHOICES) {
+        return gm_refuse(message, "\"%.40s\" is no painter: %s", word, rule);
+    }
+    if (found < OWN && !gm_opengl_load((enum gm_context_kind)found, reason, sizeof reason)) {
+        return gm_refuse(message, "%s cannot be loaded (%s): %s", word, reason, rule);
+    }
+    chosen = (enum choice)found;
+    return true;
+}
+
+/* What paints a picture that is live, or that is not. Where the address space is limited Mesa, which takes hundreds of
+   MB of it, waits for ever for a thread that it is refused. */
+static enum choice painter_of(bool live)
+{
+    char reason[GM_MESSAGE];
+    if (chosen != AUTO) {
+        return chosen;
+    }
+    return live || gm_address_space_is_limited() || !gm_opengl_load(GM_CONTEXT_OSMESA, reason, sizeof reason)
+               ? OWN
+               : OSMESA;
+}
+
+static pthread_t setting_up;
+static bool expected;
+
+static void *set_up(void *nothing)
+{
+    const enum choice painter = painter_of(false);
+    if (painter != OWN) {
+        gm_opengl_set_up((enum gm_context_kind)painter);
+    }
+    return nothing;
+}
+
+void gm_canvas_expect(void)
+{
+    /* a thread's stack and its share of the heap would be taken from Mesa, where there is little */
+    expected = expected || (chosen != OWN && !gm_address_space_is_limited() &&
+                            gm_thread_start(&setting_up, set_up, NULL) == 0);
+}
+
+void gm_canvas_settle(void)
+{
+    if (expected) {
+        pthread_join(setting_up, NULL);
+        expected = false;
+    }
 }
 
 static bool rasteriser_open(struct gm_rasteriser *rasteriser, const struct gm_appearance *look, char *message)
@@ -45,12 +106,17 @@ static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look,
         return false;
     }
     canvas->brush.glyphs = canvas->painter.glyphs;
-    if (wants_opengl()) {
-        canvas->opengl = gm_opengl_open(look->width, look->height, look->theme, message);
+    const enum choice painter = painter_of(look->live);
+    if (painter != OWN) {
+        canvas->opengl =
+            gm_opengl_open((enum gm_context_kind)painter, look->width, look->height, look->theme, message);
     }
-    if (wants_opengl() ? !canvas->opengl : !rasteriser_open(&canvas->rasteriser, look, message)) {
+    const bool is_own = painter == OWN || (!canvas->opengl && chosen == AUTO);
+    if (is_own ? !rasteriser_open(&canvas->rasteriser, look, message) : !canvas->opengl) {
         return false;
     }
+    snprintf(canvas->backend, sizeof canvas->backend, "%s%s%s", names[is_own ? OWN : painter],
+             is_own ? "" : ", ", is_own ? "" : gm_opengl_name(canvas->opengl));
     canvas->rgba = malloc((size_t)look->width * (size_t)look->height * 4);
     return canvas->rgba || gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.",
                                      look->width, look->height);
@@ -85,7 +151,7 @@ void gm_canvas_close(struct gm_canvas *canvas)
 
 const char *gm_canvas_backend(const struct gm_canvas *canvas)
 {
-    return canvas->opengl ? gm_opengl_name(canvas->opengl) : "geomint's own rasteriser";
+    return canvas->backend;
 }
 
 #ifdef __x86_64__

@@ -5,9 +5,17 @@ set -u
 meshes=$(cd "$(dirname "$0")/../reference/meshes" && pwd) || exit 1
 . "$(dirname "$0")/answers.sh"
 
-# what OSMesa crashes of is told, where a sanitizer does not look after that itself
-GALLIUM_DRIVER=xyz GEOMINT_GL=osmesa ASAN_OPTIONS=handle_segv=0:handle_abort=0 \
-    refused 3 'GALLIUM_DRIVER\|OpenGL' render disc until=1 --out .
+# the four words of a painter, by the option and by the variable, for whatever paints; for nothing else
+painters='--painter and GEOMINT_PAINTER take auto, osmesa, egl or own$'
+for command in 'render disc until=1' figures 'work-precision disc' 'stability kepler' 'backward disc' 'sweep disc' \
+    'certify rk4' 'again a.png' 'tour' terminal; do
+    # shellcheck disable=SC2086 # words
+    refused 1 "^geomint: \"vulkan\" is no painter: $painters" $command --painter vulkan
+    # shellcheck disable=SC2086 # words
+    GEOMINT_PAINTER=vulkan refused 1 "^geomint: \"vulkan\" is no painter: $painters" $command
+done
+refused 1 "^geomint: \"vulkan\" is no painter: $painters" tui disc --painter vulkan
+GEOMINT_PAINTER=vulkan status 0 run disc steps=1
 
 # what is refused, and the nearest valid thing it names
 refused 1 'did you mean disc' run dics
@@ -480,6 +488,10 @@ cmp -s version out || fail 'geomint --version is not geomint -V'
 for word in '^geomint [0-9]' '^pictures: PNG' '^loops: [a-z0-9]*; systems of one.s own: interpreted' 'libpng [0-9]' 'GSL [0-9]'; do
     grep -q "$word" out || fail "--version does not say $word"
 done
+GEOMINT_PAINTER=own status 0 --version
+grep -q '^painter: own$' out || fail '--version does not say which painter GEOMINT_PAINTER names'
+GEOMINT_PAINTER='' status 0 --version
+grep -q '^painter: auto (osmesa for PNG' out || fail '--version does not say what paints'
 # what is loaded only when it is used is missed only then
 mkdir broken
 for library in libcairo.so.2 libcholmod.so.3 libcholmod.so.4 libcholmod.so.5; do
@@ -488,13 +500,45 @@ done
 export LD_LIBRARY_PATH="$PWD/broken"
 refused 1 'the equations of a flow are solved by SuiteSparse: .*libcholmod.so.[0-9]*: file too short$' \
     run couette steps=1
+# OSMesa that cannot be loaded is missed where it was asked for, and else nowhere
+mkdir lost
+: >lost/libOSMesa.so.8
+lost="geomint: osmesa cannot be loaded (.*libOSMesa.so.8: file too short): $painters"
+LD_LIBRARY_PATH=$PWD/lost refused 1 "^$lost" render disc until=1 --out lost --painter osmesa
+LD_LIBRARY_PATH=$PWD/lost GEOMINT_PAINTER=osmesa refused 1 "^$lost" render disc until=1 --out lost
+LD_LIBRARY_PATH=$PWD/lost status 0 render disc until=1 -o lost/own.png --painter auto
+grep -aq 'geomint:painter.own' lost/own.png || fail 'a picture without OSMesa is not its own rasteriser'"'"'s'
+status 0 render disc until=1 -o lost/osmesa.png --painter auto
+grep -aq 'geomint:painter.osmesa, OpenGL' lost/osmesa.png || fail 'a picture is not OSMesa'"'"'s'
+LD_LIBRARY_PATH=$PWD/lost refused 1 "^geomint: lost/osmesa.png cannot be made again: ${lost#geomint: }" again lost/osmesa.png
+LD_LIBRARY_PATH=$PWD/lost status 0 again lost/osmesa.png -o lost/again.svg
+LD_LIBRARY_PATH=$PWD/lost status 0 again lost/osmesa.png -o lost/again.png --painter own
+cmp -s lost/own.png lost/again.png || fail 'again --painter own is not own'
 refused 3 'a PDF needs Cairo, but .*libcairo.so.2: file too short$' render disc until=1 -o broken/a.pdf
 status 0 run disc steps=1
 unset LD_LIBRARY_PATH
 status 0 terminal
-grep -q "painter .*geomint's own rasteriser" out || fail 'terminal does not say what paints'
-GEOMINT_GL=osmesa status 0 terminal
-grep -q 'painter .*OSMesa, OpenGL [0-9]' out || fail 'terminal does not say which OpenGL paints'
+grep -q "painter  *own  *in the terminal$" out || fail 'terminal does not say what paints'
+status 0 terminal --painter auto
+grep -q "painter  *own  *in the terminal$" out || fail 'a terminal'"'"'s view is not painted by own'
+grep -q '^  *osmesa, OpenGL [0-9].* of PNG files and movies$' out || fail 'terminal does not say which OpenGL paints'
+# again paints by what has painted, whatever else is asked for in the variable, bit for bit
+mkdir painted
+for painter in osmesa egl own; do
+    status 0 render kepler until=3 --size 320x200 --painter $painter -o painted/$painter.png
+    GEOMINT_PAINTER=own status 0 again painted/$painter.png -o painted/again.png
+    cmp -s painted/$painter.png painted/again.png || fail "again does not paint by $painter"
+    status 0 stability --region rk2 --size 320x200 --painter $painter -o painted/region.png
+    GEOMINT_PAINTER=own status 0 again painted/region.png -o painted/again.png
+    cmp -s painted/region.png painted/again.png || fail "again does not paint a chart by $painter"
+done
+# frames and figures
+status 0 render disc until=1 --frames 2 --size 320x200 --painter auto --out painted/frames
+status 0 figures razafindralandy-2 --quick --painter auto --out painted/figures
+for file in painted/frames/disc-render-000001.png painted/figures/razafindralandy-2.png \
+    painted/figures/razafindralandy-2-dark.png; do
+    grep -aq 'geomint:painter.osmesa, OpenGL' $file || fail "$file is not OSMesa's"
+done
 
 # the same input gives the same output, bit for bit, but for the seconds
 "$geomint" run disc scheme=gauss4 system=pendulum --json --state | sed 's/"seconds":[^,]*//' >one

@@ -116,6 +116,17 @@ def test_likeness():
     check(similarity(plain, plain[::-1]) < LIKE, "the similarity tells nothing")
 
 
+def test_painters():
+    """What paints is not seen: OSMesa's pixels are those of the program's own rasteriser, but for single steps."""
+    cases = ["render disc --theme dark", "render kepler", "render couette until=0.1", "render wave", "stability --region rk4"]
+    for words in cases[:3] if FEW else cases + ["render cavity columns=32 rows=0", "render rigid-body --size 900x700",
+                                                "render kepler scheme=verlet until=30 --size 80x60mm"]:
+        for painter in ("own", "osmesa"):
+            geomint(f"{words} --painter {painter} -o {painter}.png")
+        like = similarity(pixels("own.png"), pixels("osmesa.png"))
+        check(like >= 0.9995, f"{words}: OSMesa's picture is like that of the rasteriser by {like:.6f} only")
+
+
 def texts_of(path):
     return ["".join(node.itertext()) for node in xml.etree.ElementTree.parse(path).iter(SVG + "text")]
 
@@ -298,7 +309,7 @@ if __name__ == "__main__":
     folder = tempfile.mkdtemp()
     os.chdir(folder)
     try:
-        for test in (test_likeness, test_texts, test_title, test_bytes, test_field, test_again, test_paper, test_charts, test_refusals):
+        for test in (test_likeness, test_painters, test_texts, test_title, test_bytes, test_field, test_again, test_paper, test_charts, test_refusals):
             test()
     finally:
         os.chdir("/")

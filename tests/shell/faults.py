@@ -334,11 +334,11 @@ def limit(arguments, painter, megabytes, folder):
         with open(fonts, "w", encoding="utf-8") as file:
             file.write(f"<fontconfig><cachedir>{caches}</cachedir><include>/etc/fonts/fonts.conf</include></fontconfig>")
         done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False,
-                              env=dict(os.environ, FONTCONFIG_FILE=fonts, GEOMINT_GL=painter))
+                              env=dict(os.environ, FONTCONFIG_FILE=fonts, GEOMINT_PAINTER=painter))
     told = re.search(r"^geomint: \S+ \S+ \S+", done.stderr, re.M) and "not installed" not in done.stderr
     if done.returncode == 0 or (done.returncode == 5 and told):
         return []
-    return [f"GEOMINT_GL={painter} {' '.join(words)}: exit {done.returncode}: {done.stderr}"]
+    return [f"GEOMINT_PAINTER={painter} {' '.join(words)}: exit {done.returncode}: {done.stderr}"]
 
 
 def main():
@@ -350,6 +350,7 @@ def main():
     parser.add_argument("--day", type=int, default=int(time.time() / 86400))
     arguments = parser.parse_args()
     arguments.geomint, arguments.library = os.path.abspath(arguments.geomint), os.path.abspath(arguments.library)
+    os.environ["GEOMINT_PAINTER"] = "own" # Mesa ends of memory that it is refused
     runs, wrong = 0, []
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         made = [options["made"] for words, options in COMMANDS if "made" in options][0]
@@ -366,7 +367,8 @@ def main():
                     command = Command(words, {"partial": True}, arguments, folder)
                     jobs += [(words, kind, pool.submit(sweep_each, command, kind)) for kind in ("memory", "streams")]
         limits = [("osmesa", megabytes) for megabytes in (50, 100, 180, 220, 240, 260, 280, 285, 290, 300, 400)]
-        limits += [("", megabytes) for megabytes in (26, 28, 30, 32, 36, 40, 50, 100)]
+        limits += [("own", megabytes) for megabytes in (26, 28, 30, 32, 36, 40, 50, 100)]
+        limits += [("auto", megabytes) for megabytes in (40, 100, 280)]
         for painter, megabytes in limits if arguments.only in "prlimit" else ():
             runs += 1
             found = limit(arguments, painter, megabytes, folder)

@@ -17,8 +17,7 @@
 
 enum { WIDTH = 640, HEIGHT = 600 };
 
-/* What GEOMINT_GL is: nothing is the program's own rasteriser. */
-static const char *const painters[] = {"", "osmesa", "egl"};
+static const char *const painters[] = {"own", "osmesa", "egl"};
 enum { PAINTERS = GM_COUNT(painters) };
 static const char *painter; /* of the tests that run */
 
@@ -36,9 +35,8 @@ static struct gm_picture *plain_picture(struct gm_panel **panel)
 static unsigned char *paint(struct gm_picture *picture, int width, int height)
 {
     char message[GM_MESSAGE] = "";
-    setenv("GEOMINT_GL", painter, 1);
-    struct gm_canvas *canvas = gm_canvas_open(
-        &(struct gm_appearance){.width = width, .height = height, .theme = GM_THEME_DARK}, message);
+    const struct gm_appearance look = {.width = width, .height = height, .theme = GM_THEME_DARK};
+    struct gm_canvas *canvas = gm_canvas_choose(painter, message) ? gm_canvas_open(&look, message) : NULL;
     if (canvas == NULL) {
         fail_msg("%s", message);
     }
@@ -432,12 +430,12 @@ static void triangles_of_a_mesh_meet(void **state)
 static void a_canvas_paints_the_same_twice(void **state)
 {
     (void)state;
-    setenv("GEOMINT_GL", painter, 1);
     char message[GM_MESSAGE];
+    assert_true(gm_canvas_choose(painter, message));
     struct gm_canvas *canvas = gm_canvas_open(
         &(struct gm_appearance){.width = WIDTH, .height = HEIGHT, .theme = GM_THEME_LIGHT}, message);
     assert_non_null(canvas);
-    assert_non_null(strstr(gm_canvas_backend(canvas), *painter ? "OpenGL" : "rasteriser"));
+    assert_ptr_equal(strstr(gm_canvas_backend(canvas), painter), gm_canvas_backend(canvas));
     const size_t size = (size_t)WIDTH * HEIGHT * 3;
     unsigned char *first = malloc(size), *second = malloc(size);
     for (int i = 0; i < 3; i++) {
@@ -466,17 +464,97 @@ static void what_cannot_be_is_said_in_a_sentence(void **state)
 {
     (void)state;
     char message[GM_MESSAGE] = "";
-    setenv("GEOMINT_GL", "vulkan", 1);
-    assert_null(
-        gm_canvas_open(&(struct gm_appearance){.width = 64, .height = 64, .theme = GM_THEME_DARK}, message));
-    assert_non_null(strstr(message, "vulkan"));
-    assert_int_equal(message[strlen(message) - 1], '.');
-    setenv("GEOMINT_GL", painter, 1);
+    assert_true(gm_canvas_choose(painter, message));
     assert_null(gm_canvas_open(
         &(struct gm_appearance){.width = 1 << 20, .height = 64, .theme = GM_THEME_DARK}, message));
     assert_non_null(strstr(message, "1048576 x 64"));
     assert_null(
         gm_canvas_open(&(struct gm_appearance){.width = 0, .height = 64, .theme = GM_THEME_DARK}, message));
+}
+
+/* What paints a picture, up to its versions. */
+static void assert_paints(const char *word, const char *variable, bool live, const char *painter_of_it)
+{
+    char message[GM_MESSAGE] = "";
+    setenv("GEOMINT_PAINTER", variable, 1);
+    assert_true(gm_canvas_choose(word, message));
+    struct gm_canvas *canvas =
+        gm_canvas_open(&(struct gm_appearance){.width = 64, .height = 64, .live = live}, message);
+    assert_non_null(canvas);
+    const char *backend = gm_canvas_backend(canvas);
+    assert_int_equal(strcspn(backend, ","), strlen(painter_of_it));
+    assert_memory_equal(backend, painter_of_it, strlen(painter_of_it));
+    gm_canvas_close(canvas);
+}
+
+static void painters_are_chosen(void **state)
+{
+    (void)state;
+    char message[GM_MESSAGE] = "";
+    assert_paints(NULL, "", false, "osmesa");
+    assert_paints(NULL, "", true, "own");
+    assert_paints(NULL, "auto", false, "osmesa");
+    assert_paints(NULL, "own", false, "own");
+    assert_paints(NULL, "osmesa", true, "osmesa");
+    assert_paints("auto", "own", false, "osmesa");
+    assert_paints("egl", "own", false, "egl");
+    assert_false(gm_canvas_choose("vulkan", message));
+    assert_string_equal(
+        message, "\"vulkan\" is no painter: --painter and GEOMINT_PAINTER take auto, osmesa, egl or own");
+    setenv("GEOMINT_PAINTER", "OSMesa", 1);
+    assert_false(gm_canvas_choose(NULL, message));
+    assert_non_null(strstr(message, "\"OSMesa\" is no painter"));
+    unsetenv("GEOMINT_PAINTER");
+    /* a driver for a graphics card, of which OSMesa has none */
+    setenv("GALLIUM_DRIVER", "d3d12", 1);
+    assert_paints(NULL, "", false, "own");
+    assert_false(gm_canvas_choose("osmesa", message));
+    assert_non_null(strstr(message, "osmesa cannot be loaded (it has no driver d3d12"));
+    unsetenv("GALLIUM_DRIVER");
+    unsetenv("GEOMINT_PAINTER");
+}
+
+/* One context has canvases of two sizes and themes, and one of them goes. */
+static void pictures_of_two_sizes_take_turns(void **state)
+{
+    (void)state;
+    enum { LOOKS = 2, SIZE = WIDTH * HEIGHT * 3 };
+    const struct gm_appearance looks[LOOKS] = {
+        {.width = WIDTH, .height = HEIGHT, .theme = GM_THEME_DARK},
+        {.width = HEIGHT, .height = WIDTH, .theme = GM_THEME_LIGHT},
+    };
+    for (int p = 1; p < PAINTERS; p++) {
+        char message[GM_MESSAGE];
+        unsigned char *alone[LOOKS], *rgb = malloc(SIZE);
+        struct gm_canvas *canvases[LOOKS];
+        struct gm_picture *picture = full_picture();
+        gm_mark_image(picture, gm_panel_add(picture, GM_PLACE_STATE, ""), GM_MAP_SEQUENTIAL, 0, 1,
+                      (const double[]){-1, -1, 1, 1}, (const double[]){-0.5, 1.5}, 1, 2);
+        assert_true(gm_canvas_choose(painters[p], message));
+        for (int i = 0; i < LOOKS; i++) {
+            alone[i] = malloc(SIZE);
+            struct gm_canvas *canvas = gm_canvas_open(&looks[i], message);
+            assert_true(gm_canvas_paint(canvas, picture, alone[i]));
+            gm_canvas_close(canvas);
+        }
+        for (int i = 0; i < LOOKS; i++) {
+            canvases[i] = gm_canvas_open(&looks[i], message);
+            assert_non_null(canvases[i]);
+        }
+        for (int k = 0; k < 5; k++) {
+            const int i = k < 4 ? k % LOOKS : 0;
+            if (k == 4) {
+                gm_canvas_close(canvases[1]);
+            }
+            assert_true(gm_canvas_paint(canvases[i], picture, rgb));
+            assert_memory_equal(rgb, alone[i], SIZE);
+        }
+        gm_canvas_close(canvases[0]);
+        gm_picture_close(picture);
+        free(alone[0]);
+        free(alone[1]);
+        free(rgb);
+    }
 }
 
 static int without_screen(void **state)
@@ -504,11 +582,15 @@ int main(void)
         cmocka_unit_test(odd_sizes_are_painted),
         cmocka_unit_test(what_cannot_be_is_said_in_a_sentence),
     };
-    const struct CMUnitTest together[] = {cmocka_unit_test(all_painters_paint_the_same)};
+    const struct CMUnitTest together[] = {
+        cmocka_unit_test(all_painters_paint_the_same),
+        cmocka_unit_test(painters_are_chosen),
+        cmocka_unit_test(pictures_of_two_sizes_take_turns),
+    };
     int failed = cmocka_run_group_tests(together, without_screen, NULL);
     for (int p = 0; p < PAINTERS; p++) {
         painter = painters[p];
-        failed += cmocka_run_group_tests_name(*painter ? painter : "own", tests, without_screen, NULL);
+        failed += cmocka_run_group_tests_name(painter, tests, without_screen, NULL);
     }
     return failed;
 }

@@ -15,6 +15,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -122,12 +123,14 @@ static void test_null(void **state)
 }
 
 /* A process that was forked off goes on, and draws. OpenGL does not: its threads are not there, and it would wait for
-   them. */
+   them; the rasteriser does. */
 static void test_fork(void **state)
 {
     (void)state;
-    for (int opengl = 0; opengl < 2; opengl++) {
-        setenv("GEOMINT_GL", opengl ? "osmesa" : "", 1);
+    static const char *const painters[] = {"own", "auto", "osmesa"};
+    for (size_t i = 0; i < sizeof painters / sizeof *painters; i++) {
+        const bool opengl = strcmp(painters[i], "osmesa") == 0;
+        setenv("GEOMINT_PAINTER", painters[i], 1);
         geomint *run = OPEN("kepler", "dt=0.01", "until=1");
         unsigned char *rgba = malloc(4 * 100 * 80);
         assert_int_equal(geomint_draw(run, 100, 80, 1, rgba), GEOMINT_OK);
@@ -147,7 +150,49 @@ static void test_fork(void **state)
         free(rgba);
         geomint_close(run);
     }
-    unsetenv("GEOMINT_GL");
+    unsetenv("GEOMINT_PAINTER");
+}
+
+/* Whether a file holds these bytes. */
+static bool holds(const char *path, const char *bytes, size_t size)
+{
+    static char content[1 << 18];
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t length = fread(content, 1, sizeof content, file);
+    fclose(file);
+    return memmem(content, length, bytes, size) != NULL;
+}
+
+/* The variable says what paints, as the file tells, and is refused where it says nothing that there is. */
+static void test_painter(void **state)
+{
+    (void)state;
+    static const char osmesa[] = "geomint:painter\0osmesa, OpenGL", own[] = "geomint:painter\0own";
+    char path[] = "/tmp/geomint-painter-XXXXXX.png", drawing[] = "/tmp/geomint-painter-XXXXXX.svg";
+    close(mkstemps(path, 4));
+    close(mkstemps(drawing, 4));
+    geomint *run = OPEN("kepler", "dt=0.01", "until=1");
+    unsigned char *pixels[] = {malloc(4 * 100 * 80), malloc(4 * 100 * 80)};
+    for (int i = 0; i < 2; i++) {
+        setenv("GEOMINT_PAINTER", i == 0 ? "" : "own", 1);
+        assert_int_equal(geomint_save(run, path, 100, 80, 1, NULL), GEOMINT_OK);
+        assert_int_equal(holds(path, osmesa, sizeof osmesa - 1), i == 0);
+        assert_int_equal(holds(path, own, sizeof own - 1), i == 1);
+        assert_int_equal(geomint_draw(run, 100, 80, 1, pixels[i]), GEOMINT_OK);
+    }
+    assert_memory_not_equal(pixels[0], pixels[1], 4 * 100 * 80); /* by some of their edges */
+    setenv("GEOMINT_PAINTER", "vulkan", 1);
+    assert_int_equal(geomint_draw(run, 100, 80, 1, pixels[0]), GEOMINT_USAGE);
+    assert_non_null(strstr(geomint_message(run), "auto, osmesa, egl or own"));
+    assert_int_equal(geomint_save(run, path, 100, 80, 1, NULL), GEOMINT_USAGE);
+    assert_int_equal(geomint_save(run, drawing, 100, 80, 1, NULL), GEOMINT_OK); /* of no pixels */
+    unsetenv("GEOMINT_PAINTER");
+    unlink(path);
+    unlink(drawing);
+    free(pixels[0]);
+    free(pixels[1]);
+    geomint_close(run);
 }
 
 /* A system that carries the time has it once, as files do. */
@@ -385,7 +430,7 @@ int main(void)
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_null),    cmocka_unit_test(test_time),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_failure), cmocka_unit_test(test_own_time),
         cmocka_unit_test(test_threads),  cmocka_unit_test(test_host),    cmocka_unit_test(test_claims),
-        cmocka_unit_test(test_fork),
+        cmocka_unit_test(test_fork),     cmocka_unit_test(test_painter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,6 +46,10 @@ static void print_features(void)
     struct gm_digest unused = gm_digest_open();
     gm_say("pictures: PNG, SVG, PDF; states: NPZ, CSV, VTK; movies: %s",
            gm_program_find("ffmpeg", path, &about) ? path : "none, as there is no ffmpeg");
+    const char *painter = getenv("GEOMINT_PAINTER");
+    gm_say("painter: %s", painter && *painter
+                              ? painter
+                              : "auto (osmesa for PNG and movies where it can be loaded, else own)");
     gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
     const bool sources = stat(kernels, &about) == 0, compiler = sources && gm_compiler_find(path, &unused);
     gm_say("loops: %s; systems of one's own: interpreted%s%s", gm_isa_name(gm_isa_best()),

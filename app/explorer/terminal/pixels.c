@@ -48,7 +48,7 @@ static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job
 static bool prepare(struct gm_pixels *pixels)
 {
     const struct gm_pixels_job *job = &pixels->job;
-    struct gm_appearance look = {.theme = job->theme};
+    struct gm_appearance look = {.theme = job->theme, .live = true};
     if (pixels->canvas && same_place(job, &pixels->made_for)) {
         return true;
     }

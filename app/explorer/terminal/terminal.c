@@ -434,15 +434,15 @@ static void report_ladder(const struct gm_terminal *terminal)
     printf("  %-12s %s\n", "key b", text);
 }
 
-/* What paints here: any picture tells. */
-static void report_painter(void)
+/* What paints here, in the terminal and to files: any picture tells. */
+static void report_painter(const char *what, bool live, const char *where)
 {
     char message[GM_MESSAGE];
     enum { SMALL = 64 };
     struct gm_canvas *canvas =
-        gm_canvas_open(&(struct gm_appearance){.width = SMALL, .height = SMALL}, message);
+        gm_canvas_open(&(struct gm_appearance){.width = SMALL, .height = SMALL, .live = live}, message);
     if (!gm_memory_was_short()) {
-        line("painter", canvas ? gm_canvas_backend(canvas) : "none", canvas ? "" : message);
+        line(what, canvas ? gm_canvas_backend(canvas) : "none", canvas ? where : message);
     }
     gm_canvas_close(canvas);
 }
@@ -465,7 +465,8 @@ int gm_terminal_report(const struct gm_overrides *overrides)
          *environment("TMUX") ? "its own terminal settings decide what arrives outside" : "");
     line("input", terminal.input ? "terminal" : "no terminal", "");
     line("output", terminal.output ? "terminal" : "no terminal", "");
-    report_painter();
+    report_painter("painter", true, "in the terminal");
+    report_painter("", false, "of PNG files and movies");
     report_answers(&terminal);
     printf("Therefore\n");
     snprintf(text, sizeof text, "%d x %d", terminal.columns, terminal.rows);
