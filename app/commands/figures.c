@@ -245,15 +245,19 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
         printf("%s{", i ? "," : "");
         gm_json_pair("says", statement->says);
         printf(",");
+        gm_json_pair("of", gm_source_name(gm_statement_source(job, i)));
+        printf(",");
         gm_json_pair("verdict", gm_verdict_word(job, outcome, i));
+        printf(",");
+        gm_json_pair("note", job->shortened ? "" : outcome->verdicts[i].note);
         printf(",\"found\":[");
         gm_json_number(outcome->verdicts[i].low);
         printf(",");
         gm_json_number(outcome->verdicts[i].high);
         printf("],\"expected\":[");
-        gm_json_number(statement->low);
+        gm_json_number(statement->low * outcome->verdicts[i].scale);
         printf(",");
-        gm_json_number(statement->high);
+        gm_json_number(statement->high * outcome->verdicts[i].scale);
         printf("]}");
     }
     printf("],\"lanes\":[");
@@ -282,11 +286,13 @@ static void print_text(const struct gm_figure_job *job, const struct gm_outcome 
         printf("  not made: %s\n", outcome->message);
     }
     for (size_t i = 0; i < outcome->verdict_count; i++) {
-        char expected[64], found[64];
+        char expected[128], found[64];
         const struct gm_statement *statement = &job->published->statements[i];
-        gm_statement_expectation(statement, expected, sizeof expected);
+        const char *note = job->shortened ? "" : outcome->verdicts[i].note;
+        gm_statement_expectation(statement, outcome->verdicts[i].scale, expected, sizeof expected);
         gm_verdict_number(outcome->verdicts[i].low, outcome->verdicts[i].high, found, sizeof found);
-        printf("  %-14s %s: %s (%s)\n", gm_verdict_word(job, outcome, i), statement->says, found, expected);
+        printf("  %-14s %s: %s (%s)%s%s\n", gm_verdict_word(job, outcome, i), statement->says, found,
+               expected, *note ? "; " : "", note);
     }
     if (outcome->progress == GM_MADE) {
         print_lanes(job, outcome);
@@ -429,17 +435,18 @@ static void run(struct series *series, int *status)
 
 static void print_sum(const struct series *series)
 {
-    size_t made = 0, hold = 0, fail = 0;
-    for (size_t i = 0; i < series->count; i++) {
-        made += series->outcomes[i].progress == GM_MADE;
-        for (size_t k = 0; k < series->outcomes[i].verdict_count && !series->jobs[i].shortened; k++) {
-            hold += series->outcomes[i].verdicts[k].holds;
-            fail += !series->outcomes[i].verdicts[k].holds;
-        }
-    }
-    gm_say("%zu of %zu figure%s made; %zu statement%s %s, %zu %s not; %s/figures.html", made, series->count,
-           gm_plural((double)series->count), hold, gm_plural((double)hold), hold == 1 ? "holds" : "hold",
-           fail, fail == 1 ? "does" : "do", series->output.folder);
+    const struct gm_figure_sum sum = gm_figures_sum(series->jobs, series->outcomes, series->count);
+    const struct gm_tally *said = &sum.of[GM_OF_DOCUMENT], *ours = &sum.of[GM_OF_OURS],
+                          *variants = &sum.of[GM_OF_VARIANT];
+    gm_say("%zu of %zu figure%s made; %zu statement%s of the documents %s, %zu %s not, %zu open; "
+           "%s/figures.html",
+           sum.made, series->count, gm_plural((double)series->count), said->hold,
+           gm_plural((double)said->hold), said->hold == 1 ? "holds" : "hold", said->fail,
+           said->fail == 1 ? "does" : "do", said->open, series->output.folder);
+    gm_say(
+        "counted apart: of ours %zu hold, %zu do not, %zu open; of variants of figures %zu hold, %zu do not, "
+        "%zu open",
+        ours->hold, ours->fail, ours->open, variants->hold, variants->fail, variants->open);
 }
 
 static int command_figures(const struct gm_options *options)

@@ -118,6 +118,11 @@ static size_t choose(const struct gm_request *request, const char *lanes, size_t
     return count;
 }
 
+static bool is_parameter(const struct gm_request *request, const char *key)
+{
+    return gm_scene_parameter(request->scene, key) || gm_setting_find(key);
+}
+
 static bool check_statement(const struct gm_request *request, const struct gm_statement *statement,
                             char *message)
 {
@@ -131,6 +136,20 @@ static bool check_statement(const struct gm_request *request, const struct gm_st
     }
     if (statement->measure != GM_LASTS && gm_scene_observable(request->scene, statement->observable) < 0) {
         return gm_refuse(message, "\"%s\" names no observable: %s", statement->says, statement->observable);
+    }
+    if (statement->scale && statement->scale->observable &&
+        gm_scene_observable(request->scene, statement->scale->observable) < 0) {
+        return gm_refuse(message, "\"%s\" has a scale that is no observable", statement->says);
+    }
+    struct gm_arguments keys = {0};
+    known = gm_arguments_split(&keys, statement->open ? statement->open : "");
+    for (int i = 0; i < keys.count; i++) {
+        known &= is_parameter(request, keys.words[i]);
+    }
+    gm_arguments_close(&keys);
+    if (!known) {
+        return gm_refuse(message, "\"%s\" leaves open what is no parameter: %s", statement->says,
+                         statement->open);
     }
     if (statement->over && gm_scene_observable(request->scene, statement->over) < 0 &&
         !gm_scene_parameter(request->scene, statement->over)) {
@@ -182,13 +201,14 @@ static double largest(const struct gm_lane *lane, int observable, double from, d
 static double when(const struct gm_lane *lane, int observable, const struct gm_statement *statement)
 {
     const struct gm_history *history = &lane->history;
+    const double level = statement->level * (statement->scale ? statement->scale->size : 1);
     double best = NAN, at = INFINITY, before = lane->t0;
     for (size_t i = 0; i < history->count; i++) {
         const struct gm_bin *bin = &history->bins[i * history->series + (size_t)observable];
-        const bool better = statement->measure == GM_EXCEEDS ? isnan(best) && bin->high > statement->level
+        const bool better = statement->measure == GM_EXCEEDS ? isnan(best) && bin->high > level
                             : statement->measure == GM_PEAKS ? !(bin->high <= best)
                                                              : !(bin->low >= best);
-        if (better) {
+        if (better && bin->t >= statement->from && (statement->to == 0 || bin->t <= statement->to)) {
             best = statement->measure == GM_DIPS ? bin->low : bin->high;
             at = (before + bin->t) / 2;
         }
@@ -205,10 +225,8 @@ static double at_start(const struct gm_lane *lane, size_t observable)
     return gm_observe(&lane->scene->observables[observable], &view);
 }
 
-static double measure(const struct gm_lane *lane, const struct gm_statement *statement)
+static double measure_of(const struct gm_lane *lane, const struct gm_statement *statement, int observable)
 {
-    const int observable =
-        statement->measure == GM_LASTS ? 0 : gm_scene_observable(lane->scene, statement->observable);
     const double middle = (lane->t0 + lane->run->t) / 2;
     switch (statement->measure) {
     case GM_MAXIMUM:
@@ -227,6 +245,24 @@ static double measure(const struct gm_lane *lane, const struct gm_statement *sta
         return gm_lane_observe(lane, (size_t)observable);
     }
     return NAN;
+}
+
+static double measure(const struct gm_lane *lane, const struct gm_statement *statement)
+{
+    return measure_of(
+        lane, statement,
+        statement->measure == GM_LASTS ? 0 : gm_scene_observable(lane->scene, statement->observable));
+}
+
+static double scale_of(const struct gm_lane *lane, const struct gm_statement *statement)
+{
+    const struct gm_figure_scale *scale = statement->scale;
+    if (!scale || statement->measure == GM_EXCEEDS) {
+        return 1;
+    }
+    return scale->observable
+               ? measure_of(lane, statement, gm_scene_observable(lane->scene, scale->observable))
+               : scale->size;
 }
 
 /* Of a lane, the number over which an order is taken. */
@@ -276,46 +312,103 @@ static bool holds(const struct gm_statement *statement, double number, bool fail
            !(failed && statement->measure != GM_LASTS && statement->high < INFINITY);
 }
 
+/* A lane's value of a parameter, its scene's or its scheme's. */
+static const char *value_of(const struct gm_request *request, size_t lane, const char *key, char *text,
+                            size_t size)
+{
+    const struct gm_lane_spec *spec = &request->lanes[lane];
+    const struct gm_parameter *row = gm_scene_parameter(request->scene, key);
+    return row ? gm_parameter_format(row, spec->parameters, text, size)
+               : gm_parameter_format(gm_setting_find(key), &spec->settings, text, size);
+}
+
+/* "dt=0.1 until=20": a lane's values of the keys that its document does not give. */
+static void open_values(const struct gm_request *request, size_t lane, const char *keys, char *text,
+                        size_t size)
+{
+    struct gm_arguments words = {0};
+    char value[GM_TEXT_SIZE];
+    size_t used = (size_t)snprintf(text, size, "%s", "");
+    gm_arguments_split(&words, keys);
+    for (int i = 0; i < words.count && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s=%s", used ? " " : "", words.words[i],
+                                 value_of(request, lane, words.words[i], value, sizeof value));
+    }
+    gm_arguments_close(&words);
+}
+
+/* "with strength=1": the values with which all lanes hold, or not all do; "" if there are none. */
+static void put_values(const struct gm_request *request, const char *keys, const size_t *chosen,
+                       const bool *good, size_t count, bool wanted, char *text)
+{
+    char own[GM_FIGURE_LABEL], other[GM_FIGURE_LABEL];
+    size_t used = (size_t)snprintf(text, GM_FIGURE_LABEL, "%s", "");
+    for (size_t i = 0; i < count; i++) {
+        bool first = true, all = true;
+        open_values(request, chosen[i], keys, own, sizeof own);
+        for (size_t k = 0; k < count; k++) {
+            open_values(request, chosen[k], keys, other, sizeof other);
+            const bool same = strcmp(own, other) == 0;
+            first &= !same || k >= i;
+            all &= !same || good[k];
+        }
+        if (first && all == wanted && used < GM_FIGURE_LABEL) {
+            used += (size_t)snprintf(text + used, GM_FIGURE_LABEL - used, "%s%s", used ? ", " : "with ", own);
+        }
+    }
+}
+
 static void judge(const struct gm_request *request, struct gm_lane *const *lanes,
                   const struct gm_statement *statement, struct gm_outcome *outcome)
 {
     size_t chosen[GM_FIGURE_LANES], others[GM_FIGURE_LANES];
-    bool known = true;
+    bool known = true, good[GM_FIGURE_LANES], all = true;
     const size_t count = choose(request, statement->lanes, chosen, &known);
     const size_t other_count = statement->against ? choose(request, statement->against, others, &known) : 0;
-    double low = INFINITY, high = -INFINITY;
-    bool good = true;
+    const size_t at = outcome->verdict_count++;
+    double low = INFINITY, high = -INFINITY, scale = INFINITY;
     for (size_t i = 0; i < (statement->over ? 1 : count); i++) {
         bool failed = false;
+        const double size = scale_of(lanes[chosen[i]], statement);
         double number = number_of(lanes, chosen, i, count, statement, &failed);
         if (other_count > 0) {
             number /= number_of(lanes, others, other_count == count ? i : 0, other_count, statement, &failed);
         }
-        good &= holds(statement, number, failed);
+        good[i] = holds(statement, number / size, failed);
+        all &= good[i];
         low = isnan(number) ? number : fmin(low, number);
         high = isnan(number) ? number : fmax(high, number);
+        scale = fmin(scale, size);
     }
-    const size_t at = outcome->verdict_count++;
     outcome->verdicts[at].low = low;
     outcome->verdicts[at].high = high;
-    outcome->verdicts[at].holds = good;
+    outcome->verdicts[at].scale = scale;
+    outcome->verdicts[at].holds = all;
+    if (statement->open) {
+        char with[GM_FIGURE_LABEL], without[GM_FIGURE_LABEL];
+        const size_t judged = statement->over ? 1 : count;
+        put_values(request, statement->open, chosen, good, judged, true, with);
+        put_values(request, statement->open, chosen, good, judged, false, without);
+        outcome->verdicts[at].open = with[0] && without[0];
+        snprintf(outcome->verdicts[at].note, GM_FIGURE_NOTE, "%s%s%s, not given by the document", with,
+                 with[0] && without[0] ? ", not " : "", without);
+    }
 }
 
 /* "rk4 dt=0.1": the scheme, and the keys of which the figure lists several values. */
-static void label(const struct gm_figure_job *job, const struct gm_lane_spec *spec, char *text, size_t size)
+static void label(const struct gm_figure_job *job, const struct gm_request *request, size_t lane, char *text,
+                  size_t size)
 {
     struct gm_arguments words = {0};
     char value[GM_TEXT_SIZE];
-    size_t used = (size_t)snprintf(text, size, "%s", spec->scheme->name);
+    size_t used = (size_t)snprintf(text, size, "%s", request->lanes[lane].scheme->name);
     gm_arguments_split(&words, job->arguments);
     for (int i = 0; i < words.count && used < size; i++) {
         char key[64];
         snprintf(key, sizeof key, "%.*s", (int)strcspn(words.words[i], "="), words.words[i]);
-        const struct gm_parameter *row =
-            strchr(words.words[i], ',') ? gm_scene_parameter(job->scene, key) : NULL;
-        if (row) {
+        if (strchr(words.words[i], ',') && is_parameter(request, key)) {
             used += (size_t)snprintf(text + used, size - used, " %s=%s", key,
-                                     gm_parameter_format(row, spec->parameters, value, sizeof value));
+                                     value_of(request, lane, key, value, sizeof value));
         }
     }
     gm_arguments_close(&words);
@@ -326,7 +419,7 @@ static void take_numbers(const struct gm_figure_job *job, const struct gm_reques
 {
     outcome->lane_count = request->count;
     for (size_t i = 0; i < request->count; i++) {
-        label(job, &request->lanes[i], outcome->lanes[i].label, sizeof outcome->lanes[i].label);
+        label(job, request, i, outcome->lanes[i].label, sizeof outcome->lanes[i].label);
         gm_failure_sentence(lanes[i], outcome->lanes[i].failure, sizeof outcome->lanes[i].failure);
         outcome->lanes[i].t = lanes[i]->run->t;
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
@@ -441,21 +534,68 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
     outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
 }
 
-const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index)
+enum gm_source gm_statement_source(const struct gm_figure_job *job, size_t index)
 {
-    return job->shortened ? "not judged" : outcome->verdicts[index].holds ? "holds" : "does not hold";
+    if (strncmp(job->published->statements[index].says, GM_OURS, strlen(GM_OURS)) == 0) {
+        return GM_OF_OURS;
+    }
+    return job->published->variant ? GM_OF_VARIANT : GM_OF_DOCUMENT;
 }
 
-void gm_statement_expectation(const struct gm_statement *statement, char *text, size_t size)
+const char *gm_source_name(enum gm_source source)
 {
-    if (statement->low == statement->high) {
-        snprintf(text, size, "%.6g", statement->low);
-    } else if (statement->low == -INFINITY) {
-        snprintf(text, size, "at most %.3g", statement->high);
-    } else if (statement->high == INFINITY) {
-        snprintf(text, size, "at least %.3g", statement->low);
+    static const char *const names[] = {
+        [GM_OF_DOCUMENT] = "document", [GM_OF_OURS] = "ours", [GM_OF_VARIANT] = "variant"};
+    return names[source];
+}
+
+struct gm_figure_sum gm_figures_sum(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes,
+                                    size_t count)
+{
+    struct gm_figure_sum sum = {0};
+    for (size_t i = 0; i < count; i++) {
+        sum.made += outcomes[i].progress == GM_MADE;
+        for (size_t k = 0; k < outcomes[i].verdict_count && !jobs[i].shortened; k++) {
+            struct gm_tally *tally = &sum.of[gm_statement_source(&jobs[i], k)];
+            tally->hold += outcomes[i].verdicts[k].holds;
+            tally->open += outcomes[i].verdicts[k].open;
+            tally->fail += !outcomes[i].verdicts[k].holds && !outcomes[i].verdicts[k].open;
+        }
+    }
+    return sum;
+}
+
+const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index)
+{
+    if (job->shortened) {
+        return "not judged";
+    }
+    if (outcome->verdicts[index].open) {
+        return "open";
+    }
+    return outcome->verdicts[index].holds ? "holds" : "does not hold";
+}
+
+void gm_statement_expectation(const struct gm_statement *statement, double scale, char *text, size_t size)
+{
+    const double low = statement->low, high = statement->high;
+    char part[64];
+    if (low == high) {
+        snprintf(text, size, "%.6g", low * scale);
+        snprintf(part, sizeof part, "%.3g", 100 * low);
+    } else if (low == -INFINITY) {
+        snprintf(text, size, "at most %.3g", high * scale);
+        snprintf(part, sizeof part, "%.3g", 100 * high);
+    } else if (high == INFINITY) {
+        snprintf(text, size, "at least %.3g", low * scale);
+        snprintf(part, sizeof part, "%.3g", 100 * low);
     } else {
-        snprintf(text, size, "%.5g to %.5g", statement->low, statement->high);
+        snprintf(text, size, "%.5g to %.5g", low * scale, high * scale);
+        snprintf(part, sizeof part, "%.3g to %.3g", 100 * low, 100 * high);
+    }
+    if (statement->scale && statement->measure != GM_EXCEEDS) {
+        const size_t used = strlen(text);
+        snprintf(text + used, size - used, ", %s %% of %s", part, statement->scale->name);
     }
 }
 

@@ -8,7 +8,13 @@
 
 /* One figure: run, painted in both themes, and, if it is a published one, held against what its document says of it. */
 
-enum { GM_FIGURE_LANES = 32, GM_FIGURE_OBSERVABLES = 16, GM_FIGURE_STATEMENTS = 12, GM_FIGURE_LABEL = 96 };
+enum {
+    GM_FIGURE_LANES = 32,
+    GM_FIGURE_OBSERVABLES = 16,
+    GM_FIGURE_STATEMENTS = 12,
+    GM_FIGURE_LABEL = 96,
+    GM_FIGURE_NOTE = 256
+};
 
 enum gm_making { GM_WAITING, GM_RUNNING, GM_MADE, GM_NOT_MADE };
 
@@ -28,7 +34,10 @@ struct gm_outcome {
     size_t verdict_count; /* the figure's statements */
     struct {
         double low, high; /* of the numbers of its lanes */
+        double scale;     /* that multiplies the statement's bounds */
         bool holds;
+        bool open; /* it holds with some values that the document does not give, not with others */
+        char note[GM_FIGURE_NOTE]; /* those values; "" */
     } verdicts[GM_FIGURE_STATEMENTS];
 };
 
@@ -87,12 +96,27 @@ bool gm_outcome_has(const struct gm_outcome *outcome, size_t index);
 char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
                      enum gm_format format);
 
-/* Of statement `index`: "holds", "does not hold", or "not judged" of a run that was shortened. */
+/* Who makes a statement, as JSON names it. */
+enum gm_source { GM_OF_DOCUMENT, GM_OF_OURS, GM_OF_VARIANT, GM_SOURCES };
+enum gm_source gm_statement_source(const struct gm_figure_job *job, size_t index);
+const char *gm_source_name(enum gm_source source);
+
+/* How many figures were made, and what became of their statements. */
+struct gm_figure_sum {
+    size_t made;
+    struct gm_tally {
+        size_t hold, fail, open;
+    } of[GM_SOURCES];
+};
+struct gm_figure_sum gm_figures_sum(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes,
+                                    size_t count);
+
+/* Of statement `index`: "holds", "does not hold", "open", or "not judged" of a run that was shortened. */
 const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index);
 
-/* What a statement expects ("at most 1e-12") and what was found ("0.105", "0.09 to 0.11"; "no number" where
-   there is none). */
-void gm_statement_expectation(const struct gm_statement *statement, char *text, size_t size);
+/* What a statement expects ("at most 1e-12"; "at most 0.21, 5 % of the breather's height") and what was found
+   ("0.105", "0.09 to 0.11"; "no number" where there is none). */
+void gm_statement_expectation(const struct gm_statement *statement, double scale, char *text, size_t size);
 void gm_verdict_number(double low, double high, char *text, size_t size);
 
 #endif

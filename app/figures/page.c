@@ -137,18 +137,20 @@ static bool put_picture(FILE *page, const struct gm_figure_output *output, const
     return good;
 }
 
+/* "open" is not judged either: the document leaves out what decides it. */
 static void put_verdict(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome,
                         size_t index)
 {
-    const bool holds = outcome->verdicts[index].holds;
-    fprintf(page, "<span class=\"%s\">%s %s</span>",
-            job->shortened ? "none"
-            : holds        ? "good"
-                           : "bad",
-            job->shortened ? "–"
-            : holds        ? "✓"
-                           : "✗",
-            gm_verdict_word(job, outcome, index));
+    const char *style_class = "bad", *mark = "✗";
+    if (job->shortened || outcome->verdicts[index].open) {
+        style_class = "none", mark = "–";
+    } else if (outcome->verdicts[index].holds) {
+        style_class = "good", mark = "✓";
+    }
+    fprintf(page, "<span class=\"%s\">%s %s</span>", style_class, mark, gm_verdict_word(job, outcome, index));
+    if (outcome->verdicts[index].note[0] && !job->shortened) {
+        fprintf(page, "<br><span class=\"soft\">%s</span>", outcome->verdicts[index].note);
+    }
 }
 
 static void put_statements(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome)
@@ -160,7 +162,7 @@ static void put_statements(FILE *page, const struct gm_figure_job *job, const st
           "<th class=\"n\">found<th></tr></thead><tbody>\n",
           page);
     for (size_t i = 0; i < outcome->verdict_count; i++) {
-        char text[64];
+        char text[128];
         const struct gm_statement *statement = &job->published->statements[i];
         fputs("<tr><td>", page);
         put_sentence(page, statement->says);
@@ -170,8 +172,8 @@ static void put_statements(FILE *page, const struct gm_figure_job *job, const st
             fputs(" divided by ", page);
             put_text(page, statement->against);
         }
-        gm_statement_expectation(statement, text, sizeof text);
-        fprintf(page, "<td class=\"n\" data-is=\"expected\">%s", text);
+        gm_statement_expectation(statement, outcome->verdicts[i].scale, text, sizeof text);
+        fprintf(page, "<td data-is=\"expected\">%s", text);
         gm_verdict_number(outcome->verdicts[i].low, outcome->verdicts[i].high, text, sizeof text);
         fprintf(page, "<td class=\"n\" data-is=\"found\">%s<td>", text);
         put_verdict(page, job, outcome, i);
@@ -288,23 +290,6 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
     return good;
 }
 
-struct sum {
-    size_t made, hold, fail;
-};
-
-static struct sum sum_of(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes, size_t count)
-{
-    struct sum sum = {0};
-    for (size_t i = 0; i < count; i++) {
-        sum.made += outcomes[i].progress == GM_MADE;
-        for (size_t k = 0; k < outcomes[i].verdict_count && !jobs[i].shortened; k++) {
-            sum.hold += outcomes[i].verdicts[k].holds;
-            sum.fail += !outcomes[i].verdicts[k].holds;
-        }
-    }
-    return sum;
-}
-
 /* What systems of somebody's own stand under. */
 static const struct gm_document own_systems = {.prefix = "own", .citation = "Systems of your own"};
 
@@ -326,7 +311,13 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
         if (!is_of(document, &jobs[i])) {
             continue;
         }
-        const struct sum sum = sum_of(&jobs[i], &outcomes[i], 1);
+        const struct gm_figure_sum sum = gm_figures_sum(&jobs[i], &outcomes[i], 1);
+        struct gm_tally all = {0};
+        for (size_t k = 0; k < GM_SOURCES; k++) {
+            all.hold += sum.of[k].hold;
+            all.fail += sum.of[k].fail;
+            all.open += sum.of[k].open;
+        }
         fprintf(page, "<li><a href=\"#%s\">", jobs[i].figure->name);
         put_title(page, &jobs[i]);
         const char *scene = jobs[i].scene->name;
@@ -336,20 +327,23 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
             fputs("<span>made</span>", page);
         } else if (!sum.made) {
             fputs("<span class=\"bad\">✗ not made</span>", page);
-        } else if (sum.hold + sum.fail == 0) {
+        } else if (all.hold + all.fail + all.open == 0) {
             fputs("<span class=\"none\">– not judged</span>", page);
-        } else if (sum.fail == 0) {
-            fputs("<span class=\"good\">✓ holds</span>", page);
+        } else if (all.fail > 0) {
+            fprintf(page, "<span class=\"bad\">✗ %zu of %zu %s not</span>", all.fail,
+                    all.hold + all.fail + all.open, all.fail == 1 ? "does" : "do");
+        } else if (all.open > 0) {
+            fprintf(page, "<span class=\"none\">– %zu of %zu open</span>", all.open, all.hold + all.open);
         } else {
-            fprintf(page, "<span class=\"bad\">✗ %zu of %zu %s not</span>", sum.fail, sum.hold + sum.fail,
-                    sum.fail == 1 ? "does" : "do");
+            fputs("<span class=\"good\">✓ holds</span>", page);
         }
         fputs("</li>\n", page);
     }
     fputs("</ol></nav>\n", page);
 }
 
-static void put_head(FILE *page, const struct gm_figure_output *output, const struct sum *sum, size_t count)
+static void put_head(FILE *page, const struct gm_figure_output *output, const struct gm_figure_sum *sum,
+                     size_t count)
 {
     fprintf(page,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -357,19 +351,30 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
             "<meta name=\"generator\" content=\"geomint %s\">\n<title>Published figures, made again</title>\n"
             "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, made again</h1>\n",
             GM_VERSION, style);
-    fprintf(page,
-            "<p class=\"sum\">%zu of %zu figure%s made. Of %zu statement%s measured, "
-            "<span class=\"good\">✓ %zu hold%s</span> and <span class=\"bad\">✗ %zu do%s not</span>.</p>\n",
-            sum->made, count, gm_plural((double)count), sum->hold + sum->fail,
-            gm_plural((double)(sum->hold + sum->fail)), sum->hold, sum->hold == 1 ? "s" : "", sum->fail,
-            sum->fail == 1 ? "es" : "");
+    const struct gm_tally *said = &sum->of[GM_OF_DOCUMENT], *ours = &sum->of[GM_OF_OURS],
+                          *variants = &sum->of[GM_OF_VARIANT];
+    fprintf(
+        page,
+        "<p class=\"sum\">%zu of %zu figure%s made. Of %zu statements of the documents that were measured, "
+        "<span class=\"good\">✓ %zu hold</span>, <span class=\"bad\">✗ %zu do not</span> and "
+        "<span class=\"none\">– %zu are open</span>.</p>\n",
+        sum->made, count, gm_plural((double)count), said->hold + said->fail + said->open, said->hold,
+        said->fail, said->open);
+    fprintf(
+        page,
+        "<p class=\"soft\">Counted apart: of %zu statements of ours, marked so, %zu hold; of %zu about a figure "
+        "with another value than the document’s, %zu hold.</p>\n",
+        ours->hold + ours->fail + ours->open, ours->hold, variants->hold + variants->fail + variants->open,
+        variants->hold);
     fputs(
         "<p class=\"soft\">Each figure comes with what its document says of it, the number that was found here, "
         "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "
         "gives a word, the word means the same throughout: a number <i>grows</i> whose largest value in the "
         "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
-        "<i>round-off</i> is at most 1e-13; <i>close</i> is within 5 % of the solution’s own size; "
-        "<i>about</i> is up to twice as much. A run that "
+        "<i>round-off</i> is at most 1e-13; <i>close</i>, <i>the same</i> and <i>very similar</i> are within 5 % of "
+        "the solution’s own size, or of the number compared with; <i>much smaller</i> is at most a tenth; "
+        "<i>about</i> is up to twice as much; a time is met within 1 %, an order within 0.05. A statement is "
+        "<i>open</i> that holds or not by the value of a key that the document does not give. A run that "
         "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
         "stands under it.</p>\n",
         page);
@@ -421,7 +426,7 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
     FILE *page = fopen(partial, "w");
     bool good = page != NULL;
     if (good) {
-        const struct sum sum = sum_of(jobs, outcomes, count);
+        const struct gm_figure_sum sum = gm_figures_sum(jobs, outcomes, count);
         put_head(page, output, &sum, count);
         for (size_t i = 0; i < gm_document_count(); i++) {
             good &= put_document(page, output, gm_document_at(i), jobs, outcomes, count);

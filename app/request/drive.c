@@ -318,9 +318,9 @@ double gm_drive_seconds(const struct gm_request *request, size_t index)
         return 0;
     }
     const struct gm_run *state = drive.lane->run;
-    const long steps = request->lanes[index].steps;
+    const int64_t steps = request->lanes[index].steps;
     const double opening = gm_clock_seconds() - started;
-    for (long goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
+    for (int64_t goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
          goal *= 2) {
         gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
     }

@@ -2,6 +2,7 @@
 #ifndef GM_SCENES_FRAME_PUBLISHED_H
 #define GM_SCENES_FRAME_PUBLISHED_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* What the documents say of their figures, as numbers that can be held against ours. The figures themselves,
@@ -18,8 +19,18 @@ enum gm_figure_measure {
     GM_EXCEEDS, /* of the first one above `level`, infinite if there is none; as exact as bins are wide */
 };
 
+/* Statements that no document makes begin with this. */
+#define GM_OURS "(ours) "
+
+/* The size by which a word is measured: "close" is a part of it. */
+struct gm_figure_scale {
+    const char *name;       /* "the soliton's height" */
+    const char *observable; /* of the same lane, measured as the statement is; NULL: */
+    double size;
+};
+
 struct gm_statement {
-    const char *says; /* the document, in a few words */
+    const char *says; /* the document, in a few words; or GM_OURS and what we say */
     /* Whose number: the lanes that have all of these values, "scheme=rk4 dt=0.1,0.2" (of a list, one
        of them); "": all. Of several lanes, each has to hold. */
     const char *lanes;
@@ -30,7 +41,12 @@ struct gm_statement {
        of the measure against that on log axes, from the first of the lanes to the last; with `against`, the
        order of those divided by the order of the others */
     const char *over;
-    double level;     /* of GM_EXCEEDS */
+    /* NULL; or keys of parameters that the document does not give and on whose values the verdict depends,
+       "dt until": those of each lane are judged apart */
+    const char *open;
+    const struct gm_figure_scale *scale; /* that multiplies low, high and level; NULL: 1 */
+    double level;                        /* of GM_EXCEEDS */
+    double from, to;  /* of GM_PEAKS and GM_DIPS: they look at these times alone; 0, 0: at all */
     double low, high; /* it holds where low <= number <= high */
 };
 
@@ -40,6 +56,7 @@ struct gm_published {
        NULL: it is short */
     const char *quick;
     const char *remark; /* ours, where something has to be said: why a statement does not hold; NULL */
+    bool variant;       /* a published figure with another value of ours: its statements are counted apart */
     const struct gm_statement *statements;
     size_t count;
 };

@@ -198,18 +198,25 @@ static const struct gm_figure figures[] = {
     {
         .name = "tyranowski-9",
         .statement = "mesh points of the control-theoretic strategy, 22 and 31 of them",
-        .arguments = "points=22,31 scheme=control-gauss4 until=50 show=mesh",
+        .arguments = "points=22,31 scheme=control-gauss4,control-lobatto4 until=50 show=mesh",
     },
     {
         .name = "tyranowski-10",
         .statement = "31 nodes that stand still do not resolve the soliton",
-        .arguments = "scheme=uniform-gauss4 points=31 until=50",
+        .arguments = "scheme=uniform-gauss4,uniform-lobatto4 points=31 until=50",
     },
     {
         .name = "tyranowski-11",
         .statement =
             "the multiplier strategy is more accurate than the control-theoretic one, and both than a uniform mesh",
         .arguments = "scheme=multiplier-lobatto4,control-gauss4,uniform-gauss4 points=15,31,63,127 until=50 "
+                     "show=convergence",
+    },
+    {
+        .name = "tyranowski-11-schemes",
+        .statement = "other integrators, of second order too, give very similar errors",
+        .arguments = "scheme=multiplier-lobatto4,multiplier-lobatto2,control-gauss4,control-lobatto4,control-"
+                     "gauss2,uniform-gauss4,uniform-lobatto4,uniform-gauss2 points=31,63,127 until=50 "
                      "show=convergence",
     },
     {
@@ -244,7 +251,7 @@ static const struct gm_figure figures[] = {
         .name = "tyranowski-14",
         .statement = "with the control-theoretic strategy the energy wanders, symplectic or not",
         .arguments =
-            "scheme=control-gauss4,control-lobatto4,control-radau5 solitons=2 points=25 alpha=1.5 dt=0.05 "
+            "scheme=control-gauss4,control-lobatto4,control-radau5,multiplier-lobatto4 solitons=2 points=25 alpha=1.5 dt=0.05 "
             "until=300 show=energy",
     },
 };

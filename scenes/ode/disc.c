@@ -511,6 +511,12 @@ static const struct gm_figure figures[] = {
             "the energy error of symplectic Euler is bounded, that of the midpoint rule is round-off",
         .arguments = "scheme=symplectic-euler,midpoint dt=0.1,0.06,0.02 until=60 show=energy",
     },
+    {
+        .name = "razafindralandy-5-euler",
+        .statement = "the energy error of symplectic Euler is much smaller than those of the other two",
+        .arguments = "scheme=symplectic-euler,explicit-euler,implicit-euler dt=0.1,0.06,0.02 until=5,60 "
+                     "show=energy",
+    },
 };
 
 const struct gm_scene gm_scene_disc = {

@@ -224,7 +224,7 @@ static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-16",
         .statement = "the solution of the rectangle-rule variational integrator is very close to the sine",
-        .arguments = "scheme=variational-rectangle,variational-rectangle-restart until=20",
+        .arguments = "scheme=variational-rectangle,variational-rectangle-restart tau0=0.02,5e-4 until=20",
     },
     {
         .name = "razafindralandy-17",

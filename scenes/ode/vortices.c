@@ -373,18 +373,18 @@ static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-8",
         .statement = "two opposite vortices turned by an angle: a quasi-periodic motion",
-        .arguments = "scheme=gauss4 configuration=two-turned strength=1 dt=0.05 until=1200",
+        .arguments = "scheme=gauss4 configuration=two-turned angle=pi/10,pi/5 strength=1 dt=0.05 until=1600",
     },
     {
         .name = "razafindralandy-9",
         .statement = "both integrators reproduce the square's periodic motion over 5e5 steps",
-        .arguments = "scheme=rk4,rk4sym configuration=square strength=1 dt=5e-3 steps=500000",
+        .arguments = "scheme=rk4,rk4sym configuration=square strength=1,150 dt=5e-3 steps=500000",
     },
     {
         .name = "razafindralandy-10",
         .statement = "with two opposite vortices turned by π/5, RK4 loses quasi-periodicity, RK4sym keeps it",
         .arguments =
-            "scheme=rk4,rk4sym configuration=two-turned angle=pi/5 strength=150 dt=5e-3 steps=500000",
+            "scheme=rk4,rk4sym configuration=two-turned angle=pi/5 strength=1,150 dt=5e-3 steps=500000",
     },
 };
 

@@ -235,10 +235,11 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     const struct gm_vortices *own = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     const bool one_step = gm_one_step(lanes, count);
-    bool one_start = true;
+    bool one_start = true, one_strength = true;
     for (size_t i = 1; i < count; i++) {
         const struct gm_vortices *other = lanes[i]->parameters;
         one_start &= other->configuration == own->configuration && other->angle == own->angle;
+        one_strength &= other->strength == own->strength;
     }
     const long vortices = own->configuration == GM_REDUCED ? 4 : own->count;
     const char *number = vortices == 4 ? "Four" : gm_picture_text(picture, "%ld", vortices);
@@ -249,10 +250,10 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     const bool turned = own->configuration == GM_REDUCED || own->configuration == GM_TWO_TURNED ||
                         own->configuration == GM_ONE_TURNED;
     picture->subtitle = gm_picture_text(
-        picture, "%s%s%sstrength %.6g%s%s", one_start ? starts[own->configuration] : "",
-        one_start ? ",  " : "",
+        picture, "%s%s%s%s%s%s", one_start ? starts[own->configuration] : "", one_start ? ",  " : "",
         one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", own->angle * 180 / M_PI) : "",
-        own->strength, one_step ? ",  Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
+        one_strength ? gm_picture_text(picture, "strength %.6g%s", own->strength, one_step ? ",  " : "") : "",
+        one_step ? "Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
     picture->caption = one_start ? caption_of(own) : "";
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);

@@ -148,8 +148,8 @@ static void what_has_no_number_says_so(void **unused)
     assert_string_equal(text, "0.25 to 0.5");
 }
 
-static void make(const char *arguments, const struct gm_statement *statements, size_t count,
-                 struct gm_outcome *outcome)
+static void make_of(const char *scene, const char *arguments, const struct gm_statement *statements,
+                    size_t count, struct gm_outcome *outcome)
 {
     char folder[256];
     folder_make(folder, sizeof folder);
@@ -157,7 +157,7 @@ static void make(const char *arguments, const struct gm_statement *statements, s
     const struct gm_published published = {.figure = "trial", .statements = statements, .count = count};
     const struct gm_figure_output output = {.folder = folder, .look = {.width = 160, .height = 90}};
     struct gm_figure_job job;
-    gm_figure_plan(&job, gm_scene_find("disc"), &figure, false);
+    gm_figure_plan(&job, gm_scene_find(scene), &figure, false);
     job.published = &published;
     *outcome = (struct gm_outcome){0};
     gm_figure_make(&job, &output, outcome);
@@ -165,6 +165,12 @@ static void make(const char *arguments, const struct gm_statement *statements, s
     folder_remove(folder);
     assert_int_equal(outcome->progress, GM_MADE);
     assert_int_equal(outcome->verdict_count, count);
+}
+
+static void make(const char *arguments, const struct gm_statement *statements, size_t count,
+                 struct gm_outcome *outcome)
+{
+    make_of("disc", arguments, statements, count, outcome);
 }
 
 /* The same statements of a scheme that keeps the area and of one that does not; the numbers are those of
@@ -259,26 +265,166 @@ static void times_are_measured(void **unused)
          .low = -INFINITY, .high = 1e9},
         {"most", .lanes = "", .observable = "area", .measure = GM_PEAKS, .low = 9.89, .high = 10},
         {"least", .lanes = "", .observable = "area", .measure = GM_DIPS, .low = 0, .high = 0.11},
+        {"least after 2", .lanes = "", .observable = "area", .measure = GM_DIPS, .from = 2, .low = 1.89,
+         .high = 2.11},
+        {"most before 5", .lanes = "", .observable = "area", .measure = GM_PEAKS, .to = 5, .low = 4.79,
+         .high = 5},
     };
     struct gm_outcome outcome;
-    make("scheme=explicit-euler dt=0.1 until=10", statements, 4, &outcome);
+    make("scheme=explicit-euler dt=0.1 until=10", statements, 6, &outcome);
     assert_true(outcome.verdicts[0].holds);
     assert_false(outcome.verdicts[1].holds);
     assert_true(outcome.verdicts[2].holds);
     assert_true(outcome.verdicts[3].holds);
+    assert_true(outcome.verdicts[4].holds);
+    assert_true(outcome.verdicts[5].holds);
     make("scheme=implicit-euler dt=0.1 until=10", statements, 4, &outcome);
     assert_false(outcome.verdicts[2].holds);
     assert_false(outcome.verdicts[3].holds);
 }
 
+/* A bound that stands for a word is a part of a size: of a constant, which is that of the scene's start, or of an
+   observable of the same lane. */
+static void bounds_follow_their_scale(void **unused)
+{
+    (void)unused;
+    static const struct gm_figure_scale area = {"its area", .observable = "area"}, ten = {"ten", .size = 10};
+    static const struct gm_statement statements[] = {
+        {"half of itself", .lanes = "", .observable = "area", .measure = GM_AT_END, .scale = &area,
+         .low = 0.9, .high = 1.1},
+        {"not above half of itself", .lanes = "", .observable = "area", .measure = GM_AT_END, .scale = &area,
+         .low = -INFINITY, .high = 0.5},
+        {"beyond a tenth of ten", .lanes = "", .observable = "energy_error", .measure = GM_EXCEEDS,
+         .scale = &ten, .level = 0.1, .low = 6.89, .high = 7.01},
+    };
+    struct gm_outcome outcome;
+    char text[128];
+    make("scheme=explicit-euler dt=0.1 until=10", statements, 3, &outcome);
+    assert_true(outcome.verdicts[0].holds);
+    assert_false(outcome.verdicts[1].holds);
+    assert_true(outcome.verdicts[2].holds);
+    gm_statement_expectation(&statements[1], 0.4, text, sizeof text);
+    assert_string_equal(text, "at most 0.2, 50 % of its area");
+    /* the breather of Figure 11 is as high as its scale says */
+    const struct gm_statement *close = &gm_published_find("razafindralandy-11")->statements[1];
+    make_of("sine-gordon", "scheme=box,leapfrog dt=0.05 until=0.05", close, 1, &outcome);
+    assert_true(fabs(outcome.verdicts[0].scale / (4 * M_PI / 3) - 1) < 1e-15);
+    const struct gm_statement height = {"the height",          .lanes = "",  .observable = "amplitude",
+                                        .measure = GM_MAXIMUM, .low = 0.999, .high = 1.001,
+                                        .scale = close->scale};
+    make_of("sine-gordon", "scheme=box dt=0.05 until=20", &height, 1, &outcome);
+    assert_true(outcome.verdicts[0].holds);
+}
+
+/* Close to the exact solution is within 5 % of the solution's own size, 0.4511: the bound is 0.0226, and the
+   error of Figure 26, 0.0466, is not. */
+static void a_shock_is_not_close(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene = NULL;
+    const struct gm_figure *figure = find("razafindralandy-26", &scene);
+    struct gm_outcome outcome;
+    make_of("burgers", figure->arguments, gm_published_find("razafindralandy-26")->statements, 1, &outcome);
+    assert_false(outcome.verdicts[0].holds);
+    assert_true(fabs(outcome.verdicts[0].scale - 0.4511) < 1e-4);
+    assert_true(fabs(outcome.verdicts[0].high - 0.0466) < 1e-4);
+}
+
+/* Two solitons bounce when the document says so: at 5, 18.79 and 32.57. */
+static void bounces_are_timed(void **unused)
+{
+    (void)unused;
+    static const double times[] = {5, 18.79, 32.57};
+    const struct gm_scene *scene = NULL;
+    const struct gm_figure *figure = find("tyranowski-12", &scene);
+    struct gm_outcome outcome;
+    make_of("soliton", figure->arguments, gm_published_find("tyranowski-12")->statements, 3, &outcome);
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(outcome.verdicts[i].holds);
+        assert_true(outcome.verdicts[i].low >= 0.99 * times[i] &&
+                    outcome.verdicts[i].high <= 1.01 * times[i]);
+    }
+}
+
+/* What the document leaves out and what decides is neither held nor refuted, and named with its values. */
+static void what_is_left_open_is_named(void **unused)
+{
+    (void)unused;
+    static const struct gm_statement statements[] = {
+        {"small steps", .lanes = "", .open = "dt", .observable = "energy_error", .measure = GM_AT_END,
+         .low = -INFINITY, .high = 0.3},
+        {"all", .lanes = "", .open = "dt", .observable = "energy_error", .measure = GM_AT_END, .low = 0,
+         .high = 1},
+        {"none", .lanes = "scheme=explicit-euler", .open = "dt until", .observable = "energy_error",
+         .measure = GM_AT_END, .low = 1, .high = 2},
+        {"given", .lanes = "", .observable = "energy_error", .measure = GM_AT_END, .low = -INFINITY,
+         .high = 0.3},
+    };
+    struct gm_outcome outcome;
+    make("scheme=explicit-euler,implicit-euler dt=0.1,0.02 until=5", statements, 4, &outcome);
+    assert_true(outcome.verdicts[0].open && !outcome.verdicts[0].holds);
+    assert_string_equal(outcome.verdicts[0].note, "with dt=0.02, not with dt=0.1, not given by the document");
+    assert_true(outcome.verdicts[1].holds && !outcome.verdicts[1].open);
+    assert_string_equal(outcome.verdicts[1].note, "with dt=0.1, dt=0.02, not given by the document");
+    assert_true(!outcome.verdicts[2].holds && !outcome.verdicts[2].open);
+    assert_string_equal(outcome.verdicts[2].note,
+                        "with dt=0.1 until=5, dt=0.02 until=5, not given by the document");
+    assert_true(!outcome.verdicts[3].holds && !outcome.verdicts[3].open);
+    assert_string_equal(outcome.verdicts[3].note, "");
+    /* both strengths, of both figures */
+    for (size_t i = 9; i <= 10; i++) {
+        char name[64];
+        const struct gm_scene *scene = NULL;
+        snprintf(name, sizeof name, "razafindralandy-%zu", i);
+        assert_non_null(strstr(find(name, &scene)->arguments, "strength=1,150 "));
+        for (size_t k = 0; k < gm_published_find(name)->count; k++) {
+            assert_string_equal(gm_published_find(name)->statements[k].open, "strength");
+        }
+    }
+}
+
+/* Statements that no document makes say so, and are counted apart, as are those about figures with other values. */
+static void the_sum_counts_the_documents_alone(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *figure;
+        size_t ours;
+    } marked[] = {{"tyranowski-2", 1},       {"tyranowski-3", 1},       {"tyranowski-5", 1},
+                  {"tyranowski-6", 1},       {"tyranowski-7", 1},       {"tyranowski-8", 2},
+                  {"tyranowski-9", 2},       {"tyranowski-10", 1},      {"razafindralandy-8", 1},
+                  {"razafindralandy-12", 1}, {"razafindralandy-13", 1}, {"razafindralandy-11", 0}};
+    for (size_t i = 0; i < GM_COUNT(marked); i++) {
+        const struct gm_figure_job job = {.published = gm_published_find(marked[i].figure)};
+        size_t ours = 0;
+        for (size_t k = 0; k < job.published->count; k++) {
+            ours += gm_statement_source(&job, k) == GM_OF_OURS;
+        }
+        assert_int_equal(ours, marked[i].ours);
+    }
+    const struct gm_figure_job jobs[] = {{.published = gm_published_find("razafindralandy-25-finer")},
+                                         {.published = gm_published_find("tyranowski-9")}};
+    const struct gm_outcome outcomes[] = {
+        {.progress = GM_MADE, .verdict_count = 2, .verdicts = {{.holds = true}, {.open = true}}},
+        {.progress = GM_MADE, .verdict_count = 3, .verdicts = {{.holds = true}, {.holds = true}, {0}}}};
+    const struct gm_figure_sum sum = gm_figures_sum(jobs, outcomes, 2);
+    assert_int_equal(sum.made, 2);
+    assert_true(sum.of[GM_OF_VARIANT].hold == 1 && sum.of[GM_OF_VARIANT].open == 1);
+    assert_true(sum.of[GM_OF_DOCUMENT].hold == 1 && sum.of[GM_OF_DOCUMENT].fail == 0);
+    assert_true(sum.of[GM_OF_OURS].hold == 1 && sum.of[GM_OF_OURS].fail == 1);
+}
+
 static void unknown_names_are_refused(void **unused)
 {
     (void)unused;
+    static const struct gm_figure_scale nothing = {"nothing", .observable = "nothing"};
     static const struct gm_statement wrong[] = {
         {"lane", .lanes = "scheme=rk4", .observable = "area", .measure = GM_AT_END},
         {"key", .lanes = "colour=red", .observable = "area", .measure = GM_AT_END},
         {"observable", .lanes = "", .observable = "volume", .measure = GM_AT_END},
         {"over", .lanes = "", .observable = "area", .measure = GM_AT_END, .over = "nothing"},
+        {"open", .lanes = "", .observable = "area", .measure = GM_AT_END, .open = "dt nothing"},
+        {"scale", .lanes = "", .observable = "area", .measure = GM_AT_END, .scale = &nothing},
     };
     const struct gm_figure figure = {.name = "trial", .statement = "", .arguments = "scheme=verlet"};
     for (size_t i = 0; i < GM_COUNT(wrong); i++) {
@@ -304,6 +450,11 @@ int main(void)
         cmocka_unit_test(a_failed_run_holds_nothing_small),
         cmocka_unit_test(orders_and_ratios),
         cmocka_unit_test(times_are_measured),
+        cmocka_unit_test(bounds_follow_their_scale),
+        cmocka_unit_test(a_shock_is_not_close),
+        cmocka_unit_test(bounces_are_timed),
+        cmocka_unit_test(what_is_left_open_is_named),
+        cmocka_unit_test(the_sum_counts_the_documents_alone),
         cmocka_unit_test(unknown_names_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
