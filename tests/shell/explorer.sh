@@ -445,7 +445,7 @@ clean 0
 # ---- pictures, sizes, rest ----
 
 start 140x40
-open_disc
+open_disc --painter auto
 wait_for 'explicit Euler'
 begin
 keys . . . .
@@ -454,6 +454,7 @@ keys p
 wait_for 'Saved disc-0001.png|Not saved'
 if [ -f "$folder/disc-0001.png" ]; then
     [ "$(head -c 4 "$folder/disc-0001.png" | tail -c 3)" = PNG ] || fail "disc-0001.png is no PNG"
+    grep -aq 'geomint:painter.osmesa, OpenGL' "$folder/disc-0001.png" || fail "p does not paint by OSMesa"
     keys p
     wait_for 'Saved disc-0002.png'
 else
