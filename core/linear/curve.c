@@ -4,6 +4,8 @@
 #include <complex.h>
 #include <math.h>
 
+#include "core/linear/fourier.h"
+
 /* The trapezoidal rule, which on a closed curve converges faster than any power of `count`. A chord is the mean
    derivative of its ends times a length that is exact for every ellipse; where that is off by a hundredth of the
    curve's length, the area of a pendulum's disc of 8 and more points is right to 1e-6. */
@@ -19,4 +21,20 @@ double gm_curve_area(const double complex *points, const double complex *derivat
         apart += cabs(along - chord * (derivatives[i] + derivatives[next]));
     }
     return apart <= most * length ? sum * step / 2 : NAN;
+}
+
+bool gm_curve_differentiate(double complex *points, size_t count)
+{
+    struct gm_fourier *fourier = gm_fourier_open(count);
+    if (!fourier) {
+        return false;
+    }
+    gm_fourier_forward(fourier, points);
+    for (size_t k = 0; k < count; k++) {
+        const double wave = 2 * k < count ? (double)k : (double)k - (double)count;
+        points[k] *= 2 * k == count ? 0 : I * wave;
+    }
+    gm_fourier_inverse(fourier, points);
+    gm_fourier_close(fourier);
+    return true;
 }

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_LINEAR_CURVE_H
 #define GM_CORE_LINEAR_CURVE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Signed area within a closed smooth curve, given by `count` points x + i y at equal distances of a parameter
@@ -9,5 +10,9 @@
    between two bends. */
 double gm_curve_area(const double _Complex *points, const double _Complex *derivatives, size_t count);
 #define GM_UNRESOLVED_EDGE "the members no longer resolve the edge of the disc"
+
+/* Points become derivatives: of the trigonometric polynomial through them, whose alternating part has none there.
+   False: out of memory. */
+bool gm_curve_differentiate(double _Complex *points, size_t count);
 
 #endif

@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "core/field/families/kdv_frames.h"
+#include "core/field/families/laws/profile.h"
 #include "core/field/problems/dispersive.h"
 #include "core/larger.h"
 #include "scenes/field/local_laws.h"
@@ -150,14 +151,24 @@ static double mass(const struct gm_view *view)
     return gm_kdv_mass(view->problem, view->state);
 }
 
+/* As the scheme sees space: by another gauge the error would be that of the gauge. */
+static double integral(const struct gm_view *view,
+                       double (*of)(const struct gm_problem *problem, const double *profile))
+{
+    double *profile = gm_field_profile(view->problem, view->scheme, view->state);
+    const double value = profile ? of(view->problem, profile) : NAN;
+    free(profile);
+    return value;
+}
+
 static double square(const struct gm_view *view)
 {
-    return gm_kdv_square(view->problem, view->state);
+    return integral(view, gm_kdv_square);
 }
 
 static double energy(const struct gm_view *view)
 {
-    return gm_kdv_energy(view->problem, view->state);
+    return integral(view, gm_kdv_energy);
 }
 
 static double solution_error(const struct gm_view *view)

@@ -38,10 +38,11 @@ bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, doubl
    exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
 
-/* Of the original frame:  dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
+/* Of the original frame:  dx sum u;  dx sum v^2;  dx sum [mu s^2 / 2 - eta v^3 / 6], with the values v and then the
+   slopes s of a profile (gm_field_profile). */
 double gm_kdv_mass(const struct gm_problem *problem, const double *y);
-double gm_kdv_square(const struct gm_problem *problem, const double *y);
-double gm_kdv_energy(const struct gm_problem *problem, const double *y);
+double gm_kdv_square(const struct gm_problem *problem, const double *profile);
+double gm_kdv_energy(const struct gm_problem *problem, const double *profile);
 
 /* Nonlinear Schroedinger, i psi_t + psi_xx + |psi|^2 psi = 0; the state is Re psi, then Im psi. */
 enum gm_nls_initial {
@@ -62,9 +63,9 @@ void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x
 /* Whether that solves the equation on the ring too, but for tails of a thousandth of the amplitude. */
 bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_line *line, double t);
 
-/* dx sum |A psi|^2;  dx sum [|D psi|^2 - |A psi|^4 / 2];  dx sum |psi|^2 */
+/* dx sum |A psi|^2;  dx sum [|s|^2 - |v|^4 / 2], of the profiles of both parts;  dx sum |psi|^2 */
 double gm_nls_charge(const struct gm_problem *problem, const double *y);
-double gm_nls_energy(const struct gm_problem *problem, const double *y);
+double gm_nls_energy(const struct gm_problem *problem, const double *re, const double *im);
 double gm_nls_node_charge(const struct gm_problem *problem, const double *y);
 
 /* The caller sets line, n (kdv: gm_wave_size, nls: 2 points) and parameters (struct gm_kdv or gm_nls). */

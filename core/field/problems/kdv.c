@@ -248,27 +248,24 @@ double gm_kdv_mass(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-double gm_kdv_square(const struct gm_problem *problem, const double *y)
+double gm_kdv_square(const struct gm_problem *problem, const double *profile)
 {
-    const size_t points = problem->line.points;
     const double level = level_of(problem);
     double sum = 0;
-    for (size_t i = 0; i < points; i++) {
-        const double mean = (y[i] + y[i + 1 < points ? i + 1 : 0]) / 2 - level;
-        sum += mean * mean;
+    for (size_t i = 0; i < problem->line.points; i++) {
+        sum += (profile[i] - level) * (profile[i] - level);
     }
     return problem->line.dx * sum;
 }
 
-double gm_kdv_energy(const struct gm_problem *problem, const double *y)
+double gm_kdv_energy(const struct gm_problem *problem, const double *profile)
 {
-    const size_t points = problem->line.points;
-    const double level = level_of(problem);
+    const struct gm_kdv *kdv = gm_kdv_of(problem);
+    const double level = level_of(problem), *slopes = profile + problem->line.points;
     double sum = 0;
-    for (size_t i = 0; i < points; i++) {
-        const double right = y[i + 1 < points ? i + 1 : 0];
-        const double mean = (y[i] + right) / 2 - level, slope = (right - y[i]) / problem->line.dx;
-        sum += gm_kdv_of(problem)->mu * slope * slope / 2 - gm_kdv_of(problem)->eta * mean * mean * mean / 6;
+    for (size_t i = 0; i < problem->line.points; i++) {
+        const double value = profile[i] - level;
+        sum += kdv->mu * slopes[i] * slopes[i] / 2 - kdv->eta * value * value * value / 6;
     }
     return problem->line.dx * sum;
 }

@@ -166,19 +166,16 @@ double gm_nls_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-double gm_nls_energy(const struct gm_problem *problem, const double *y)
+double gm_nls_energy(const struct gm_problem *problem, const double *re, const double *im)
 {
     const size_t points = problem->line.points;
-    const double dx = problem->line.dx;
+    const double *re_slope = re + points, *im_slope = im + points;
     double sum = 0;
     for (size_t i = 0; i < points; i++) {
-        const size_t right = i + 1 < points ? i + 1 : 0;
-        const double re = (y[i] + y[right]) / 2, im = (y[points + i] + y[points + right]) / 2;
-        const double re_slope = (y[right] - y[i]) / dx, im_slope = (y[points + right] - y[points + i]) / dx;
-        const double square = re * re + im * im;
-        sum += re_slope * re_slope + im_slope * im_slope - square * square / 2;
+        const double square = re[i] * re[i] + im[i] * im[i];
+        sum += re_slope[i] * re_slope[i] + im_slope[i] * im_slope[i] - square * square / 2;
     }
-    return dx * sum;
+    return problem->line.dx * sum;
 }
 
 double gm_nls_node_charge(const struct gm_problem *problem, const double *y)

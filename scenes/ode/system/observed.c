@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/linear/curve.h"
-#include "core/linear/fourier.h"
 #include "core/ode/variational/manifold.h"
 #include "core/system/names.h"
 #include "scenes/frame/rows.h"
@@ -120,21 +119,11 @@ static double area(const struct gm_view *view)
         return NAN;
     }
     double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
-    struct gm_fourier *fourier = gm_fourier_open(points);
-    double value = NAN;
-    if (edge && fourier) {
-        for (size_t i = 0; i < points; i++) {
-            edge[i] = along[i] = x[i] - x[points] + I * (y[i] - y[points]);
-        }
-        gm_fourier_forward(fourier, along);
-        for (size_t k = 0; k < points; k++) {
-            const double wave = 2 * k < points ? (double)k : (double)k - (double)points;
-            along[k] *= 2 * k == points ? 0 : I * wave;
-        }
-        gm_fourier_inverse(fourier, along);
-        value = gm_curve_area(edge, along, points);
+    for (size_t i = 0; edge && i < points; i++) {
+        edge[i] = along[i] = x[i] - x[points] + I * (y[i] - y[points]);
     }
-    gm_fourier_close(fourier);
+    const double value =
+        edge && gm_curve_differentiate(along, points) ? gm_curve_area(edge, along, points) : NAN;
     free(edge);
     return value;
 }
