@@ -11,10 +11,12 @@ import select
 import shutil
 import signal
 import struct
+import subprocess
 import sys
 import tempfile
 import termios
 import time
+import zlib
 
 geomint = os.path.realpath(sys.argv[1])
 libc = ctypes.CDLL(None)
@@ -42,7 +44,8 @@ class Session:
         self.folder = tempfile.mkdtemp()
         self.seen, self.pending, self.modes, self.keypad = b'', b'', {}, False
         self.status, self.error, self.reads = None, None, True
-        environ = dict(os.environ, TERM='xterm-256color', LC_ALL='C.UTF-8', PS1='ready> ')
+        environ = dict(os.environ, TERM='xterm-256color', LC_ALL='C.UTF-8', PS1='ready> ',
+                       GEOMINT_TOURS=os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../share/tours'))
         for name in ('TMUX', 'NO_COLOR', 'COLORTERM', 'GEOMINT_COLOURS', 'GEOMINT_GRAPHICS', 'GEOMINT_THEME'):
             environ.pop(name, None)
         self.pid, self.master = pty.fork()
@@ -234,8 +237,8 @@ def taken(session):
         return 0
 
 
-def interrupted(name, words, under_way=0.5):
-    """A command that would go on for long, and has begun to: it ends within two seconds of a processor."""
+def interrupted(name, words, under_way=0.5, most=2):
+    """A command that would go on for long, and has begun to: it ends within so many seconds of a processor."""
     session = Session(f'{name} in geomint {words}', [geomint, *words.split()])
     yield session
     yield lambda: session.ended() or taken(session) >= under_way
@@ -247,10 +250,30 @@ def interrupted(name, words, under_way=0.5):
     yield session.ended
     if session.status != 130 << 8:
         session.error = f'its status is {session.status:#x}'
-    elif session.used - before > 2:
+    elif session.used - before > most:
         session.error = f'it goes on for {session.used - before:.1f} s'
     elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
         session.error = f'it leaves {left}'
+
+
+def long_picture(folder):
+    """A picture that tells of more steps than it was made with: to make it again takes long."""
+    path = os.path.join(folder, 'long.png')
+    subprocess.run([geomint, 'render', 'kepler', 'steps=50', '--size', '64x64', '-o', path], check=True,
+                   stderr=subprocess.DEVNULL)
+    with open(path, 'rb') as file:
+        whole = file.read()
+    at, changed = 8, whole[:8]
+    while at < len(whole):
+        size, kind = struct.unpack('>I4s', whole[at:at + 8])
+        body = whole[at + 8:at + 8 + size]
+        if body.startswith((b'geomint:arguments', b'geomint:steps')):
+            body = re.sub(rb'\b50\b', b'20000000000', body)
+        changed += struct.pack('>I4s', len(body), kind) + body + struct.pack('>I', zlib.crc32(kind + body))
+        at += 12 + size
+    with open(path, 'wb') as file:
+        file.write(changed)
+    return path
 
 
 def short(words):
@@ -330,7 +353,7 @@ def stopped():
     yield session.ended
 
 
-def plays():
+def plays(folder):
     for name in POLITE + FAULTS:
         for moment in (0, 0.4, 0.7):
             yield asked(name, moment)
@@ -350,6 +373,9 @@ def plays():
         for words in LONG:
             yield interrupted(name, words)
         yield interrupted(name, 'render disc --size 12000x12000', 1)
+        yield interrupted(name, 'again ' + long_picture(folder))
+        if shutil.which('ffmpeg'):
+            yield interrupted(name, 'tour area --movie area.mp4', most=20)  # with all that ffmpeg took
     for words in SHORT:
         yield short(words)
     yield faulting(0)
@@ -383,7 +409,8 @@ class Playing:
 
 
 def main():
-    waiting, now, count, failures = list(plays()), [], 0, 0
+    pictures = tempfile.TemporaryDirectory()
+    waiting, now, count, failures = list(plays(pictures.name)), [], 0, 0
     waiting.reverse()
     while waiting or now:
         while waiting and len(now) < AT_ONCE:
