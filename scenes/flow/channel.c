@@ -204,6 +204,7 @@ const struct gm_scene gm_scene_channel = {
     .observable_count = GM_COUNT(observables),
     .figures = figures,
     .figure_count = GM_COUNT(figures),
+    .no_stability = GM_FLOWS_NO_STABILITY,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -183,6 +183,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .observables = observables,
     .observable_count = GM_COUNT(observables),
     .work = &work,
+    .no_stability = GM_FLOWS_NO_STABILITY,
     .setup = setup,
     .close = gm_flows_close,
     .start = start,
