@@ -138,6 +138,10 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
         offer_schemes(stem, NULL);
+    } else if (strcmp(option->name, "--judge") == 0) {
+        offer(stem, "bounded", "what is conserved stays within a factor of two");
+        offer(stem, "accurate", "the error is at most 0.1");
+        offer(stem, "accurate=1e-2", "or an error of yours");
     } else if (strcmp(option->name, "--on") == 0) {
         offer_scenes(stem);
     } else if (strcmp(option->name, "--format") == 0) {

@@ -109,6 +109,8 @@ static const struct row rows[] = {
     {"--measure", TEXT, GM_SWEEP, AT(measure), "KEY,...", "the observables of the table (all)"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
+    {"--judge", TEXT, GM_STABILITY, AT(judge), "bounded|accurate[=E]",
+     "which steps stay bounded, or have an error of at most E, 0.1 unless given (bounded)"},
     {"--on", TEXT, GM_CERTIFY, AT(on), "SYSTEM",
      "measure on this system: a scene's name, a file, or system with formulas behind the scheme"},
     {"--polish", TEXT, GM_CERTIFY, AT(polish), "OUT.scheme",
@@ -447,6 +449,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
         {"--join", "--table", "the first makes no run"},
         {"--join", "--shard", "the first makes no run"},
         {"--join", "--retry", "the first makes no run"},
+        {"--region", "--judge", "a region knows of no error"},
         {"--join", "--measure", "the tables have the columns that they have"},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {

@@ -36,7 +36,7 @@ enum gm_command {
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
-    const char *csv, *profile, *out, *movie, *measure, *region, *changes, *on, *polish;
+    const char *csv, *profile, *out, *movie, *measure, *region, *judge, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
     const char *painter;
     const char *format_name;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which time step keeps which scheme bounded: lanes over a grid of steps and of one parameter, judged. */
+/* Which time step keeps which scheme bounded, or accurate: lanes over a grid of steps and of one parameter, judged. */
 #include "app/studies/stability.h"
 
 #include <math.h>
@@ -38,7 +38,9 @@ static bool parse(struct gm_stability_table *table, const struct gm_arguments *t
         return false;
     }
     if (!scene->stability) {
-        return gm_refuse(message, "scene %s has no stability map", scene->name);
+        return gm_refuse(message, "scene %s has no stability map: %s", scene->name,
+                         scene->no_stability ? scene->no_stability
+                                             : "stability --region SCHEME shows the limit of a scheme");
     }
     struct gm_arguments words = {0};
     char *usual = usual_words(scene);
@@ -51,7 +53,30 @@ static bool parse(struct gm_stability_table *table, const struct gm_arguments *t
     return parsed;
 }
 
-bool gm_stability_open(struct gm_stability_table *table, const struct gm_arguments *arguments, char *message)
+/* "accurate=1e-2"; the parsed scene has to have an error. */
+static bool read_judge(struct gm_stability_table *table, const char *judge, char *message)
+{
+    static const char accurate[] = "accurate";
+    const size_t length = strlen(accurate);
+    table->accuracy = INFINITY;
+    if (!judge || strcmp(judge, "bounded") == 0) {
+        return true;
+    }
+    if (strncmp(judge, accurate, length) != 0 || (judge[length] && judge[length] != '=')) {
+        return gm_refuse(message, "--judge %.60s is none of: bounded, accurate, accurate=ERROR", judge);
+    }
+    table->accuracy = 0.1;
+    if (judge[length] && (!gm_number_parse(judge + length + 1, &table->accuracy) ||
+                          !(table->accuracy > 0 && table->accuracy < INFINITY))) {
+        return gm_refuse(message, "--judge %.60s needs an error above 0, such as accurate=1e-2", judge);
+    }
+    return table->plan->error ||
+           gm_refuse(message, "scene %s has no error to be accurate by; take --judge bounded",
+                     table->request.scene->name);
+}
+
+bool gm_stability_open(struct gm_stability_table *table, const struct gm_arguments *arguments,
+                       const char *judge, char *message)
 {
     *table = (struct gm_stability_table){0};
     if (arguments->count == 0) {
@@ -62,6 +87,10 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
     }
     const struct gm_request *request = &table->request;
     table->plan = request->scene->stability;
+    if (!read_judge(table, judge, message)) {
+        gm_stability_close(table);
+        return false;
+    }
     table->parameter = gm_scene_parameter(request->scene, table->plan->parameter);
     table->count = request->count;
     table->maps = calloc(request->count, sizeof *table->maps);
@@ -133,8 +162,18 @@ static void run_to(struct gm_lane *lane, int64_t steps,
     }
 }
 
-static void judge(struct gm_lane *lane, const struct gm_stability *plan, const struct gm_listener *listener,
-                  struct gm_map_cell *cell)
+/* The end to the start; of a conserved quantity that may start at 0 as a part of its size. */
+static double ratio_of(const struct gm_lane *lane, const struct gm_observable *kept, double before,
+                       double after)
+{
+    const double size =
+        kept && kept->error ? gm_lane_divisor(lane, (size_t)(kept - lane->scene->observables)) : 0;
+    return size > fabs(before) ? 1 + copysign(after - before, (after - before) * before) / size
+                               : after / before;
+}
+
+static void judge(struct gm_lane *lane, const struct gm_stability *plan, double accuracy,
+                  const struct gm_listener *listener, struct gm_map_cell *cell)
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
@@ -150,16 +189,16 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
     }
     cell->status = lane->run->status;
     cell->t = lane->run->t;
-    cell->ratio = after / before;
+    cell->ratio = ratio_of(lane, kept, before, after);
     cell->error = error && plan->throughout ? worst : error_of(lane, error);
     if (cell->status != GM_OK) {
         cell->verdict = GM_FAILED;
-    } else if (fabs(cell->ratio) > 2) {
+    } else if (fabs(cell->ratio) > 2 || (!kept && error && !(cell->error <= 1))) {
         cell->verdict = GM_GAINED;
     } else if (!(cell->ratio >= 0.5)) {
         cell->verdict = GM_LOST;
     } else {
-        cell->verdict = error && !(cell->error <= 0.1) ? GM_WRONG : GM_BOUNDED;
+        cell->verdict = accuracy < INFINITY && !(cell->error <= accuracy) ? GM_WRONG : GM_BOUNDED;
     }
 }
 
@@ -203,7 +242,7 @@ static void try_cell(void *self, size_t index, size_t slot)
         gm_refuse(message, "not enough memory");
     }
     if (lane) {
-        judge(lane, plan, measuring->listener, &cell);
+        judge(lane, plan, table->accuracy, measuring->listener, &cell);
     }
     if (gm_listener_stops(measuring->listener)) {
         cell.verdict = GM_UNTRIED;
@@ -254,9 +293,29 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
     return good;
 }
 
-const char *gm_cell_word(const struct gm_map_cell *cell)
+const char *gm_stability_judge(const struct gm_stability_table *table)
 {
-    static const char *const words[] = {"untried", "bounded", "lost", "gained", "wrong"};
+    return table->accuracy < INFINITY ? "accurate" : "bounded";
+}
+
+const char *gm_stability_question(const struct gm_stability_table *table, char *text, size_t size)
+{
+    const char *judge = gm_stability_judge(table);
+    if (table->accuracy < INFINITY) {
+        snprintf(text, size, "%s to %.3g (%s)", judge, table->accuracy, table->plan->error);
+    } else {
+        snprintf(text, size, "%s", judge);
+    }
+    return text;
+}
+
+const char *gm_cell_word(const struct gm_stability_table *table, const struct gm_map_cell *cell)
+{
+    static const char *const words[] = {
+        [GM_UNTRIED] = "untried", [GM_LOST] = "lost", [GM_GAINED] = "gained", [GM_WRONG] = "wrong"};
+    if (cell->verdict == GM_BOUNDED) {
+        return gm_stability_judge(table);
+    }
     return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
 }
 
@@ -298,7 +357,7 @@ const char *gm_stability_letters(const struct gm_stability_table *table, char *t
         const char letter = gm_cell_letter(cell);
         if (!told[(size_t)letter] && used < size) {
             used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
-                                     gm_cell_word(cell));
+                                     gm_cell_word(table, cell));
             told[(size_t)letter] = true;
         }
     }
@@ -327,7 +386,7 @@ bool gm_stability_write(const struct gm_stability_table *table, const char *path
     if (!csv) {
         return false;
     }
-    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
+    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error,judge\n", plan->parameter);
     for (size_t i = 0; i < table->count; i++) {
         for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
             const struct gm_map_cell *cell = &table->maps[i].cells[k];
@@ -336,7 +395,7 @@ bool gm_stability_write(const struct gm_stability_table *table, const char *path
             }
             fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
                     table->maps[i].scheme->name, plan->values[k % plan->value_count],
-                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
+                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(table, cell),
                     gm_status_name(cell->status), cell->t);
             if (isfinite(cell->ratio)) {
                 fprintf(csv, "%.9g", cell->ratio);
@@ -344,6 +403,10 @@ bool gm_stability_write(const struct gm_stability_table *table, const char *path
             fputc(',', csv);
             if (isfinite(cell->error)) {
                 fprintf(csv, "%.9g", cell->error);
+            }
+            fprintf(csv, ",%s", gm_stability_judge(table));
+            if (table->accuracy < INFINITY) {
+                fprintf(csv, "=%.9g", table->accuracy);
             }
             fputc('\n', csv);
         }

@@ -37,7 +37,8 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
     panel->axes = true;
     panel->title_role = GM_INK;
     const double limit = gm_stability_limit(table, map);
-    panel->note = limit > 0 ? gm_picture_text(picture, "bounded up to %.3g", limit) : "";
+    panel->note =
+        limit > 0 ? gm_picture_text(picture, "%s up to %.3g", gm_stability_judge(table), limit) : "";
     panel->x = (struct gm_axis){.label = table->parameter->key,
                                 .scale = logarithmic ? GM_LOG : GM_LINEAR,
                                 .low = x[0],
@@ -80,13 +81,14 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
 void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture *picture)
 {
     const struct gm_timing *timing = table->request.lanes[0].parameters;
-    picture->title = gm_picture_text(picture, "%s: which step is stable", table->request.scene->title);
+    char letters[128], question[GM_TEXT_SIZE];
+    picture->title = gm_picture_text(picture, "%s: which step is %s", table->request.scene->title,
+                                     gm_stability_question(table, question, sizeof question));
     picture->subtitle = gm_picture_text(picture, "up: %s;  after t = %s", table->plan->label,
                                         gm_step_text(picture, timing->until));
-    char letters[128];
     gm_stability_letters(table, letters, sizeof letters);
-    picture->caption =
-        gm_picture_text(picture, "Without a letter: bounded.  %s%s", letters, letters[0] ? "." : "");
+    picture->caption = gm_picture_text(picture, "Without a letter: %s.  %s%s", gm_stability_judge(table),
+                                       letters, letters[0] ? "." : "");
     picture->clock = "";
     for (size_t i = 0; i < table->count; i++) {
         draw_map(table, &table->maps[i], picture);

@@ -214,6 +214,7 @@ const struct gm_scene gm_scene_channel = {
     .figures = figures,
     .figure_count = GM_COUNT(figures),
     .settle = settle,
+    .no_stability = GM_FLOWS_NO_STABILITY,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

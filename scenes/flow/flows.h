@@ -116,6 +116,9 @@ extern const char *const gm_flows_marching[];
     .parameter = "reynolds", .label = "Courant number", .steps = gm_flows_courant_numbers,                   \
     .step_count = GM_FLOWS_COURANT_NUMBERS, .kept = "speed_max", .schemes = gm_flows_marching
 
+#define GM_FLOWS_NO_STABILITY                                                                                \
+    "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes"
+
 /* With a mesh file nothing makes a mesh, and without one nothing is named in it. */
 const char *gm_flows_idle(const void *parameters, const char *key);
 

@@ -365,7 +365,8 @@ static const struct gm_figure poiseuille_figures[] = {
     .time = "H²/ν, the height squared over the viscosity", .size = sizeof(struct gm_flows),                  \
     .parameters = parameters, .parameter_count = GM_COUNT(parameters), .schemes = schemes,                   \
     .observables = observables, .observable_count = GM_COUNT(observables), .work = &work,                    \
-    .close = gm_flows_close, .start = gm_flows_start, .draw = draw, .profile = profile
+    .no_stability = GM_FLOWS_NO_STABILITY, .close = gm_flows_close, .start = gm_flows_start, .draw = draw,   \
+    .profile = profile
 
 const struct gm_scene gm_scene_couette = {
     .name = "couette",

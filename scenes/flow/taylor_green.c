@@ -193,6 +193,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .observable_count = GM_COUNT(observables),
     .work = &work,
     .settle = settle,
+    .no_stability = GM_FLOWS_NO_STABILITY,
     .setup = setup,
     .close = gm_flows_close,
     .start = start,

@@ -136,7 +136,7 @@ struct gm_stability {
     int64_t
         settle; /* where that swings by itself: the largest value of so many first steps is compared to that
                     of so many last ones; 0: the end to the start */
-    const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
+    const char *error;          /* key of the observable by which a step is accurate; NULL: none */
     bool throughout;            /* its largest value on the way counts, and not that at the end */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
 };
@@ -196,6 +196,7 @@ struct gm_scene {
     size_t figure_count;
     const struct gm_work *work;
     const struct gm_stability *stability; /* NULL: the scene has no such map */
+    const char *no_stability;             /* why not, and what helps instead; NULL: not known */
     int64_t
         follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
 

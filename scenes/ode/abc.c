@@ -242,6 +242,8 @@ const struct gm_scene gm_scene_abc = {
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .work = &work,
+    .no_stability =
+        "its particles move on a torus, and nothing grows; stability --region SCHEME shows the limit of a scheme",
     .follow = 1,
     .setup = setup,
     .start = start,

@@ -538,6 +538,7 @@ const struct gm_scene gm_scene_disc = {
     .track_count = GM_COUNT(tracks),
     .figures = figures,
     .figure_count = GM_COUNT(figures),
+    .no_stability = "the limit of an oscillator depends on dt alone; stability --region SCHEME shows it",
     .setup = setup,
     .start = start,
     .draw = draw,

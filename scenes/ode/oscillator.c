@@ -254,6 +254,8 @@ const struct gm_scene gm_scene_oscillator = {
     .track_count = GM_COUNT(tracks),
     .figures = figures,
     .figure_count = GM_COUNT(figures),
+    .no_stability =
+        "its schemes choose their steps; stability --region SCHEME shows the limit of one that does not",
     .follow = 1,
     .setup = setup,
     .start = start,

@@ -635,6 +635,7 @@ static bool make_studies(struct gm_system_scene *own)
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,
+        .kept = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
         .error = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
     };
     own->work.arguments = gm_system_kept_text(

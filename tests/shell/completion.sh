@@ -48,6 +48,7 @@ offers 'area area_error area_tangent' work-precision disc --measure area
 offers 'dt=2*pi/100 dt=1e-7..1000:log11' sweep kepler dt=
 offers 'energy_error,position_error' sweep kepler --measure energy_error,pos
 offers 'mesh-crossing' sweep kepler --retry mesh
+offers 'accurate accurate=1e-2 bounded' stability kepler --judge ''
 offers '' again pic
 offers '' run room mesh=
 offers '' run room mesh=a

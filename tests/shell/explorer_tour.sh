@@ -196,14 +196,14 @@ keys "\"$geomint\" kepler; echo \"left \$?\"" Enter
 wait_for 'SCHEMES'
 pause
 keys m
-wait_for 'which step is stable'
+wait_for 'which step is bounded'
 wait_for 'stability 100 %: Done'
 keys p
 wait_for 'Saved kepler-stability-0001.png'
 keys w # both at the same time
 wait_for 'what an accuracy costs'
 keys m
-wait_for 'which step is stable'
+wait_for 'which step is bounded'
 keys Escape
 wait_for 'work-precision of kepler ([0-9]+ %|is finished)'
 keys w x

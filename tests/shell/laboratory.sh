@@ -12,7 +12,17 @@ refused 1 "says nothing" work-precision kepler perturbation=.01 --measure positi
 refused 1 "nothing to measure" work-precision kepler until=0
 refused 1 "until= ends them together" work-precision kepler steps=10 dt=.1,.05
 refused 1 "which scene" stability
-refused 1 "no stability map" stability disc
+# a scene without a map says why, and what helps
+for scene in disc oscillator abc; do
+    refused 1 "scene $scene has no stability map: .*stability --region SCHEME" stability $scene
+done
+for scene in channel couette poiseuille taylor-green; do
+    refused 1 "scene $scene has no stability map: .*stability cavity" stability $scene
+done
+refused 1 "none of: bounded, accurate" stability kepler --judge stable
+refused 1 "needs an error above 0" stability kepler --judge accurate=0
+refused 1 "has no error to be accurate by" stability sine-gordon --judge accurate
+refused 1 "contradict each other" stability --region rk4 --judge bounded
 refused 1 "did you mean" stability --region rk44
 refused 1 "no linear stability region" stability --region logh2
 refused 1 "no scene" stability kepler --region rk4
@@ -72,6 +82,29 @@ done
 grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.csv" || fail "Verlet is not lost at 2.05"
 grep -q '^stiff,verlet,50,1.95.*,bounded,ok,' "$folder/stiff-stability.csv" || fail "Verlet is not bounded at 1.95"
 grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in the table"
+
+# bounded and accurate are two questions: RK4 with 40 steps a period and e = 0.5 is the one, not the other
+for judge in bounded accurate=1e-2; do
+    "$geomint" stability kepler scheme=rk4 until=8*pi --judge $judge --size 320x180 --out "$folder" >"$folder/out" \
+        2>"$folder/err" || fail "stability --judge $judge: $(cat "$folder/err")"
+    verdict=$(awk -F, '$3 == 0.5 && $4 == 0.025 { print $6 "," $11 }' "$folder/kepler-stability.csv")
+    case $judge in
+    bounded)
+        [ "$verdict" = bounded,bounded ] || fail "bounded is $verdict"
+        grep -q '^kepler, which step is bounded, after' "$folder/out" || fail "the question: $(head -n 1 "$folder/out")"
+        grep -q 'W' "$folder/out" && fail 'a step that is bounded and wrong is marked though only bounded was asked'
+        ;;
+    *)
+        [ "$verdict" = wrong,accurate=0.01 ] || fail "accurate is $verdict"
+        grep -q '^kepler, which step is accurate to 0.01 (position_error), after .*: . accurate, .*W wrong' "$folder/out" ||
+            fail "the question: $(head -n 1 "$folder/out")"
+        awk -F, 'NR > 1 && $6 == "accurate" && $10 > 1e-2 || $6 == "wrong" && $10 <= 1e-2 { exit 1 }' \
+            "$folder/kepler-stability.csv" || fail 'accurate is not the error asked for'
+        "$geomint" again "$folder/kepler-stability.png" --out "$folder/judged" >"$folder/out" 2>&1 &&
+            cmp -s "$folder/kepler-stability.csv" "$folder/judged/kepler-stability-again.csv" || fail 'again asks something else'
+        ;;
+    esac
+done
 
 # JSON says what the CSV says
 for words in 'kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi' \

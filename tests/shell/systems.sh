@@ -206,7 +206,7 @@ printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.syst
 "$geomint" list kink.system --latex | grep -qF '2\,\left[x < 0\right]' || fail "the derivative of |x| in LaTeX"
 
 # a swing of the error counts, wherever the run ends: no verdict but that of steps that are too long
-"$geomint" stability toda scheme=verlet --json --out . | grep -q '"step":0\.1[^}]*"verdict":"wrong"' &&
+"$geomint" stability toda scheme=verlet --judge accurate --json --out . | grep -q '"step":0\.1[^}]*"verdict":"wrong"' &&
     fail "a short step is wrong"
 
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system

@@ -422,6 +422,40 @@ static void best_pairs(void **unused)
     assert_true(best[0].error == 9.9e-2 && best[1].error == 1e-2 && best[2].error == 1e-3);
 }
 
+/* What is bounded and wrong is bounded; to be accurate is another question, with a bound of its own. */
+static void bounded_is_not_accurate(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *judge, *question, *word;
+        double most;
+    } asked[] = {{NULL, "bounded", "bounded", INFINITY},
+                 {"accurate", "accurate to 0.1 (energy_error)", "accurate", 0.1},
+                 {"accurate=1e-9", "accurate to 1e-09 (energy_error)", "accurate", 1e-9}};
+    char *words[] = {(char[]){"system"}, (char[]){"H=p^2/2 + q^4/4"}, (char[]){"q=1"},
+                     (char[]){"p=0"},    (char[]){"scheme=verlet"},   (char[]){"until=20"}};
+    const struct gm_arguments arguments = {words, 6};
+    size_t counts[3] = {0};
+    for (size_t i = 0; i < 3; i++) {
+        struct gm_stability_table table;
+        char message[GM_MESSAGE], question[GM_TEXT_SIZE];
+        assert_true(gm_stability_open(&table, &arguments, asked[i].judge, message));
+        assert_true(gm_stability_measure(&table, NULL, message));
+        assert_string_equal(gm_stability_question(&table, question, sizeof question), asked[i].question);
+        for (size_t k = 0; k < table.plan->step_count * table.plan->value_count; k++) {
+            const struct gm_map_cell *cell = &table.maps[0].cells[k];
+            assert_true(i > 0 || cell->verdict != GM_WRONG);
+            if (cell->verdict == GM_BOUNDED) {
+                counts[i]++;
+                assert_true(cell->error <= asked[i].most);
+                assert_string_equal(gm_cell_word(&table, cell), asked[i].word);
+            }
+        }
+        gm_stability_close(&table);
+    }
+    assert_true(counts[0] > counts[1] && counts[1] > 0 && counts[2] == 0);
+}
+
 /* The map of the stiff springs says how each scheme ends: Verlet at 1.95 and 2.05, RK4 and the implicit
    ones. */
 static void verdicts(void **unused)
@@ -431,7 +465,7 @@ static void verdicts(void **unused)
     const struct gm_arguments arguments = {words, 3};
     struct gm_stability_table table;
     char message[GM_MESSAGE];
-    assert_true(gm_stability_open(&table, &arguments, message));
+    assert_true(gm_stability_open(&table, &arguments, NULL, message));
     assert_true(gm_stability_measure(&table, NULL, message));
     const struct gm_stability *plan = table.plan;
     for (size_t s = 0; s < plan->step_count; s++) {
@@ -447,7 +481,7 @@ static void verdicts(void **unused)
     assert_true(gm_stability_limit(&table, &table.maps[0]) == 1.95);
     gm_stability_close(&table);
     words[0] = (char[]){"disc"};
-    assert_false(gm_stability_open(&table, &(const struct gm_arguments){words, 1}, message));
+    assert_false(gm_stability_open(&table, &(const struct gm_arguments){words, 1}, NULL, message));
     assert_non_null(strstr(message, "no stability map"));
 }
 
@@ -472,6 +506,7 @@ int main(void)
         cmocka_unit_test(a_plan_sets_up_once),
         cmocka_unit_test(best_pairs),
         cmocka_unit_test(verdicts),
+        cmocka_unit_test(bounded_is_not_accurate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

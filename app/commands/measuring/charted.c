@@ -19,9 +19,10 @@ static char *command_line(const char *command, const struct gm_options *options)
         good = gm_arguments_add(&all, options->arguments.words[i]);
     }
     words = good ? gm_arguments_join(command, &all) : NULL;
-    if (words && asprintf(&text, "%s%s%s%s%s", words, options->measure ? " --measure " : "",
+    if (words && asprintf(&text, "%s%s%s%s%s%s%s", words, options->measure ? " --measure " : "",
                           options->measure ? options->measure : "", options->region ? " --region " : "",
-                          options->region ? options->region : "") < 0) {
+                          options->region ? options->region : "", options->judge ? " --judge " : "",
+                          options->judge ? options->judge : "") < 0) {
         text = NULL;
     }
     gm_arguments_close(&all);

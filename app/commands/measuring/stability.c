@@ -14,9 +14,10 @@ static void print_table(const union gm_study_table *all)
     const struct gm_stability_table *table = &all->stability;
     const struct gm_stability *plan = table->plan;
     const struct gm_timing *timing = table->request.lanes[0].parameters;
-    char letters[128];
+    char letters[128], question[GM_TEXT_SIZE];
     gm_stability_letters(table, letters, sizeof letters);
-    printf("%s after t = %.6g: . bounded%s%s\n", table->request.scene->name, timing->until,
+    printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", table->request.scene->name,
+           gm_stability_question(table, question, sizeof question), timing->until, gm_stability_judge(table),
            letters[0] ? ", " : "", letters);
     if (plan->told) {
         printf("%s: %.4g here\n", plan->told, 1 / plan->unit(timing));
@@ -37,9 +38,9 @@ static void print_table(const union gm_study_table *all)
         }
         const double limit = gm_stability_limit(table, map);
         if (limit > 0) {
-            printf("  bounded for all values up to %.4g\n", limit);
+            printf("  %s for all values up to %.4g\n", gm_stability_judge(table), limit);
         } else {
-            printf("  at no step bounded for all values\n");
+            printf("  at no step %s for all values\n", gm_stability_judge(table));
         }
     }
 }
@@ -63,6 +64,10 @@ static void print_json(const union gm_study_table *all)
         printf(",");
         gm_json_number_pair("until", timing->until);
         printf(",");
+        gm_json_pair("judge", gm_stability_judge(table));
+        printf(",");
+        gm_json_number_pair("accuracy", table->accuracy);
+        printf(",");
         const double limit = gm_stability_limit(table, map);
         gm_json_number_pair("limit", limit > 0 ? limit : NAN);
         printf(",\"cells\":[");
@@ -77,7 +82,7 @@ static void print_json(const union gm_study_table *all)
             gm_json_number_pair("step", plan->steps[k / plan->value_count]);
             printf(",");
             gm_json_number_pair("dt", cell->dt);
-            printf(",\"verdict\":\"%s\",\"status\":\"%s\",", gm_cell_word(cell),
+            printf(",\"verdict\":\"%s\",\"status\":\"%s\",", gm_cell_word(table, cell),
                    gm_status_name(cell->status));
             gm_json_number_pair("t", cell->t);
             printf(",");
@@ -106,7 +111,7 @@ static int command_stability(const struct gm_options *options)
 const struct gm_command_row gm_command_stability = {
     .name = "stability",
     .synopsis = "SCENE [key=value ...]",
-    .help = "which time step keeps which scheme bounded, and how it fails beyond",
+    .help = "which time step keeps which scheme bounded or accurate, and how it fails beyond",
     .bit = GM_STABILITY,
     .function = command_stability,
 };

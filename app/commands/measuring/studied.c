@@ -17,7 +17,8 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
     char message[GM_MESSAGE], name[128];
     const struct gm_study_row *study = &gm_study_rows[kind];
     union gm_study_table table;
-    if (!study->open(&table, &options->arguments, options->measure, message)) {
+    if (!study->open(&table, &options->arguments, options->judge ? options->judge : options->measure,
+                     message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&table.request);
     }

@@ -303,7 +303,7 @@ const struct gm_key_row gm_key_rows[] = {
      "w m",
      "diagrams",
      20,
-     "in the background: what an accuracy costs (work-precision); which step is stable (a map)",
+     "in the background: what an accuracy costs (work-precision); which step stays bounded (a map)",
      .result = GM_KEY_STUDY},
     {{'M'},
      "M",

@@ -36,8 +36,7 @@ static void close_work(void *table)
 static bool open_stability(void *table, const struct gm_arguments *arguments, const char *measure,
                            char *message)
 {
-    (void)measure;
-    return gm_stability_open(table, arguments, message);
+    return gm_stability_open(table, arguments, measure, message);
 }
 
 static bool measure_stability(void *table, const struct gm_listener *listener, char *message)

@@ -26,8 +26,8 @@ union gm_study_table {
     struct gm_sweep_study sweep;
 };
 
-/* As gm_work_open and its neighbours say; `table` is that of the kind, `measure` NULL or what the others do
-   not take. */
+/* As gm_work_open and its neighbours say; `table` is that of the kind, `measure` is the observable or, of
+   stability, what a step is judged by; NULL, or what the others do not take. */
 struct gm_study_row {
     const char *name; /* of its command */
     int refusal;      /* the exit status where nothing can be measured */
