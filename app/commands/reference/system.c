@@ -543,7 +543,7 @@ static bool tidy(struct report *report, gm_node_id *node)
         *node = text ? tidied : *node; /* what is multiplied out may be too long to be read */
         free(text);
     }
-    return !report->system.graph.failed;
+    return !gm_memory_was_short();
 }
 
 /* -lambda_k times the derivative of each constraint over a coordinate: the forces that hold them. */
