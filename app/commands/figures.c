@@ -314,14 +314,16 @@ static void print_finished(struct series *series)
     }
 }
 
-static void write_page(struct series *series, int *status)
+static bool write_page(struct series *series, int *status)
 {
     char message[GM_MESSAGE];
     series->page_written = gm_clock_seconds();
     if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
         gm_complain("%s", message);
         *status = GM_EXIT_FILE;
+        return false;
     }
+    return true;
 }
 
 /* What became of a worker that has ended: a worker that was killed or crashed tells nothing itself. */
@@ -426,7 +428,7 @@ static void run(struct series *series, int *status)
     }
 }
 
-static void print_sum(const struct series *series)
+static void print_sum(const struct series *series, bool page)
 {
     size_t made = 0, hold = 0, fail = 0;
     for (size_t i = 0; i < series->count; i++) {
@@ -436,8 +438,8 @@ static void print_sum(const struct series *series)
             fail += !series->outcomes[i].verdicts[k].holds;
         }
     }
-    gm_say("%zu of %zu figures made; %zu statements hold, %zu do not; %s/figures.html", made, series->count,
-           hold, fail, series->output.folder);
+    gm_say("%zu of %zu figures made; %zu statements hold, %zu do not%s%s%s", made, series->count, hold, fail,
+           page ? "; " : "", page ? series->output.folder : "", page ? "/figures.html" : "");
 }
 
 static int command_figures(const struct gm_options *options)
@@ -461,11 +463,11 @@ static int command_figures(const struct gm_options *options)
                 print_outcome(&series, i);
             }
         }
-        write_page(&series, &status);
+        const bool page = write_page(&series, &status);
         if (!options->json) {
-            print_sum(&series);
+            print_sum(&series, page);
         }
-        if (status != GM_EXIT_FILE) {
+        if (page) {
             gm_complain("wrote %s/figures.html and its pictures", series.output.folder);
         }
         for (size_t i = 0; i < series.count; i++) {
