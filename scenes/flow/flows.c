@@ -217,13 +217,19 @@ void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
 long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)
 {
     const long tag = gm_triangulation_group(mesh, name);
-    if (tag != 0) {
-        return tag;
+    for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
+        if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
+            return tag;
+        }
     }
     char names[128];
-    gm_refuse(sentence,
-              "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
-              key, gm_triangulation_group_names(mesh, names, sizeof names));
+    if (tag != 0) {
+        gm_refuse(sentence, "no edge of the mesh's boundary belongs to \"%.60s\"", name);
+    } else {
+        gm_refuse(sentence,
+                  "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)",
+                  name, key, gm_triangulation_group_names(mesh, names, sizeof names));
+    }
     return 0;
 }
 
