@@ -114,7 +114,7 @@ void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *co
     long *strips = r.transposed ? &own->columns : &own->rows;
     const bool rows = gm_is_given("rows", keys, count), columns = gm_is_given("columns", keys, count);
     r.strips = *strips;
-    if (rows != columns && rows == r.transposed) {
+    if (rows != columns && rows == r.transposed && r.strips > 0) { /* 0: the best of every resolution */
         *strips = gm_rectangle_strips(r.width, r.height, *edges, r.transposed);
     } else if (rows != columns && r.strips > 0) {
         *edges = gm_rectangle_edges(&r);
