@@ -69,8 +69,9 @@ bool gm_checkpoint_read(const char *path, const struct gm_frames *frames, long *
     if (!gm_snapshot_read(path, &snapshot, message)) {
         return false;
     }
-    *frame = snapshot.position;
-    bool good = snapshot.lanes == count && *frame >= 0 && *frame < frames->schedule->count;
+    bool good =
+        snapshot.lanes == count && snapshot.position >= 0 && snapshot.position < frames->schedule->count;
+    *frame = (long)snapshot.position;
     if (good) {
         const unsigned char *at = snapshot.body, *end = at + snapshot.size;
         for (size_t i = 0; good && i < count; i++) {
