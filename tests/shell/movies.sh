@@ -38,7 +38,7 @@ told() {
 
 gone() {
     [ -e x.mp4 ] && fail "$name: there is a movie"
-    [ "$(grep -vc 'are there already$' err)" = 1 ] || fail "$name says too much: $(cat err)"
+    [ "$(grep -vc 'there already$' err)" = 1 ] || fail "$name says too much: $(cat err)"
 }
 
 # ---- it ends by itself ----
