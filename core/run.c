@@ -2,7 +2,6 @@
 /* A run's one block of memory, its steps, and its snapshots. */
 #include "core/run.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -191,7 +190,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         return run->status = GM_OUT_OF_MEMORY;
     }
     if (progress.done < steps && !(family->own_time && progress.status == GM_OK)) {
-        const long done = progress.done;
+        const int64_t done = progress.done;
         run->status = progress.status;
         run->unsolved = progress.unsolved;
         progress = (struct gm_progress){.status = progress.status};
@@ -370,8 +369,8 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
     return same && then->half_size == run->half_size && (then->current == 0 || then->current == 1) &&
            then->n >= 0 && then->steps >= then->n && then->steps <= INT64_MAX / 4 &&
            strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
-           isfinite(then->t0) && isfinite(then->dt) && then->dt != 0 && isfinite(then->t) &&
-           then->limit > 0 &&
+           then->unsolved.obstacle <= GM_STILL_LARGE && isfinite(then->t0) && isfinite(then->dt) &&
+           then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
            (run->scheme->family->own_time || then->t == then->t0 + (double)then->n * then->dt);
 }
 

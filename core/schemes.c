@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/formula/nearest.h"
+
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
 #include "core/count.h"
 #include "core/kinds.def"
@@ -69,6 +71,17 @@ const char *gm_scheme_known_as(const char *word)
         }
     }
     return NULL;
+}
+
+static const char *name_at(size_t i, const void *data)
+{
+    return (void)data, gm_scheme_at(i)->name;
+}
+
+const char *gm_scheme_near(const char *word)
+{
+    const char *known = gm_scheme_known_as(word);
+    return known ? known : gm_nearest(word, gm_scheme_count(), name_at, NULL);
 }
 
 /* Those that were brought along, which any thread may do. */

@@ -17,6 +17,8 @@ const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_pro
 
 /* The name here of a scheme that others call `word`; NULL if there is none. */
 const char *gm_scheme_known_as(const char *word);
+/* That, or the name that is nearest to the word; NULL if none is near. */
+const char *gm_scheme_near(const char *word);
 
 /* Takes a scheme that was brought along among those that are found by their name, or by their word: it stays
    for good. False: out of memory. */

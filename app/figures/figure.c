@@ -337,12 +337,13 @@ static void open_values(const struct gm_request *request, size_t lane, const cha
     gm_arguments_close(&words);
 }
 
-/* "with strength=1": the values with which all lanes hold, or not all do; "" if there are none. */
+/* "with strength=1": the values with which all lanes hold, texts[true], and not all do, texts[false]; "" where there
+   are none. */
 static void put_values(const struct gm_request *request, const char *keys, const size_t *chosen,
-                       const bool *good, size_t count, bool wanted, char *text)
+                       const bool *good, size_t count, char texts[2][GM_FIGURE_LABEL])
 {
     char own[GM_FIGURE_LABEL], other[GM_FIGURE_LABEL];
-    size_t used = (size_t)snprintf(text, GM_FIGURE_LABEL, "%s", "");
+    texts[false][0] = texts[true][0] = '\0';
     for (size_t i = 0; i < count; i++) {
         bool first = true, all = true;
         open_values(request, chosen[i], keys, own, sizeof own);
@@ -352,8 +353,9 @@ static void put_values(const struct gm_request *request, const char *keys, const
             first &= !same || k >= i;
             all &= !same || good[k];
         }
-        if (first && all == wanted && used < GM_FIGURE_LABEL) {
-            used += (size_t)snprintf(text + used, GM_FIGURE_LABEL - used, "%s%s", used ? ", " : "with ", own);
+        const size_t used = strlen(texts[all]);
+        if (first) {
+            snprintf(texts[all] + used, GM_FIGURE_LABEL - used, "%s%s", used ? ", " : "with ", own);
         }
     }
 }
@@ -385,13 +387,11 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
     outcome->verdicts[at].scale = scale;
     outcome->verdicts[at].holds = all;
     if (statement->open) {
-        char with[GM_FIGURE_LABEL], without[GM_FIGURE_LABEL];
-        const size_t judged = statement->over ? 1 : count;
-        put_values(request, statement->open, chosen, good, judged, true, with);
-        put_values(request, statement->open, chosen, good, judged, false, without);
-        outcome->verdicts[at].open = with[0] && without[0];
-        snprintf(outcome->verdicts[at].note, GM_FIGURE_NOTE, "%s%s%s, not given by the document", with,
-                 with[0] && without[0] ? ", not " : "", without);
+        char with[2][GM_FIGURE_LABEL];
+        put_values(request, statement->open, chosen, good, statement->over ? 1 : count, with);
+        outcome->verdicts[at].open = with[true][0] && with[false][0];
+        snprintf(outcome->verdicts[at].note, GM_FIGURE_NOTE, "%s%s%s, not given by the document", with[true],
+                 outcome->verdicts[at].open ? ", not " : "", with[false]);
     }
 }
 

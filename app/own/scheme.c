@@ -234,19 +234,13 @@ const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char
     return scheme;
 }
 
-static const char *scheme_name(size_t i, const void *data)
-{
-    return (void)data, gm_scheme_at(i)->name;
-}
-
 const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *message)
 {
     bool unreadable = false;
     const unsigned long refusals = gm_memory_refusals();
     const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
     if (!scheme && !message[0]) {
-        const char *near = gm_scheme_known_as(name);
-        near = near ? near : gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
+        const char *near = gm_scheme_near(name);
         gm_refuse(message, "there is no scheme \"%.60s\"%s%s", name,
                   near ? "; did you mean " : "; see geomint list schemes", near ? near : "");
     }

@@ -2,7 +2,6 @@
 /* Lanes driven from outside any scene: steps in bursts, changes in flight; and how they ended, in words. */
 #include "app/request/drive.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +11,7 @@
 #include "core/schemes.h"
 #include "render/clock.h"
 
-/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble or int64_t formulas:
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble or long formulas:
    the first step tells what one takes, and that says how many. In single steps an ensemble that does not fit in the
    cache would go to memory and back for each. */
 static int64_t burst_of(double each)
@@ -216,10 +215,11 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
     }
     const char *const name = run->scheme->name;
-    const bool damps = strcmp(name, "radau5") == 0 || strcmp(name, "sdirk2") == 0;
+    const bool helps = strcmp(name, "radau5") != 0 && strcmp(name, "sdirk2") != 0 &&
+                       gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem);
     snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s", run->t,
              obstacles[run->unsolved.obstacle], change, run->scheme->steady ? "" : "; take a shorter dt",
-             !damps && gm_scheme_find_for("radau5", run->problem) ? ", or radau5" : "");
+             helps ? ", or radau5" : "");
 }
 
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)

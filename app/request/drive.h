@@ -11,10 +11,10 @@ struct gm_drive {
     const struct gm_request *request; /* for its changes */
     size_t index;                     /* of the lane */
     size_t next_change;
-    double seconds;  /* processor time of its steps */
-    double each;     /* ... of one, when it was last measured */
-    long unmeasured; /* so many more steps are taken for as long */
-    double looked;   /* of the seconds, when another engine was last looked for */
+    double seconds;     /* processor time of its steps */
+    double each;        /* ... of one, when it was last measured */
+    int64_t unmeasured; /* so many more steps are taken for as long */
+    double looked;      /* of the seconds, when another engine was last looked for */
     /* Where the steps that are not recorded leave their rows, t and the state's n m numbers, and moves on; or
        NULL. gm_drive_to makes no more steps, whether fixed or of the scheme's own choice, than up to its
        `step`: there has to be room for a row of each. */

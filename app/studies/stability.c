@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "app/cores/pool.h"
-#include "app/request/words.h"
 #include "app/request/drive.h"
+#include "app/request/words.h"
 #include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */

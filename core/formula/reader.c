@@ -35,7 +35,7 @@ struct reader {
     const char *text;
     size_t at, end;
     int depth, fixed; /* of parentheses; of brackets and bounds */
-    long operands;    /* times OF_AN_INDEX */
+    int64_t operands; /* times OF_AN_INDEX */
     int bounds;       /* of loops, in which one reads */
     unsigned varying; /* bit k: index k stands in a bound, so that the rounds of its loop are not equal */
     bool failed;
@@ -368,9 +368,9 @@ struct loop {
     size_t begin;
 };
 
-static bool has_room_for(struct reader *reader, size_t place, long operands)
+static bool has_room_for(struct reader *reader, size_t place, int64_t operands)
 {
-    if (operands <= (long)MOST_OPERANDS * OF_AN_INDEX) {
+    if (operands <= (int64_t)MOST_OPERANDS * OF_AN_INDEX) {
         return true;
     }
     fail(reader, place, "the formula, with its loops written out, has more than %d operands", MOST_OPERANDS);
@@ -421,7 +421,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
         expected(reader, "a comma");
     }
     const size_t body = reader->at;
-    const long before = reader->operands;
+    const int64_t before = reader->operands;
     const unsigned own = 1U << scope->index_count;
     reader->varying &= ~own;
     for (long value = low; value <= high && !reader->failed && !reader->graph->failed; value++) {
@@ -430,7 +430,8 @@ static void read_loop(struct reader *reader, struct loop *loop)
         read_loop(reader, loop);
         scope->index_count--;
         if (value == low && !(reader->varying & own)) { /* all rounds are as long as the first */
-            has_room_for(reader, begin, reader->operands + (high - low) * (reader->operands - before));
+            has_room_for(reader, begin,
+                         reader->operands + ((int64_t)high - low) * (reader->operands - before));
         }
     }
     if (low > high) {

@@ -11,30 +11,25 @@ enum { MOST = 32, MOST_VISITED = 4 * MOST, MOST_POWER = 64 };
 struct tidying {
     struct gm_formula *graph;
     const struct gm_naming *naming;
+    int visited; /* nodes of the present product or sum: one that is too long stays as it is */
 };
 
-struct factor {
-    gm_node_id base;
-    long halves; /* its power, in halves */
-};
-
-/* above / below times the factors */
+/* above / below times the factors, each to its power in halves */
 struct product {
     double above, below;
-    struct factor factors[MOST];
-    size_t count, visited;
-    bool long_winded; /* there is no room for them */
-};
-
-struct term {
-    gm_node_id node;
-    bool minus;
+    struct {
+        gm_node_id base;
+        long halves;
+    } factors[MOST];
+    size_t count;
 };
 
 struct sum {
-    struct term terms[MOST];
-    size_t count, visited;
-    bool long_winded;
+    struct {
+        gm_node_id node;
+        bool minus;
+    } terms[MOST];
+    size_t count;
 };
 
 static bool is_named(const struct tidying *tidying, gm_node_id node)
@@ -42,9 +37,10 @@ static bool is_named(const struct tidying *tidying, gm_node_id node)
     return tidying->naming->part && tidying->naming->part(node, tidying->naming->data);
 }
 
-static bool is_whole(double value, double most)
+static bool is_sum(const struct tidying *tidying, gm_node_id node)
 {
-    return value == floor(value) && fabs(value) <= most;
+    const enum gm_operation operation = tidying->graph->nodes[node].operation;
+    return operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT;
 }
 
 static gm_node_id apply(const struct tidying *tidying, enum gm_operation operation, gm_node_id a,
@@ -55,8 +51,8 @@ static gm_node_id apply(const struct tidying *tidying, enum gm_operation operati
 
 /* ---- products ---- */
 
-/* In the order in which they were first written, so that equal products are one node. */
-static void add_factor(struct product *product, gm_node_id base, long halves)
+/* In the order in which they were first written, so that equal products are one node. False: too many. */
+static bool add_factor(struct product *product, gm_node_id base, long halves)
 {
     size_t i = 0;
     while (i < product->count && product->factors[i].base < base) {
@@ -64,89 +60,70 @@ static void add_factor(struct product *product, gm_node_id base, long halves)
     }
     if (i < product->count && product->factors[i].base == base) {
         product->factors[i].halves += halves;
-        return;
+        return true;
     }
-    product->long_winded = product->count == MOST;
-    if (!product->long_winded) {
-        memmove(&product->factors[i + 1], &product->factors[i],
-                (product->count++ - i) * sizeof product->factors[i]);
-        product->factors[i] = (struct factor){base, halves};
+    if (product->count == MOST) {
+        return false;
     }
+    memmove(&product->factors[i + 1], &product->factors[i],
+            (product->count++ - i) * sizeof product->factors[i]);
+    product->factors[i].base = base;
+    product->factors[i].halves = halves;
+    return true;
 }
 
-/* The power of a constant. */
-static void multiply_constant(struct product *product, double value, long power)
+/* Multiplies by the power of a node that is tidy. False: it is too long. */
+static bool multiply(struct tidying *tidying, struct product *product, gm_node_id node, long halves)
 {
-    double *to = power > 0 ? &product->above : &product->below;
-    *to *= pow(value, fabs((double)power));
-}
-
-/* Multiplies by the power of a node that is tidy. */
-static void multiply(const struct tidying *tidying, struct product *product, gm_node_id node, long halves)
-{
-    product->long_winded = product->long_winded || ++product->visited > MOST_VISITED;
-    if (product->long_winded) {
-        return;
-    }
     const struct gm_node here = tidying->graph->nodes[node];
-    const struct gm_node *exponent =
-        here.operation == GM_OPERATION_POWER || here.operation == GM_OPERATION_WHOLE_POWER
-            ? &tidying->graph->nodes[here.b]
-            : NULL;
-    const bool raised =
-        exponent && exponent->operation == GM_CONSTANT && is_whole(exponent->value, MOST_POWER);
-    const bool whole = halves % 2 == 0 && labs(halves) <= MOST_POWER && !is_named(tidying, node);
-    if (whole && here.operation == GM_CONSTANT) {
-        multiply_constant(product, here.value, halves / 2);
-    } else if (whole && here.operation == GM_OPERATION_NEGATE) {
+    if (++tidying->visited > MOST_VISITED) {
+        return false;
+    }
+    if (halves % 2 == 0 && here.operation == GM_OPERATION_SQRT) {
+        return add_factor(product, here.a, halves / 2);
+    }
+    if (halves % 2 != 0 || labs(halves) > MOST_POWER || is_named(tidying, node)) {
+        return add_factor(product, node, halves);
+    }
+    switch (here.operation) {
+    case GM_CONSTANT:
+        *(halves > 0 ? &product->above : &product->below) *= pow(here.value, (double)labs(halves / 2));
+        return true;
+    case GM_OPERATION_NEGATE:
         product->above *= halves / 2 % 2 ? -1 : 1;
-        multiply(tidying, product, here.a, halves);
-    } else if (whole && (here.operation == GM_OPERATION_MULTIPLY || here.operation == GM_OPERATION_DIVIDE)) {
-        multiply(tidying, product, here.a, halves);
-        multiply(tidying, product, here.b, here.operation == GM_OPERATION_DIVIDE ? -halves : halves);
-    } else if (whole && raised) {
-        multiply(tidying, product, here.a, halves * (long)exponent->value);
-    } else if (halves % 2 == 0 && here.operation == GM_OPERATION_SQRT) {
-        add_factor(product, here.a, halves / 2);
-    } else {
-        add_factor(product, node, halves);
+        return multiply(tidying, product, here.a, halves);
+    case GM_OPERATION_MULTIPLY:
+        return multiply(tidying, product, here.a, halves) && multiply(tidying, product, here.b, halves);
+    case GM_OPERATION_DIVIDE:
+        return multiply(tidying, product, here.a, halves) && multiply(tidying, product, here.b, -halves);
+    case GM_OPERATION_POWER:
+    case GM_OPERATION_WHOLE_POWER: {
+        const struct gm_node exponent = tidying->graph->nodes[here.b];
+        if (exponent.operation == GM_CONSTANT && exponent.value == floor(exponent.value) &&
+            fabs(exponent.value) <= MOST_POWER) {
+            return multiply(tidying, product, here.a, halves * (long)exponent.value);
+        }
+        return add_factor(product, node, halves);
+    }
+    default:
+        return add_factor(product, node, halves);
     }
 }
 
-static gm_node_id times(const struct tidying *tidying, gm_node_id product, gm_node_id factor)
-{
-    return product == GM_NO_NODE ? factor : apply(tidying, GM_OPERATION_MULTIPLY, product, factor);
-}
-
-static gm_node_id power(const struct tidying *tidying, gm_node_id base, long exponent)
+static gm_node_id times_power(const struct tidying *tidying, gm_node_id product, gm_node_id base,
+                              long exponent)
 {
     const gm_node_id number = gm_formula_constant(tidying->graph, (double)exponent);
-    return exponent == 1 ? base : apply(tidying, GM_OPERATION_POWER, base, number);
+    const gm_node_id power = exponent == 1 ? base : apply(tidying, GM_OPERATION_POWER, base, number);
+    return product == GM_NO_NODE ? power : apply(tidying, GM_OPERATION_MULTIPLY, product, power);
 }
 
-/* `product` times base^(halves / 2), halves > 0. */
-static gm_node_id times_power(const struct tidying *tidying, gm_node_id product, gm_node_id base, long halves)
-{
-    const gm_node_id root = apply(tidying, GM_OPERATION_SQRT, base, base);
-    if (is_named(tidying, root)) {
-        return times(tidying, product, power(tidying, root, halves));
-    }
-    if (halves > 1) {
-        product = times(tidying, product, power(tidying, base, halves / 2));
-    }
-    return halves % 2 ? times(tidying, product, root) : product;
-}
-
-/* Divides two whole numbers by what they have in common; 0.5 is 1 above 2. */
+/* Divides two numbers by what they have in common; 0.5 is 1 above 2. */
 static void reduce(double *above, double *below)
 {
-    enum { MOST_HALVED = 1024 };
-    if (is_whole(*above * MOST_HALVED, 0x1p53) && is_whole(*below * MOST_HALVED, 0x1p53)) {
-        *above *= MOST_HALVED;
-        *below *= MOST_HALVED;
-    }
-    double a = fabs(*above), b = fabs(*below);
-    if (!is_whole(a, 0x1p53) || !is_whole(b, 0x1p53)) {
+    enum { PARTS = 1024 };
+    double a = fabs(*above) * PARTS, b = fabs(*below) * PARTS;
+    if (a != floor(a) || b != floor(b) || fmax(a, b) > 0x1p53) {
         return;
     }
     while (b > 0) {
@@ -154,12 +131,16 @@ static void reduce(double *above, double *below)
         a = b;
         b = rest;
     }
-    *above /= a;
-    *below /= a;
+    *above *= PARTS / a;
+    *below *= PARTS / a;
 }
 
+/* GM_NO_NODE: its numbers are none. */
 static gm_node_id written_product(const struct tidying *tidying, struct product *product)
 {
+    if (!isfinite(product->above) || !isfinite(product->below) || product->below == 0) {
+        return GM_NO_NODE;
+    }
     if (product->above == 0) {
         return gm_formula_constant(tidying->graph, 0);
     }
@@ -172,9 +153,15 @@ static gm_node_id written_product(const struct tidying *tidying, struct product 
             sides[side] = gm_formula_constant(tidying->graph, numbers[side]);
         }
         for (size_t i = 0; i < product->count; i++) {
+            const gm_node_id base = product->factors[i].base;
             const long halves = side ? -product->factors[i].halves : product->factors[i].halves;
-            if (halves > 0) {
-                sides[side] = times_power(tidying, sides[side], product->factors[i].base, halves);
+            const gm_node_id root = apply(tidying, GM_OPERATION_SQRT, base, base);
+            const bool rooted = halves > 0 && is_named(tidying, root);
+            if (halves > 1 && !rooted) {
+                sides[side] = times_power(tidying, sides[side], base, halves / 2);
+            }
+            if (rooted || (halves > 0 && halves % 2)) {
+                sides[side] = times_power(tidying, sides[side], root, rooted ? halves : 1);
             }
         }
     }
@@ -185,56 +172,48 @@ static gm_node_id written_product(const struct tidying *tidying, struct product 
 
 /* ---- sums ---- */
 
-/* A term and the same with the other sign are nothing. */
-static void add_term(struct sum *sum, gm_node_id node, bool minus)
+/* Adds the terms of a node, of which one and the same with the other sign are nothing. False: it is too long. */
+static bool add(struct tidying *tidying, struct sum *sum, gm_node_id node, bool minus)
 {
+    const struct gm_node here = tidying->graph->nodes[node];
+    const bool named = is_named(tidying, node);
+    if (++tidying->visited > MOST_VISITED || sum->count == MOST) {
+        return false;
+    }
+    if (!named && is_sum(tidying, node)) {
+        return add(tidying, sum, here.a, minus) &&
+               add(tidying, sum, here.b, minus != (here.operation == GM_OPERATION_SUBTRACT));
+    }
+    if (!named && here.operation == GM_OPERATION_NEGATE) {
+        return add(tidying, sum, here.a, !minus);
+    }
     for (size_t i = 0; i < sum->count; i++) {
         if (sum->terms[i].node == node && sum->terms[i].minus != minus) {
             memmove(&sum->terms[i], &sum->terms[i + 1], (--sum->count - i) * sizeof sum->terms[i]);
-            return;
+            return true;
         }
     }
-    if (sum->count == MOST) {
-        sum->long_winded = true;
-        return;
+    if (named || !gm_is_constant(tidying->graph, node, 0)) {
+        sum->terms[sum->count].node = node;
+        sum->terms[sum->count++].minus = minus;
     }
-    sum->terms[sum->count++] = (struct term){node, minus};
+    return true;
 }
 
-static void add(const struct tidying *tidying, struct sum *sum, gm_node_id node, bool minus)
-{
-    sum->long_winded = sum->long_winded || ++sum->visited > MOST_VISITED;
-    if (sum->long_winded) {
-        return;
-    }
-    const struct gm_node here = tidying->graph->nodes[node];
-    const bool named = is_named(tidying, node);
-    if (!named && (here.operation == GM_OPERATION_ADD || here.operation == GM_OPERATION_SUBTRACT)) {
-        add(tidying, sum, here.a, minus);
-        add(tidying, sum, here.b, minus != (here.operation == GM_OPERATION_SUBTRACT));
-    } else if (!named && here.operation == GM_OPERATION_NEGATE) {
-        add(tidying, sum, here.a, !minus);
-    } else if (named || !gm_is_constant(tidying->graph, node, 0)) {
-        add_term(sum, node, minus);
-    }
-}
-
+/* It begins with a term that is added, where there is one. */
 static gm_node_id written_sum(const struct tidying *tidying, const struct sum *sum)
 {
     size_t first = 0;
-    if (sum->count == 0) {
-        return gm_formula_constant(tidying->graph, 0);
-    }
     while (first < sum->count && sum->terms[first].minus) {
         first++;
     }
-    first = first == sum->count ? 0 : first;
-    gm_node_id node = sum->terms[first].node;
-    node = sum->terms[first].minus ? apply(tidying, GM_OPERATION_NEGATE, node, node) : node;
+    gm_node_id node = first < sum->count ? sum->terms[first].node : gm_formula_constant(tidying->graph, 0);
     for (size_t i = 0; i < sum->count; i++) {
-        if (i != first) {
-            node = apply(tidying, sum->terms[i].minus ? GM_OPERATION_SUBTRACT : GM_OPERATION_ADD, node,
-                         sum->terms[i].node);
+        const gm_node_id term = sum->terms[i].node;
+        if (i == 0 && first == sum->count) {
+            node = apply(tidying, GM_OPERATION_NEGATE, term, term);
+        } else if (i != first) {
+            node = apply(tidying, sum->terms[i].minus ? GM_OPERATION_SUBTRACT : GM_OPERATION_ADD, node, term);
         }
     }
     return node;
@@ -242,81 +221,67 @@ static gm_node_id written_sum(const struct tidying *tidying, const struct sum *s
 
 /* ---- both ---- */
 
-/* The factor that is a sum which was derived, where others are beside it: differentiation puts terms in parentheses that
-   nobody has typed. MOST: there is none. */
-static size_t derived_sum(const struct tidying *tidying, const struct product *product)
+/* A product. A factor that is a sum which was derived is multiplied out: differentiation puts terms in parentheses
+   that nobody has typed. GM_NO_NODE: it is too long. */
+static gm_node_id expanded(struct tidying *tidying, struct product *product)
 {
-    for (size_t i = 0; i < product->count; i++) {
-        const gm_node_id base = product->factors[i].base;
-        const enum gm_operation operation = tidying->graph->nodes[base].operation;
-        if (product->factors[i].halves == 2 && !is_named(tidying, base) &&
-            tidying->graph->places[base] == GM_NO_PLACE &&
-            (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT)) {
-            return i;
-        }
+    size_t at = 0;
+    while (at < product->count &&
+           (product->factors[at].halves != 2 || !is_sum(tidying, product->factors[at].base) ||
+            is_named(tidying, product->factors[at].base) ||
+            tidying->graph->places[product->factors[at].base] != GM_NO_PLACE)) {
+        at++;
     }
-    return MOST;
-}
-
-/* A product, a derived sum among its factors term by term; GM_NO_NODE: it is too long. */
-static gm_node_id expanded(const struct tidying *tidying, struct product *product)
-{
-    const size_t at = derived_sum(tidying, product);
-    struct sum sum = {.count = 0}, all = {.count = 0};
-    if (at == MOST) {
+    if (at == product->count) {
         return written_product(tidying, product);
     }
-    add(tidying, &sum, product->factors[at].base, false);
+    struct sum sum = {.count = 0}, all = {.count = 0};
+    tidying->visited = 0;
+    bool good = add(tidying, &sum, product->factors[at].base, false);
     product->factors[at].halves = 0;
-    for (size_t i = 0; i < sum.count; i++) {
+    for (size_t i = 0; good && i < sum.count; i++) {
         struct product term = *product;
-        multiply(tidying, &term, sum.terms[i].node, 2);
-        if (term.long_winded || !isfinite(term.above) || !isfinite(term.below) || term.below == 0) {
-            return GM_NO_NODE;
-        }
-        add(tidying, &all, written_product(tidying, &term), sum.terms[i].minus);
+        tidying->visited = 0;
+        good = multiply(tidying, &term, sum.terms[i].node, 2);
+        const gm_node_id node = good ? written_product(tidying, &term) : GM_NO_NODE;
+        good = node != GM_NO_NODE && add(tidying, &all, node, sum.terms[i].minus);
     }
-    return sum.long_winded || all.long_winded ? GM_NO_NODE : written_sum(tidying, &all);
+    return good ? written_sum(tidying, &all) : GM_NO_NODE;
 }
 
-/* An operation on what is tidy. */
-static gm_node_id tidy(const struct tidying *tidying, enum gm_operation operation, gm_node_id a, gm_node_id b)
+/* A node whose operands are tidy. */
+static gm_node_id tidy(struct tidying *tidying, gm_node_id node)
 {
-    const gm_node_id plain = apply(tidying, operation, a, b);
-    const enum gm_operation inner = tidying->graph->nodes[a].operation;
-    const bool negated_sum =
-        operation == GM_OPERATION_NEGATE && (inner == GM_OPERATION_ADD || inner == GM_OPERATION_SUBTRACT);
-    if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT || negated_sum) {
-        struct sum sum = {.count = 0};
-        add(tidying, &sum, plain, false);
-        return sum.long_winded ? plain : written_sum(tidying, &sum);
+    const struct gm_node here = tidying->graph->nodes[node];
+    struct sum sum = {.count = 0};
+    struct product product = {.above = 1, .below = 1};
+    gm_node_id tidied = GM_NO_NODE;
+    tidying->visited = 0;
+    if (is_sum(tidying, node) || (here.operation == GM_OPERATION_NEGATE && is_sum(tidying, here.a))) {
+        tidied = add(tidying, &sum, node, false) ? written_sum(tidying, &sum) : GM_NO_NODE;
+    } else if (here.operation == GM_OPERATION_MULTIPLY || here.operation == GM_OPERATION_DIVIDE ||
+               here.operation == GM_OPERATION_NEGATE || here.operation == GM_OPERATION_WHOLE_POWER) {
+        tidied = multiply(tidying, &product, node, 2) ? expanded(tidying, &product) : GM_NO_NODE;
     }
-    if (operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE ||
-        operation == GM_OPERATION_NEGATE || operation == GM_OPERATION_WHOLE_POWER) {
-        struct product product = {.above = 1, .below = 1};
-        multiply(tidying, &product, plain, 2);
-        const bool number =
-            isfinite(product.above) && isfinite(product.below) && product.above != 0 && product.below != 0;
-        const gm_node_id node = product.long_winded || !number ? GM_NO_NODE : expanded(tidying, &product);
-        return node == GM_NO_NODE ? plain : node;
-    }
-    return plain;
+    return tidied == GM_NO_NODE ? node : tidied;
 }
 
 gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
 {
-    const struct tidying tidying = {graph, naming};
+    struct tidying tidying = {graph, naming, 0};
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
     gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* of the parts alone */
     const bool good = parts && tidied;
     for (size_t k = 0; good && k < count && !graph->failed; k++) {
-        const struct gm_node here = graph->nodes[parts[k]];
-        const bool whole =
-            here.operation <= GM_VARIABLE || (parts[k] != node && is_named(&tidying, parts[k]));
-        const bool two = !whole && gm_operation_rows[here.operation].arity == 2;
-        tidied[parts[k]] =
-            whole ? parts[k] : tidy(&tidying, here.operation, tidied[here.a], tidied[two ? here.b : here.a]);
+        const gm_node_id part = parts[k];
+        const struct gm_node here = graph->nodes[part];
+        tidied[part] = part;
+        if (here.operation > GM_VARIABLE && (part == node || !is_named(&tidying, part))) {
+            const bool two = gm_operation_rows[here.operation].arity == 2;
+            tidied[part] = tidy(
+                &tidying, apply(&tidying, here.operation, tidied[here.a], tidied[two ? here.b : here.a]));
+        }
     }
     node = good && !graph->failed ? tidied[node] : GM_NO_NODE;
     free(parts);

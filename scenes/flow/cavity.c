@@ -32,14 +32,6 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
 
-/* Rows and columns agree. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
-{
-    (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
-    return true;
-}
-
 static unsigned char side_at(const double middle[2])
 {
     return middle[1] == 1 ? GM_EDGE_LID : GM_EDGE_WALL;
@@ -259,7 +251,7 @@ const struct gm_scene gm_scene_cavity = {
     .observable_count = GM_COUNT(observables),
     .stability = &stability,
     .idle = gm_flows_idle,
-    .settle = settle,
+    .settle = gm_flows_settle_columns,
     .setup = setup,
     .readable = gm_flows_readable,
     .chosen = gm_flows_chosen,

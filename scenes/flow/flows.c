@@ -121,6 +121,20 @@ void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *co
     }
 }
 
+bool gm_flows_settle_columns(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
+    return true;
+}
+
+bool gm_flows_settle_rows(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
+    return true;
+}
+
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     const long best =

@@ -70,6 +70,9 @@ extern const char *const gm_flows_shows[], *const gm_flows_warm_shows[], *const 
    rows are edges, and the columns strips; else the other way round. */
 void gm_flows_follow(struct gm_flows *own, struct gm_rectangle rectangle, const char *const *keys,
                      size_t count);
+/* settle of a unit square with the edges along x, so that the columns are edges; and with the edges along y. */
+bool gm_flows_settle_columns(void *own, const char *const *keys, size_t count, char *sentence);
+bool gm_flows_settle_rows(void *own, const char *const *keys, size_t count, char *sentence);
 /* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 

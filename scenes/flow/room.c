@@ -53,8 +53,9 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
     gm_flows_follow(own, (struct gm_rectangle){.width = side, .height = side, .transposed = true}, keys,
                     count);
     struct gm_flows *flows = own;
-    flows->rows =
-        gm_is_given("rows", keys, count) ? flows->rows : 5 * ((flows->rows + 2) / 5); /* for the lips */
+    if (!gm_is_given("rows", keys, count)) { /* the lips are vertices, and two edges long at least */
+        flows->rows = (long)fmax(10, (double)(5 * ((flows->rows + 2) / 5)));
+    }
     return true;
 }
 

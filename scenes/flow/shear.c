@@ -77,14 +77,6 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_LOOKS("speed", "yes"),
 };
 
-/* Rows and columns agree. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
-{
-    (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
-    return true;
-}
-
 /* A mesh of the square with psi and theta given all round. */
 static bool make(const struct gm_flows *own, const struct shear *shear, struct gm_problem *problem,
                  char *sentence)
@@ -375,7 +367,7 @@ const struct gm_scene gm_scene_couette = {
         "The flow between a wall at rest and one that moves, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
     .figures = couette_figures,
     .figure_count = GM_COUNT(couette_figures),
-    .settle = settle,
+    .settle = gm_flows_settle_rows,
     .setup = setup_couette,
     FIELDS_OF_BOTH,
 };
@@ -387,7 +379,7 @@ const struct gm_scene gm_scene_poiseuille = {
         "The flow that a pressure drives between two walls, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
     .figures = poiseuille_figures,
     .figure_count = GM_COUNT(poiseuille_figures),
-    .settle = settle,
+    .settle = gm_flows_settle_rows,
     .setup = setup_poiseuille,
     FIELDS_OF_BOTH,
 };

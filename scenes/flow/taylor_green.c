@@ -30,14 +30,6 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
 
-/* Rows and columns agree. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
-{
-    (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
-    return true;
-}
-
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
     const struct gm_flows *own = parameters_of;
@@ -192,7 +184,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .observables = observables,
     .observable_count = GM_COUNT(observables),
     .work = &work,
-    .settle = settle,
+    .settle = gm_flows_settle_columns,
     .no_stability = GM_FLOWS_NO_STABILITY,
     .setup = setup,
     .close = gm_flows_close,

@@ -123,7 +123,7 @@ long gm_lane_lost(const struct gm_lane *lane)
         const double divisor = divisor_of(observable, &view, &initial), value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
-        const bool decayed = divisor == fabs(initial) && value * initial < GM_LOST_BELOW * initial * initial;
+        const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
         if ((error > GM_LOST_ABOVE || decayed) && error > most) {
             most = error;
             lost = (long)i;

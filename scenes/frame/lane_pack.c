@@ -3,7 +3,6 @@
    so. */
 #include "scenes/frame/lane_pack.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -81,7 +80,7 @@ static bool are_steps(const int64_t *steps, size_t count, size_t stride, int64_t
     return true;
 }
 
-/* Numbers that are doubled, or counted on, and must not pass what a long holds. */
+/* Numbers that are doubled, or counted on, and must not overflow. */
 static bool can_grow(int64_t number)
 {
     return number >= 0 && number <= INT64_MAX / 4;

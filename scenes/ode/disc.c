@@ -94,14 +94,14 @@ static double area(const struct gm_view *view)
 {
     const size_t m = view->problem->m, points = m - 1;
     const double *y = view->state, *q = view->start + Q * m, *p = view->start + P * m;
-    double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
+    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
         const double dq = p[points] - p[i], dp = q[i] - q[points];
         edge[i] = y[Q * m + i] - y[Q * m + points] + I * (y[P * m + i] - y[P * m + points]);
-        along[i] =
+        edge[points + i] =
             y[XI_1 * m + i] * dq + y[XI_2 * m + i] * dp + I * (y[ETA_1 * m + i] * dq + y[ETA_2 * m + i] * dp);
     }
-    const double value = edge ? gm_curve_area(edge, along, points) : NAN;
+    const double value = edge ? gm_curve_area(edge, edge + points, points) : NAN;
     free(edge);
     return value;
 }

@@ -427,6 +427,24 @@ static void ensembles_are_looked_back_at(void **unused)
     free(before);
 }
 
+/* The head of a snapshot comes from a file: what does not exist is refused. */
+static void damaged_heads_are_refused(void **unused)
+{
+    (void)unused;
+    const double start[] = {1, 0};
+    struct gm_run *run =
+        gm_run_open(&gm_problem_pendulum, gm_scheme_find("midpoint"), &settings_of[1], 0, 0.1, start);
+    assert_non_null(run);
+    struct gm_run *snapshot = malloc(gm_run_snapshot_size(run));
+    assert_non_null(snapshot);
+    gm_run_save(run, snapshot);
+    assert_true(gm_run_load(run, snapshot));
+    snapshot->unsolved.obstacle = (enum gm_obstacle)(GM_STILL_LARGE + 1);
+    assert_false(gm_run_load(run, snapshot));
+    free(snapshot);
+    gm_run_close(run);
+}
+
 /* Single steps that fail are made again from where the run began anew, not from before: after another step, another
    state and a snapshot. Of two runs one looks back, so none of its steps is made in place. */
 static void beginnings_are_not_passed(void **unused)
@@ -701,6 +719,7 @@ int main(void)
         cmocka_unit_test(newton_agrees_with_fixed_point),
         cmocka_unit_test(evaluations_are_counted),
         cmocka_unit_test(segments_continue_time),
+        cmocka_unit_test(damaged_heads_are_refused),
         cmocka_unit_test(gsl_is_left_where_it_is_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,8 +31,8 @@ static bool is_confirmed(const struct gm_sweep *sweep, const struct gm_options *
     }
     char duration[64];
     gm_put_duration(gm_sweep_seconds(sweep) / (double)cores_of(options), duration, sizeof duration);
-    gm_complain("these are %zu runs, which take about %s with %zu at once; --yes makes them", runs, duration,
-                cores_of(options));
+    gm_complain("these are %zu run%s, which take about %s with %zu at once; --yes makes them", runs,
+                gm_plural((double)runs), duration, cores_of(options));
     return false;
 }
 

@@ -314,7 +314,7 @@ enum { WORTH_A_THREAD = 1500 };
 
 /* From the time t on. */
 static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double t, double dt,
-                           long number, double *y, struct gm_progress *progress)
+                           int64_t number, double *y, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;

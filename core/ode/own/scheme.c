@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
@@ -655,11 +654,6 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
 static struct own *make(const struct making *making, struct gm_span span, const char *name,
                         const char *title);
 
-static const char *scheme_name(size_t i, const void *data)
-{
-    return (void)data, gm_scheme_at(i)->name;
-}
-
 /* The scheme that a line names, which is put among those that were made if it is a word. */
 static const struct gm_scheme *scheme_of(const struct making *making, const struct gm_written_line *line,
                                          struct own **made)
@@ -686,8 +680,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
     } else {
         scheme = gm_scheme_find(name);
         if (!scheme || scheme->family->kind != &gm_kind_ode) {
-            const char *near = gm_scheme_known_as(name);
-            near = near || scheme ? near : gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
+            const char *near = scheme ? gm_scheme_known_as(name) : gm_scheme_near(name);
             fail(making, span.begin,
                  scheme ? "%.40s is no scheme for ordinary differential equations%s%s"
                         : "there is no scheme \"%.40s\"%s%s",

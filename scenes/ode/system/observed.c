@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/linear/curve.h"
+#include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
 #include "core/system/names.h"
 #include "scenes/frame/rows.h"
@@ -35,19 +36,37 @@ static double terms(const struct gm_view *view)
     return value_of(&own->terms[view->observable - own->observables], view);
 }
 
-/* Of a Lagrangian system, whose formulas hold velocities. */
-static double legendre_energy(const struct gm_view *view)
+/* Of a Lagrangian system, whose formulas hold velocities: p q' - L, or the magnitudes of these terms. */
+static double legendre(const struct gm_view *view, bool magnitudes)
 {
     const size_t n = view->problem->n, m = view->problem->m;
-    double *centre = malloc(n * sizeof *centre), value = NAN;
+    double *centre = malloc(2 * n * sizeof *centre), value = NAN, sum = 0, size = 0;
     for (size_t i = 0; centre && i < n; i++) {
         centre[i] = view->state[i * m + m - 1];
     }
     if (centre) {
         gm_ode_of(view->problem)->hamiltonian->energy(view->problem, centre, &value, 1);
     }
+    if (centre && magnitudes) {
+        gm_field(view->problem, centre, centre + n, 1);
+        for (size_t i = 0; i < n / 2; i++) {
+            sum += centre[n / 2 + i] * centre[n + i];
+            size += fabs(centre[n / 2 + i] * centre[n + i]);
+        }
+        value = size + fabs(sum - value);
+    }
     free(centre);
     return value;
+}
+
+static double legendre_energy(const struct gm_view *view)
+{
+    return legendre(view, false);
+}
+
+static double legendre_terms(const struct gm_view *view)
+{
+    return legendre(view, true);
 }
 
 /* What constraints are off by, of the last member. */
@@ -118,12 +137,13 @@ static double area(const struct gm_view *view)
     if (points == 0) {
         return NAN;
     }
-    double complex *edge = malloc(2 * points * sizeof *edge), *along = edge + points;
+    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
-        edge[i] = along[i] = x[i] - x[points] + I * (y[i] - y[points]);
+        edge[i] = edge[points + i] = x[i] - x[points] + I * (y[i] - y[points]);
     }
-    const double value =
-        edge && gm_curve_differentiate(along, points) ? gm_curve_area(edge, along, points) : NAN;
+    const double value = edge && gm_curve_differentiate(edge + points, points)
+                             ? gm_curve_area(edge, edge + points, points)
+                             : NAN;
     free(edge);
     return value;
 }
@@ -267,8 +287,11 @@ static bool add_energy(struct gm_system_scene *own, const struct gm_problem *pro
     struct gm_observable energy =
         kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
              : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
-    energy.evaluate = lagrangian ? legendre_energy : observed;
-    return add_observable(own, energy, system->energy);
+    if (lagrangian) {
+        energy.evaluate = legendre_energy;
+        energy.terms = kept ? legendre_terms : NULL;
+    }
+    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
 }
 
 /* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
