@@ -321,14 +321,16 @@ static void print_finished(struct series *series)
     }
 }
 
-static void write_page(struct series *series, int *status)
+static bool write_page(struct series *series, int *status)
 {
     char message[GM_MESSAGE];
     series->page_written = gm_clock_seconds();
     if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
         gm_complain("%s", message);
         *status = GM_EXIT_FILE;
+        return false;
     }
+    return true;
 }
 
 /* What became of a worker that has ended: a worker that was killed or crashed tells nothing itself. */
@@ -433,16 +435,16 @@ static void run(struct series *series, int *status)
     }
 }
 
-static void print_sum(const struct series *series)
+static void print_sum(const struct series *series, bool page)
 {
     const struct gm_figure_sum sum = gm_figures_sum(series->jobs, series->outcomes, series->count);
     const struct gm_tally *said = &sum.of[GM_OF_DOCUMENT], *ours = &sum.of[GM_OF_OURS],
                           *variants = &sum.of[GM_OF_VARIANT];
-    gm_say("%zu of %zu figure%s made; %zu statement%s of the documents %s, %zu %s not, %zu open; "
-           "%s/figures.html",
+    gm_say("%zu of %zu figure%s made; %zu statement%s of the documents %s, %zu %s not, %zu open%s%s%s",
            sum.made, series->count, gm_plural((double)series->count), said->hold,
            gm_plural((double)said->hold), said->hold == 1 ? "holds" : "hold", said->fail,
-           said->fail == 1 ? "does" : "do", said->open, series->output.folder);
+           said->fail == 1 ? "does" : "do", said->open, page ? "; " : "", page ? series->output.folder : "",
+           page ? "/figures.html" : "");
     gm_say(
         "counted apart: of ours %zu hold, %zu do not, %zu open; of variants of figures %zu hold, %zu do not, "
         "%zu open",
@@ -470,11 +472,11 @@ static int command_figures(const struct gm_options *options)
                 print_outcome(&series, i);
             }
         }
-        write_page(&series, &status);
+        const bool page = write_page(&series, &status);
         if (!options->json) {
-            print_sum(&series);
+            print_sum(&series, page);
         }
-        if (status != GM_EXIT_FILE) {
+        if (page) {
             gm_complain("wrote %s/figures.html and its pictures", series.output.folder);
         }
         for (size_t i = 0; i < series.count; i++) {

@@ -40,10 +40,11 @@ struct reader {
     long line;
     struct gm_triangulation_fault *fault;
     const char *section;
-    bool old;      /* version 2.2 */
-    bool binary;   /* the file */
-    bool entities; /* they were read */
-    bool raw;      /* what is read now: bytes as they are in memory */
+    bool old;        /* version 2.2 */
+    bool parametric; /* ... whose nodes have parameters on curves and surfaces */
+    bool binary;     /* the file */
+    bool entities;   /* they were read */
+    bool raw;        /* what is read now: bytes as they are in memory */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -281,26 +282,48 @@ static bool skip_numbers(struct reader *reader, long count)
     return true;
 }
 
-/* tag, bounding box, physical tags and, from curves on, bounding entities */
-static bool read_entity(struct reader *reader, int dimension)
+static bool add_curve(struct reader *reader, long tag, long physical)
+{
+    struct curve *more = realloc(reader->curves, (reader->curve_count + 1) * sizeof *more);
+    if (!more) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    reader->curves = more;
+    more[reader->curve_count++] = (struct curve){tag, labs(physical)}; /* the sign is an orientation */
+    return true;
+}
+
+/* What a part of an entity is of, in which parts of the mesh; a part of a curve is in its groups, too. */
+static bool read_parent(struct reader *reader, long tag, int dimension)
+{
+    long whole = 0, parent = 0, count = 0, part = 0;
+    bool good = take_whole(reader, &whole, "a dimension") && take_whole(reader, &parent, "an entity's tag") &&
+                take_count(reader, &count, "a number of parts");
+    for (long i = 0; good && i < count; i++) {
+        good = take_whole(reader, &part, "a part");
+    }
+    const size_t known = reader->curve_count;
+    for (size_t i = 0; good && dimension == 1 && whole == 1 && i < known; i++) {
+        good = reader->curves[i].tag != parent || tag == parent ||
+               add_curve(reader, tag, reader->curves[i].physical);
+    }
+    return good;
+}
+
+/* tag, of a part its whole, bounding box, physical tags and, from curves on, bounding entities */
+static bool read_entity(struct reader *reader, int dimension, bool partitioned)
 {
     long tag = 0, count = 0, physical = 0, bound = 0;
-    if (!take_whole(reader, &tag, "an entity's tag") || !skip_numbers(reader, dimension == 0 ? 3 : 6) ||
+    if (!take_whole(reader, &tag, "an entity's tag") ||
+        (partitioned && !read_parent(reader, tag, dimension)) ||
+        !skip_numbers(reader, dimension == 0 ? 3 : 6) ||
         !take_count(reader, &count, "the number of physical tags")) {
         return false;
     }
     for (long i = 0; i < count; i++) {
-        if (!take_whole(reader, &physical, "a physical tag")) {
+        if (!take_whole(reader, &physical, "a physical tag") ||
+            (dimension == 1 && labs(physical) < MOST && !add_curve(reader, tag, physical))) {
             return false;
-        }
-        if (dimension == 1 && labs(physical) < MOST) {
-            struct curve *more = realloc(reader->curves, (reader->curve_count + 1) * sizeof *more);
-            if (!more) {
-                return fail(reader, GM_TRIANGULATION_MEMORY, "");
-            }
-            reader->curves = more;
-            more[reader->curve_count++] =
-                (struct curve){tag, labs(physical)}; /* the sign is an orientation */
         }
     }
     long bounds = 0;
@@ -314,27 +337,49 @@ static bool read_entity(struct reader *reader, int dimension)
     return good;
 }
 
-static bool read_entities(struct reader *reader)
+static bool read_all_entities(struct reader *reader, bool partitioned)
 {
     long counts[4];
-    begin_raw(reader);
     for (int i = 0; i < 4; i++) {
         if (!take_count(reader, &counts[i], "a number of entities")) {
             return false;
         }
     }
-    if (reader->entities) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
-    }
-    reader->entities = true;
     for (int dimension = 0; dimension < 4; dimension++) {
         for (long i = 0; i < counts[dimension]; i++) {
-            if (!read_entity(reader, dimension)) {
+            if (!read_entity(reader, dimension, partitioned)) {
                 return false;
             }
         }
     }
     return true;
+}
+
+static bool read_entities(struct reader *reader)
+{
+    if (reader->entities) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
+    }
+    reader->entities = true;
+    begin_raw(reader);
+    return read_all_entities(reader, false);
+}
+
+/* The same of a mesh in parts, which is one here; ghosts are elements of neighbours. */
+static bool read_partitioned_entities(struct reader *reader)
+{
+    long parts = 0, ghosts = 0, tag = 0;
+    begin_raw(reader);
+    if (!take_count(reader, &parts, "a number of parts") ||
+        !take_count(reader, &ghosts, "a number of ghosts")) {
+        return false;
+    }
+    for (long i = 0; i < ghosts; i++) {
+        if (!take_whole(reader, &tag, "a ghost's tag") || !take_whole(reader, &tag, "a part")) {
+            return false;
+        }
+    }
+    return read_all_entities(reader, true);
 }
 
 static int compare_nodes(const void *a, const void *b)
@@ -375,6 +420,17 @@ static bool read_node_block(struct reader *reader, size_t total)
     return true;
 }
 
+/* Behind a node of version 2.2 that has parameters: the dimension and the tag of what it lies on, and they. */
+static bool skip_parameters(struct reader *reader)
+{
+    long dimension = 0, tag = 0;
+    if (!reader->parametric) {
+        return true;
+    }
+    return take_whole(reader, &dimension, "a dimension") && take_whole(reader, &tag, "a tag") &&
+           skip_numbers(reader, dimension == 1 || dimension == 2 ? dimension : 0);
+}
+
 /* The nodes of version 2.2: each with its tag. */
 static bool read_old_nodes(struct reader *reader, size_t total)
 {
@@ -387,7 +443,7 @@ static bool read_old_nodes(struct reader *reader, size_t total)
         node->line = reader->line;
         if (!take_number(reader, &node->x, "a coordinate") ||
             !take_number(reader, &node->y, "a coordinate") ||
-            !take_number(reader, &node->z, "a coordinate")) {
+            !take_number(reader, &node->z, "a coordinate") || !skip_parameters(reader)) {
             return false;
         }
     }
@@ -438,6 +494,12 @@ static bool read_nodes(struct reader *reader)
         }
     }
     return true;
+}
+
+static bool read_parametric_nodes(struct reader *reader)
+{
+    reader->parametric = true;
+    return read_nodes(reader);
 }
 
 static int corners_of(long type)
@@ -582,7 +644,9 @@ static bool read_sections(struct reader *reader)
     } known[] = {
         {"$PhysicalNames", read_names},
         {"$Entities", read_entities},
+        {"$PartitionedEntities", read_partitioned_entities},
         {"$Nodes", read_nodes},
+        {"$ParametricNodes", read_parametric_nodes},
         {"$Elements", read_elements},
     };
     char section[40];
@@ -624,6 +688,140 @@ static struct node *find_node(const struct reader *reader, long tag)
 
 /* The mesh. */
 
+/* A triangle's nodes, ascending, and where it stands. */
+struct corners {
+    long nodes[3];
+    size_t place;
+};
+
+static int compare_corners(const void *a, const void *b)
+{
+    const struct corners *p = a, *q = b;
+    for (int k = 0; k < 3; k++) {
+        if (p->nodes[k] != q->nodes[k]) {
+            return p->nodes[k] > q->nodes[k] ? 1 : -1;
+        }
+    }
+    return (p->place > q->place) - (p->place < q->place);
+}
+
+static void exchange_if_above(long *a, long *b)
+{
+    const long low = *a < *b ? *a : *b;
+    *b = *a < *b ? *b : *a;
+    *a = low;
+}
+
+/* Version 2.2 writes a triangle once for each of its physical surfaces: the first stays. */
+static bool drop_repeated(struct reader *reader)
+{
+    struct corners *all = malloc((reader->triangle_count + 1) * sizeof *all);
+    if (!all) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        long *nodes = all[t].nodes;
+        memcpy(nodes, reader->triangles[t].nodes, sizeof all[t].nodes);
+        exchange_if_above(&nodes[0], &nodes[1]);
+        exchange_if_above(&nodes[1], &nodes[2]);
+        exchange_if_above(&nodes[0], &nodes[1]);
+        all[t].place = t;
+    }
+    qsort(all, reader->triangle_count, sizeof *all, compare_corners);
+    for (size_t t = 1; t < reader->triangle_count; t++) {
+        if (memcmp(all[t].nodes, all[t - 1].nodes, sizeof all[t].nodes) == 0) {
+            reader->triangles[all[t].place].line = -1;
+        }
+    }
+    free(all);
+    size_t count = 0;
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        reader->triangles[count] = reader->triangles[t];
+        count += reader->triangles[t].line >= 0;
+    }
+    reader->triangle_count = count;
+    return true;
+}
+
+/* The sum of the triangles' normals, each as long as twice its triangle is large. */
+static void add_normals(const struct reader *reader, double normal[3])
+{
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        const struct node *node[3];
+        for (int k = 0; k < 3; k++) {
+            node[k] = find_node(reader, reader->triangles[t].nodes[k]);
+        }
+        const double a[3] = {node[1]->x - node[0]->x, node[1]->y - node[0]->y, node[1]->z - node[0]->z},
+                     b[3] = {node[2]->x - node[0]->x, node[2]->y - node[0]->y, node[2]->z - node[0]->z};
+        for (int k = 0; k < 3; k++) {
+            const int next = (k + 1) % 3, last = (k + 2) % 3;
+            normal[k] += a[next] * b[last] - a[last] * b[next];
+        }
+    }
+}
+
+/* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it; seen
+   so that triangles turn left. That of x and y where z is the same everywhere. */
+static void choose_axes(const struct reader *reader, double axes[2][3])
+{
+    double normal[3] = {0};
+    add_normals(reader, normal);
+    const double size = hypot(hypot(normal[0], normal[1]), normal[2]);
+    int first = 0;
+    for (int k = 0; k < 3; k++) {
+        normal[k] /= size > 0 ? size : 1;
+        first = fabs(normal[k]) < fabs(normal[first]) ? k : first;
+    }
+    const double rest = sqrt(1 - normal[first] * normal[first]);
+    for (int k = 0; k < 3; k++) {
+        axes[0][k] = ((k == first) - normal[first] * normal[k]) / rest;
+    }
+    for (int k = 0; k < 3; k++) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        axes[1][k] = normal[next] * axes[0][last] - normal[last] * axes[0][next];
+    }
+}
+
+/* Takes the nodes of triangles into the plane where they lie: x and y are their places there. */
+static bool lay_flat(struct reader *reader)
+{
+    const struct node *origin = NULL;
+    double axes[2][3], low[3] = {0}, high[3] = {0}, extent = 0;
+    for (size_t i = 0; i < reader->node_count; i++) {
+        const struct node *node = &reader->nodes[i];
+        const double at[3] = {node->x, node->y, node->z};
+        for (int k = 0; k < 3 && node->vertex >= 0; k++) {
+            low[k] = origin ? fmin(low[k], at[k]) : at[k];
+            high[k] = origin ? fmax(high[k], at[k]) : at[k];
+            extent = fmax(extent, high[k] - low[k]);
+        }
+        origin = node->vertex >= 0 && !origin ? node : origin;
+    }
+    if (high[2] - low[2] <= 1e-9 * extent) {
+        return true;
+    }
+    choose_axes(reader, axes);
+    const struct node from = *origin;
+    for (size_t i = 0; i < reader->node_count; i++) {
+        struct node *node = &reader->nodes[i];
+        const double at[3] = {node->x - from.x, node->y - from.y, node->z - from.z};
+        double place[2] = {0}, off = 0;
+        for (int k = 0; k < 3; k++) {
+            place[0] += axes[0][k] * at[k];
+            place[1] += axes[1][k] * at[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            off = fmax(off, fabs(at[k] - place[0] * axes[0][k] - place[1] * axes[1][k]));
+        }
+        if (node->vertex >= 0 && !(off <= 1e-9 * extent)) {
+            return fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
+        }
+        node->x = place[0] + axes[0][0] * from.x + axes[0][1] * from.y + axes[0][2] * from.z;
+        node->y = place[1] + axes[1][0] * from.x + axes[1][1] * from.y + axes[1][2] * from.z;
+    }
+    return true;
+}
+
 /* Numbers the nodes of triangles in the order of their tags; writes points, tags and corners. */
 static bool number_nodes(struct reader *reader, double *points, long *tags, int *corners, size_t *vertices)
 {
@@ -640,25 +838,16 @@ static bool number_nodes(struct reader *reader, double *points, long *tags, int 
             node->vertex = 0;
         }
     }
-    double low = INFINITY, high = -INFINITY, plane = 0, extent = 0;
-    for (size_t i = 0; i < reader->node_count; i++) {
-        struct node *node = &reader->nodes[i];
-        if (node->vertex < 0) {
-            continue;
-        }
-        plane = *vertices == 0 ? node->z : plane;
-        low = fmin(low, fmin(node->x, node->y));
-        high = fmax(high, fmax(node->x, node->y));
-        extent = high - low;
-        points[2 * *vertices] = node->x;
-        points[2 * *vertices + 1] = node->y;
-        tags[*vertices] = node->tag;
-        node->vertex = (int)(*vertices)++;
+    if (!lay_flat(reader)) {
+        return false;
     }
     for (size_t i = 0; i < reader->node_count; i++) {
-        const struct node *node = &reader->nodes[i];
-        if (node->vertex >= 0 && fabs(node->z - plane) > 1e-9 * extent) {
-            return fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
+        struct node *node = &reader->nodes[i];
+        if (node->vertex >= 0) {
+            points[2 * *vertices] = node->x;
+            points[2 * *vertices + 1] = node->y;
+            tags[*vertices] = node->tag;
+            node->vertex = (int)(*vertices)++;
         }
     }
     for (size_t t = 0; t < reader->triangle_count; t++) {
@@ -703,6 +892,40 @@ static int find_edge(const struct gm_complex *complex, int a, int b)
     return -1;
 }
 
+static bool add_group(struct reader *reader, long tag)
+{
+    for (size_t i = 0; i < reader->group_count; i++) {
+        if (reader->groups[i].tag == tag) {
+            return true;
+        }
+    }
+    struct gm_triangulation_group *more = realloc(reader->groups, (reader->group_count + 1) * sizeof *more);
+    if (!more) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    reader->groups = more;
+    more[reader->group_count].tag = tag;
+    snprintf(more[reader->group_count++].name, sizeof more->name, "%ld", tag);
+    return true;
+}
+
+/* Groups of edges that have no name are named by their number. */
+static bool number_groups(struct reader *reader, const struct gm_triangulation *mesh)
+{
+    bool good = true;
+    int last = 0;
+    for (size_t e = 0; good && e < mesh->complex->edges; e++) {
+        good =
+            mesh->edge_group[e] == 0 || mesh->edge_group[e] == last || add_group(reader, mesh->edge_group[e]);
+        last = mesh->edge_group[e];
+    }
+    for (size_t i = 0; good && i < mesh->more_count; i++) {
+        good = mesh->more[i].tag == last || add_group(reader, mesh->more[i].tag);
+        last = mesh->more[i].tag;
+    }
+    return good;
+}
+
 /* Lines that are no edge of a triangle name nothing. */
 static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
 {
@@ -725,13 +948,16 @@ static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
         }
     }
     gm_triangulation_sort(mesh);
-    return true;
+    return number_groups(reader, mesh);
 }
 
 static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangulation *mesh)
 {
     if (reader->triangle_count == 0) {
         return fail(reader, GM_TRIANGULATION_EMPTY, "");
+    }
+    if (reader->old && !drop_repeated(reader)) {
+        return false;
     }
     const double plane[2] = {0, 0};
     double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);

@@ -114,7 +114,7 @@ void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *co
     long *strips = r.transposed ? &own->columns : &own->rows;
     const bool rows = gm_is_given("rows", keys, count), columns = gm_is_given("columns", keys, count);
     r.strips = *strips;
-    if (rows != columns && rows == r.transposed) {
+    if (rows != columns && rows == r.transposed && r.strips > 0) { /* 0: the best of every resolution */
         *strips = gm_rectangle_strips(r.width, r.height, *edges, r.transposed);
     } else if (rows != columns && r.strips > 0) {
         *edges = gm_rectangle_edges(&r);
@@ -217,13 +217,19 @@ void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
 long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)
 {
     const long tag = gm_triangulation_group(mesh, name);
-    if (tag != 0) {
-        return tag;
+    for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
+        if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
+            return tag;
+        }
     }
     char names[128];
-    gm_refuse(sentence,
-              "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
-              key, gm_triangulation_group_names(mesh, names, sizeof names));
+    if (tag != 0) {
+        gm_refuse(sentence, "no edge of the mesh's boundary belongs to \"%.60s\"", name);
+    } else {
+        gm_refuse(sentence,
+                  "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)",
+                  name, key, gm_triangulation_group_names(mesh, names, sizeof names));
+    }
     return 0;
 }
 

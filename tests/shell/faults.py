@@ -4,10 +4,10 @@
 exit status, or what would have come anyway; never a crash, a hang, a wrong number or a damaged file. Where memory is
 short, nothing else is blamed.
 
-    faults.py GEOMINT FAULTS_LIBRARY [--all] [--only WORDS] [--day NUMBER]
+    faults.py GEOMINT FAULTS_LIBRARY [--all] [--third] [--only WORDS] [--day NUMBER]
 
---all takes every n of every command, for some minutes; without it a sample of them. --only: commands that hold
-these words alone. For `list` every n is taken, of one system of each kind, another one every day (--day)."""
+--all takes every n of every command, for some minutes; without it a sample of them; --third: a third of that sample,
+another one every day (--day). --only: commands that hold these words alone. For `list` every n is taken, of one system of each kind, another one every day (--day)."""
 
 import argparse
 import concurrent.futures
@@ -287,13 +287,19 @@ def sample(count, every):
     return sorted(n for n in between | {1, 2, count} if n <= count)
 
 
-def sweep(command, kind, every):
+def todays(items, arguments):
+    """All of a list, or with --third every third of it, from another one every day."""
+    return items[arguments.day % 3 :: 3] if arguments.third else items
+
+
+def sweep(command, kind, arguments):
     usual = command.run(kind + ":0")
     if usual[0] != command.options.get("usual", 0):
         return 0, [f"{command.words}: exit {usual[0]} without a fault: {usual[2]}"]
-    faults = [f"{kind}:{n}" for n in sample(usual[4], every)]
+    faults = [f"{kind}:{n}" for n in sample(usual[4], arguments.all)]
     if kind == "memory":
-        faults += [f"{kind}:{n}+" for n in sample(usual[4], every)]
+        faults += [f"{kind}:{n}+" for n in sample(usual[4], arguments.all)]
+    faults = todays(faults, arguments)
     wrong = []
     for fault in faults:
         reason = command.judge(kind, usual, command.run(fault))
@@ -346,6 +352,7 @@ def main():
     parser.add_argument("geomint")
     parser.add_argument("library")
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--third", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--day", type=int, default=int(time.time() / 86400))
     arguments = parser.parse_args()
@@ -360,7 +367,7 @@ def main():
         for words, options in COMMANDS:
             if arguments.only in words:
                 command = Command(words, options, arguments, folder)
-                jobs += [(words, kind, pool.submit(sweep, command, kind, arguments.all)) for kind in ("memory", "files")]
+                jobs += [(words, kind, pool.submit(sweep, command, kind, arguments)) for kind in ("memory", "files")]
         for names in SYSTEMS:
             for words in [words.replace("NAME", names[arguments.day % len(names)]) for words in EACH]:
                 if arguments.only in words:
@@ -369,7 +376,7 @@ def main():
         limits = [("osmesa", megabytes) for megabytes in (50, 100, 180, 220, 240, 260, 280, 285, 290, 300, 400)]
         limits += [("own", megabytes) for megabytes in (26, 28, 30, 32, 36, 40, 50, 100)]
         limits += [("auto", megabytes) for megabytes in (40, 100, 280)]
-        for painter, megabytes in limits if arguments.only in "prlimit" else ():
+        for painter, megabytes in todays(limits, arguments) if arguments.only in "prlimit" else ():
             runs += 1
             found = limit(arguments, painter, megabytes, folder)
             print("".join(found), end="", flush=True)
@@ -382,7 +389,7 @@ def main():
                 print(line, flush=True)
             if arguments.all:
                 print(f"{words}: {count} faults of {kind}, {len(found)} wrong", flush=True)
-    print(f"{runs} faults, {len(wrong)} answered wrongly")
+    print(f"{runs} faults on day {arguments.day}, {len(wrong)} answered wrongly")
     return 1 if wrong or runs == 0 else 0
 
 

@@ -20,6 +20,12 @@ status 0 list rooms
 grep -q '^heated  *A heated room' out || fail "list rooms: $(head -n 3 out)"
 refused 1 'did you mean heated' run heeted
 
+# a group that no edge belongs to is no inlet of a room without wind; one without a name is known by its number
+sed '/PhysicalNames/{n;s/^5$/6/}; /^1 11 "in"/i 1 15 "nowhere"' "$meshes/groups-2.2.msh" >empty.msh
+refused 1 "no edge of the mesh's boundary belongs to \"nowhere\"" run room mesh=empty.msh inlet=nowhere outlet=out:soft steps=1
+refused 1 'there are: 7, 8' run room "mesh=$meshes/unnamed.msh" inlet=7 outlet=9:soft steps=1
+status 0 run room "mesh=$meshes/unnamed.msh" inlet=7 outlet=8:soft steps=1
+
 # what enters leaves, budgets close, and there is a force on the desk
 status 0 run "$rooms/office.room" until=2 --json
 within door_flow 0.11999 0.12001

@@ -159,8 +159,8 @@ static void sentences(void **unused)
         {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n"), GM_TRIANGULATION_OVERLAP, 20},
         {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2\n3\n"), GM_TRIANGULATION_SYNTAX, 20},
         {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_TRIANGULATION_SYNTAX, 19},
-        {HEAD "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n.5 1 .3\n$EndNodes\n" ELEMENTS(
-             "1 1 1 1\n2 1 2 1\n1 1 2 3\n"),
+        {HEAD "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n.5 1 .3\n.5 -1 .3\n$EndNodes\n" ELEMENTS(
+             "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 4 2\n"),
          GM_TRIANGULATION_THREE_D, 9},
         {HEAD
          "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n.5 1 0\n-1 0 0\n-.5 -1 0\n$EndNodes\n" ELEMENTS(
@@ -216,6 +216,37 @@ static double length_of(const struct gm_triangulation *mesh, long group)
         length += mesh->edge_group[e] == group ? mesh->complex->length[e] : 0;
     }
     return length;
+}
+
+/* The same two squares as Gmsh writes them: a triangle for each of its surfaces, nodes with parameters, in parts, in
+   the plane of x and z. */
+static void as_written(void **unused)
+{
+    (void)unused;
+    static const char *const files[] = {"groups-2.2.msh", "parametric-2.2.msh", "parametric-2.2-binary.msh",
+                                        "parts.msh", "upright.msh"};
+    size_t triangles = 0;
+    for (size_t i = 0; i < GM_COUNT(files); i++) {
+        struct gm_triangulation mesh = mesh_of(files[i]);
+        triangles = i == 0 ? mesh.complex->triangles : triangles;
+        assert_int_equal(mesh.complex->triangles, triangles);
+        assert_true(fabs(mesh.complex->total_area - 2) < 1e-12);
+        const long in = gm_triangulation_group(&mesh, "in"), all = gm_triangulation_group(&mesh, "all");
+        double length[2] = {0};
+        for (size_t b = 0; b < mesh.complex->boundary; b++) {
+            const size_t e = (size_t)mesh.complex->boundary_edge[b];
+            length[0] += gm_triangulation_has(&mesh, e, in) ? mesh.complex->length[e] : 0;
+            length[1] += gm_triangulation_has(&mesh, e, all) ? mesh.complex->length[e] : 0;
+        }
+        assert_true(fabs(length[0] - 1) < 1e-12 && fabs(length[1] - 6) < 1e-12);
+        gm_triangulation_close(&mesh);
+    }
+    struct gm_triangulation mesh = mesh_of("unnamed.msh");
+    char names[128];
+    assert_string_equal(gm_triangulation_group_names(&mesh, names, sizeof names), "7, 8");
+    assert_int_equal(gm_triangulation_group(&mesh, "8"), 8);
+    assert_int_equal(gm_triangulation_group(&mesh, "9"), 0);
+    gm_triangulation_close(&mesh);
 }
 
 /* Halved, a mesh is the same polygon with the same angles, names and vertices. */
@@ -284,7 +315,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_files),   cmocka_unit_test(broken_files), cmocka_unit_test(sentences),
         cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),   cmocka_unit_test(formats),
-        cmocka_unit_test(stars),        cmocka_unit_test(halves),
+        cmocka_unit_test(stars),        cmocka_unit_test(halves),       cmocka_unit_test(as_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "core/count.h"
+#include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
-#include "core/settled.h"
 
 /* At which of the changes an iteration of 3 unknowns ends, counted from 1; 0: at none. */
 static size_t newton_ends(const double *changes, size_t count, double scale, double rounding)

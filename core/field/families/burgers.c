@@ -32,7 +32,7 @@
 #include "core/clones.h"
 #include "core/count.h"
 #include "core/field/families/families.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 /* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
 GM_CLONES static void ftcs_printed(const double *restrict u, double *restrict v, size_t points, double k,

@@ -33,7 +33,7 @@
 #include "core/field/problems/frames.h"
 #include "core/larger.h"
 #include "core/linear/ring.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 enum { REACH = 2 /* of D3 */, PAD = 3, KNOWN = 6 /* nodes that P goes through */ };
 

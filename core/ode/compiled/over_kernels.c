@@ -24,11 +24,11 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/linear/settled.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/families/splitting/splitting.h"
 #include "core/scheme.h"
-#include "core/settled.h"
 
 /* Steps between two looks at whether they succeeded. The look and the copy for a second try take as long as some
    steps of a short scheme do: with 16 of them an eighth to a fifth of the time. */

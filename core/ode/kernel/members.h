@@ -2,9 +2,9 @@
 #ifndef GM_CORE_ODE_KERNEL_MEMBERS_H
 #define GM_CORE_ODE_KERNEL_MEMBERS_H
 
+#include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
 #include "core/scheme.h"
-#include "core/settled.h"
 
 /* The loop of families that advance a problem member by member, through its callbacks. */
 

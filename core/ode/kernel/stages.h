@@ -74,7 +74,6 @@ static inline double gm_rounding_of_stages(size_t size, size_t n, const double *
 static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLEAU_STAGES], const double *b,
                                         double *weights)
 {
-    enum { LARGEST = 1024 };
     double matrix[GM_TABLEAU_STAGES * GM_TABLEAU_STAGES], sum = 0;
     if (memcmp(a[stages - 1], b, stages * sizeof *b) == 0) {
         memset(weights, 0, stages * sizeof *b);
@@ -93,7 +92,7 @@ static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLE
     for (size_t i = 0; i < stages; i++) {
         sum += fabs(weights[i]);
     }
-    return sum < LARGEST;
+    return sum < 0x1p10;
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "core/field/families/boxes/modes.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 void gm_gauss_close(void *workspace)
 {

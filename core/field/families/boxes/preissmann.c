@@ -25,7 +25,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 GM_CLONES static void cell_means(const double *restrict a, const double *restrict b, double *restrict cells,
                                  size_t count)

@@ -16,7 +16,7 @@
 #include <string.h>
 
 #include "core/field/families/two_step.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 /* Arrays of real parts, each followed by its imaginary parts; the first member is the one that closes. */
 static double *array(const struct gm_two_step_work *work, size_t which)

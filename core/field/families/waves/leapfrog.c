@@ -19,7 +19,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 GM_CLONES static void explicit_step(const double *restrict past, const double *restrict now,
                                     const double *restrict force, double *restrict next, size_t points,

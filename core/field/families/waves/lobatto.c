@@ -29,7 +29,7 @@
 #include "core/field/multisymplectic.h"
 #include "core/larger.h"
 #include "core/linear/differences.h"
-#include "core/settled.h"
+#include "core/linear/settled.h"
 
 enum { STAGES = 3 };
 

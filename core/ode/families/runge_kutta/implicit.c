@@ -13,12 +13,12 @@
 #include <string.h>
 
 #include "core/count.h"
+#include "core/linear/settled.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
-#include "core/settled.h"
 #include "core/theory/coefficients.h"
 
 #define SQRT2 1.4142135623730950488016887242097

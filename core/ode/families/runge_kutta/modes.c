@@ -13,8 +13,8 @@
 
 #include "core/linear/complex_matrix.h"
 #include "core/linear/modes.h"
+#include "core/linear/settled.h"
 #include "core/ode/kernel/tiles.h"
-#include "core/settled.h"
 
 enum { ITERATIONS = 150, LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
 

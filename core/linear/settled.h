@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When an iteration has come to its end. The loops over kernels include this too, so all of it is inline. A change is
    the sum of magnitudes; the one before it starts as infinity. */
-#ifndef GM_CORE_SETTLED_H
-#define GM_CORE_SETTLED_H
+#ifndef GM_CORE_LINEAR_SETTLED_H
+#define GM_CORE_LINEAR_SETTLED_H
 
 #include <stdbool.h>
 #include <stddef.h>
