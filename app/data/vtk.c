@@ -376,7 +376,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
 }
 
-/* Of the rows from `from` on, up to one that may have been begun. */
+/* Of the rows from `from` on, up to one that may have been begun; with the last file its folder goes. */
 static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
                         uint64_t last)
 {
@@ -389,6 +389,11 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
             free(path);
         }
     }
+    char *folder = folder_of(saving);
+    if (folder) {
+        rmdir(folder);
+    }
+    free(folder);
 }
 
 /* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */

@@ -186,7 +186,8 @@ char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count)
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        fprintf(stream, "%s%" PRId64, i ? " " : "", lanes[i]->run->steps);
+        const struct gm_run *run = lanes[i]->run;
+        fprintf(stream, "%s%" PRId64, i ? " " : "", run->steps + (run->status != GM_OK));
     }
     fclose(stream);
     return text;

@@ -50,7 +50,8 @@ void gm_provenance_close(struct gm_provenance *provenance);
 #define GM_ON "--on"
 int gm_provenance_scene_place(const struct gm_arguments *command);
 
-/* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */
+/* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. A step that failed
+   counts: who makes the picture again has to try it. */
 char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
 
 /* A line for each lane that has failed; malloc'ed, NULL when memory is short. */

@@ -369,10 +369,16 @@ double gm_stability_limit(const struct gm_stability_table *table, const struct g
     const struct gm_stability *plan = table->plan;
     double limit = 0;
     for (size_t s = 0; s < plan->step_count; s++) {
+        bool open = false;
         for (size_t v = 0; v < plan->value_count; v++) {
-            if (map->cells[s * plan->value_count + v].verdict != GM_BOUNDED) {
+            const enum gm_cell_verdict verdict = map->cells[s * plan->value_count + v].verdict;
+            if (verdict != GM_BOUNDED && verdict != GM_UNTRIED) {
                 return limit;
             }
+            open = open || verdict == GM_UNTRIED;
+        }
+        if (open) {
+            return NAN;
         }
         limit = plan->steps[s];
     }

@@ -63,7 +63,8 @@ char gm_cell_letter(const struct gm_map_cell *cell);
 /* The letters in use, but that of what is asked: "W wrong, M mesh-crossing". Returns text. */
 const char *gm_stability_letters(const struct gm_stability_table *table, char *text, size_t size);
 
-/* The largest step, in the plan's unit, up to which a scheme is as asked for all values; 0: none. */
+/* The largest step, in the plan's unit, up to which a scheme is as asked for all values; 0: none. NAN
+   where cells that were not tried leave it open. */
 double gm_stability_limit(const struct gm_stability_table *table, const struct gm_stability_map *map);
 
 void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture *picture);

@@ -557,6 +557,10 @@ cmp -s pictures/disc-render.png new/three/disc-render-again.png || fail 'again m
 status 0 again pictures/disc-render.png --out pictures
 cmp -s pictures/disc-render.png pictures/disc-render-again.png || fail 'again is another picture'
 refused 1 '"q=2" is too much' again pictures/disc-render.png q=2
+# a lane that failed fails again: its picture says when
+status 0 render burgers scheme=ftcs lambda=1 until=0.3 --size 320x200 --out pictures
+status 0 again pictures/burgers-render.png --out pictures
+cmp -s pictures/burgers-render.png pictures/burgers-render-again.png || fail 'again leaves out that a lane failed'
 # a picture of an earlier version may tell a key that has no effect any more
 status 0 render room "mesh=$meshes/room-small.msh" steps=1 --size 320x200 --out pictures
 python3 - pictures/room-render.png pictures/older.png <<'END' || fail 'the arguments of a picture'

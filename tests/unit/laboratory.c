@@ -479,6 +479,8 @@ static void verdicts(void **unused)
         assert_int_equal(gm_cell_letter(&table.maps[2].cells[fifty]), '.');
     }
     assert_true(gm_stability_limit(&table, &table.maps[0]) == 1.95);
+    table.maps[0].cells[0].verdict = GM_UNTRIED; /* interrupted: that it is bounded at no step is not known */
+    assert_true(isnan(gm_stability_limit(&table, &table.maps[0])));
     gm_stability_close(&table);
     words[0] = (char[]){"disc"};
     assert_false(gm_stability_open(&table, &(const struct gm_arguments){words, 1}, NULL, message));

@@ -37,7 +37,9 @@ static void print_table(const union gm_study_table *all)
             printf("\n");
         }
         const double limit = gm_stability_limit(table, map);
-        if (limit > 0) {
+        if (isnan(limit)) {
+            printf("  how far it is %s is open: not every step was tried\n", gm_stability_judge(table));
+        } else if (limit > 0) {
             printf("  %s for all values up to %.4g\n", gm_stability_judge(table), limit);
         } else {
             printf("  at no step %s for all values\n", gm_stability_judge(table));
