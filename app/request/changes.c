@@ -86,8 +86,8 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     size_t lists = 0;
-    struct gm_arguments own = {
-        0}; /* what the scene's own lanes name is always told: else it would be theirs */
+    /* what the scene's own lanes name is always written: else it would be theirs */
+    struct gm_arguments own = {0};
     if (request->scene->lanes && !gm_arguments_split(&own, request->scene->lanes)) {
         gm_arguments_close(&own);
         fclose(stream);

@@ -20,8 +20,8 @@ struct kept {
     const struct gm_lane *lane;
     const struct gm_problem *problem; /* of one member */
     const struct gm_observable *row;
-    const struct gm_problem
-        *motion; /* that is certified, of what `problem` carries with tangents; NULL: all */
+    /* What is certified of `problem`, which carries tangents along; NULL: all. */
+    const struct gm_problem *motion;
 };
 
 /* The place among the components with tangents of one of the motion alone. */
