@@ -409,7 +409,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             before.state = view.start;
             const double factor = area(&view) / area(&before);
             panel = gm_walk_panel(picture, &walk,
-                                  isnan(factor) ? GM_UNRESOLVED_EDGE
+                                  isnan(factor) ? "edge not resolved"
                                                 : gm_picture_text(picture, "area × %.3f", factor));
             panel->x = x;
             panel->y = y;

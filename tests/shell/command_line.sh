@@ -557,6 +557,9 @@ cmp -s pictures/disc-render.png new/three/disc-render-again.png || fail 'again m
 status 0 again pictures/disc-render.png --out pictures
 cmp -s pictures/disc-render.png pictures/disc-render-again.png || fail 'again is another picture'
 refused 1 '"q=2" is too much' again pictures/disc-render.png q=2
+# what a panel says of an area without a number is short enough for three of them
+status 0 render disc system=pendulum p0=1.9 scheme=midpoint,rk4,gauss4 dt=0.1 until=20 --size 640x400 -o pictures/edge.svg
+[ "$(grep -c '>edge not resolved<' pictures/edge.svg)" = 3 ] || fail 'why a disc has no area is cut'
 # a lane that failed fails again: its picture says when
 status 0 render burgers scheme=ftcs lambda=1 until=0.3 --size 320x200 --out pictures
 status 0 again pictures/burgers-render.png --out pictures
