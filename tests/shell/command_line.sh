@@ -493,6 +493,8 @@ for word in '^geomint [0-9]' '^pictures: PNG' '^loops: [a-z0-9]*; systems of one
 done
 GEOMINT_PAINTER=own status 0 --version
 grep -q '^painter: own$' out || fail '--version does not say which painter GEOMINT_PAINTER names'
+GEOMINT_PAINTER=vulkan status 0 --version
+grep -q "^painter: none, as \"vulkan\" is no painter: $painters" out || fail '--version takes any word for a painter'
 GEOMINT_PAINTER='' status 0 --version
 grep -q '^painter: auto (osmesa for PNG' out || fail '--version does not say what paints'
 # what is loaded only when it is used is missed only then

@@ -18,6 +18,7 @@
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
+#include "render/pixels/canvas.h"
 #include "render/vector/cairo.h"
 
 static void print_libraries(void)
@@ -41,15 +42,19 @@ static void print_libraries(void)
 /* What depends on programs of others is looked for, and started only when it is wanted. */
 static void print_features(void)
 {
-    char path[GM_CACHE_PATH], kernels[GM_CACHE_PATH];
+    char path[GM_CACHE_PATH], kernels[GM_CACHE_PATH], message[GM_MESSAGE];
     struct stat about;
     struct gm_digest unused = gm_digest_open();
     gm_say("pictures: PNG, SVG, PDF; states: NPZ, CSV, VTK; movies: %s",
            gm_program_find("ffmpeg", path, &about) ? path : "none, as there is no ffmpeg");
     const char *painter = getenv("GEOMINT_PAINTER");
-    gm_say("painter: %s", painter && *painter
-                              ? painter
-                              : "auto (osmesa for PNG and movies where it can be loaded, else own)");
+    if (!gm_canvas_choose(NULL, message)) {
+        gm_say("painter: none, as %s", message);
+    } else {
+        gm_say("painter: %s", painter && *painter
+                                  ? painter
+                                  : "auto (osmesa for PNG and movies where it can be loaded, else own)");
+    }
     gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
     const bool sources = stat(kernels, &about) == 0, compiler = sources && gm_compiler_find(path, &unused);
     gm_say("loops: %s; systems of one's own: interpreted%s%s", gm_isa_name(gm_isa_best()),
