@@ -41,6 +41,7 @@ static double value_of_kept(const void *data, const double *y)
         whole[place_of(kept->motion, kept->problem->n, c)] = y[c];
     }
     view.start = view.state = kept->motion ? whole : y;
+    view.memory = NULL; /* which is of another state */
     view.observable = kept->row;
     return kept->row->evaluate(&view);
 }
@@ -52,6 +53,7 @@ static double error_of_lane(const void *data, double t, const double *y)
     struct gm_view view = gm_lane_view(kept->lane);
     view.t = t;
     view.state = y;
+    view.memory = NULL;
     view.observable = kept->row;
     return kept->row->evaluate(&view);
 }

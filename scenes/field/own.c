@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "core/count.h"
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"
@@ -410,23 +411,26 @@ static double crest(const struct gm_view *view)
     return gm_line_node(line, top) + (bend < 0 ? line->dx * (left - right) / (2 * bend) : 0);
 }
 
-/* The integral of a density of components, of their means in the cells. */
+/* The integral of a density of components, by Gauss's rule at the stages of the cells: of one stage, of their means. */
 static double integral_of_cells(const struct gm_view *view, const struct gm_tape *density, bool magnitude)
 {
     const struct gm_own_system *system = &field_of(view)->system;
     const struct gm_line *line = &view->problem->line;
-    const double *jump = gm_field_of(view->problem)->form->jump;
-    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, value;
-    for (size_t i = 0; values && i < line->points; i++) {
+    const struct gm_collocation_tableau *tableau = view->scheme->coefficients;
+    const size_t r = tableau->r;
+    double *stages = gm_any_form_stages(view->problem, view->scheme, view->dt, view->state, view->memory);
+    double *values = values_of(view->parameters, NULL), sum = values && stages ? 0 : NAN, value;
+    for (size_t at = 0; values && stages && at < r * line->points; at++) {
+        const size_t i = at / r, m = at % r;
         for (size_t c = 0; c < system->n; c++) {
-            const double *u = view->state + c * line->points;
-            values[c] = (u[i] + (i + 1 < line->points ? u[i + 1] : u[0] + jump[c])) / 2;
+            values[c] = stages[(c * r + m) * line->points + i];
         }
-        values[system->velocities] = gm_line_node(line, i) + line->dx / 2;
+        values[system->velocities] = gm_line_node(line, i) + tableau->c[m] * line->dx;
         gm_tape_values(density, values, &value, 1);
-        sum += magnitude ? fabs(value) : value;
+        sum += tableau->b[m] * (magnitude ? fabs(value) : value);
     }
     free(values);
+    free(stages);
     return sum * line->dx;
 }
 

@@ -32,6 +32,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .tracks = lane->entries,
         .run = lane->run,
         .worked = lane->worked,
+        .initials = lane->initials,
         .cancelled = lane->cancelled,
         .side = lane->side,
     };
@@ -39,30 +40,44 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
 
 /* ---- what is observed ---- */
 
-/* What an error is divided by, and the value at the start. */
-static double divisor_of(const struct gm_observable *observable, const struct gm_view *view, double *initial)
+static double initial_of(const struct gm_observable *observable, const struct gm_view *view)
 {
-    struct gm_view before = *view;
-    before.state = view->start;
-    before.t = view->t0;
-    *initial = gm_observe(observable, &before);
-    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view));
+    return view->initials[observable - view->scene->observables];
+}
+
+/* What an error is divided by. */
+static double divisor_of(const struct gm_observable *observable, const struct gm_view *view)
+{
+    const double divisor = fmax(fabs(initial_of(observable, view)), gm_observable_scale(observable, view));
     return divisor > 0 ? divisor : 1;
 }
 
-/* Which observables start as a difference of large terms: round-off, or little more. */
-static void find_cancelled(struct gm_lane *lane)
+/* A lane stands still where there was no memory to look at it. */
+static void settle(struct gm_lane *lane, unsigned long refusals)
+{
+    if (gm_memory_refusals() != refusals) {
+        lane->run->status = GM_OUT_OF_MEMORY;
+    }
+}
+
+/* What errors are errors from, once for every scheme that goes on with the lane: it may see space in its own way. Some
+   start as a difference of large terms: round-off, or little more. */
+static void look_at_start(struct gm_lane *lane)
 {
     const double most = 1e-8;
+    const unsigned long refusals = gm_memory_refusals();
     struct gm_view before = gm_lane_view(lane);
     before.state = lane->start;
     before.t = lane->t0;
+    before.memory = NULL;
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        before.observable = &lane->scene->observables[i];
-        const double terms = before.observable->terms ? before.observable->terms(&before) : 0;
-        const bool cancels = terms > 0 && fabs(gm_observe(before.observable, &before)) <= most * terms;
+        const struct gm_observable *observable = before.observable = &lane->scene->observables[i];
+        const double terms = observable->terms ? observable->terms(&before) : 0;
+        lane->initials[i] = observable->error ? gm_observe(observable, &before) : 0;
+        const bool cancels = terms > 0 && fabs(lane->initials[i]) <= most * terms;
         lane->cancelled[i] = cancels && isfinite(terms) ? terms : 0;
     }
+    settle(lane, refusals);
 }
 
 /* `near`: where an angle was when it was last looked at */
@@ -75,9 +90,7 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
     if (!observable->error) {
         return value;
     }
-    double initial = 0;
-    const double divisor = divisor_of(observable, view, &initial);
-    return fabs(value - initial) / divisor;
+    return fabs(value - initial_of(observable, view)) / divisor_of(observable, view);
 }
 
 /* Those that are asked for are no angles. */
@@ -105,8 +118,7 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);
-    double initial = 0;
-    return divisor_of(&lane->scene->observables[observable], &view, &initial);
+    return divisor_of(&lane->scene->observables[observable], &view);
 }
 
 long gm_lane_lost(const struct gm_lane *lane)
@@ -119,8 +131,8 @@ long gm_lane_lost(const struct gm_lane *lane)
         if (!observable->kept) {
             continue;
         }
-        double initial = 0;
-        const double divisor = divisor_of(observable, &view, &initial), value = gm_observe(observable, &view);
+        const double initial = initial_of(observable, &view), divisor = divisor_of(observable, &view),
+                     value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
         const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
@@ -142,9 +154,7 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_observable *observable = &lane->scene->observables[lost];
     const struct gm_view view = gm_lane_view(lane);
     const double error = gm_lane_observe(lane, (size_t)lost);
-    double initial = 0;
-    divisor_of(observable, &view, &initial);
-    const double left = gm_observe(observable, &view) / initial;
+    const double left = gm_observe(observable, &view) / initial_of(observable, &view);
     if (error <= GM_LOST_ABOVE && left >= 0) {
         snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
                  observable->key, error, left);
@@ -170,14 +180,6 @@ static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
             const double angle = observe(observable, view, lane->angles[i]);
             lane->angles[i] = isfinite(angle) ? angle : lane->angles[i];
         }
-    }
-}
-
-/* A lane stands still where there was no memory to look at it. */
-static void settle(struct gm_lane *lane, unsigned long refusals)
-{
-    if (gm_memory_refusals() != refusals) {
-        lane->run->status = GM_OUT_OF_MEMORY;
     }
 }
 
@@ -493,7 +495,7 @@ void gm_lane_close(struct gm_lane *lane)
         }
     }
     free(lane->worked);
-    free(lane->cancelled);
+    free(lane->initials);
     gm_run_close(lane->run);
     if (lane->scene->close) {
         lane->scene->close(&lane->problem);
@@ -575,13 +577,14 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
-    lane->cancelled = calloc(scene->observable_count + 1, sizeof *lane->cancelled);
-    if (!lane->run || !lane->worked || !lane->cancelled ||
+    lane->initials = calloc(2 * scene->observable_count + 1, sizeof *lane->initials);
+    if (!lane->run || !lane->worked || !lane->initials ||
         !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
         !open_tracks(lane)) {
         return gm_refuse(sentence, "not enough memory");
     }
-    find_cancelled(lane);
+    lane->cancelled = lane->initials + scene->observable_count;
+    look_at_start(lane);
     if (scene->stop) {
         lane->run->looks_back = true;
         const struct gm_view view = gm_lane_view(lane);
@@ -637,6 +640,7 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
     gm_run_close(lane->run);
     lane->run = run;
     lane->scheme = scheme;
+    look_at_start(lane);
     return true;
 }
 
@@ -655,7 +659,7 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
         return NULL;
     }
     memcpy(other->start, lane->start, lane->problem.n * lane->problem.m * sizeof *other->start);
-    find_cancelled(other);
+    look_at_start(other);
     ((struct gm_timing *)other->parameters)->dt = lane->run->dt;
     return other;
 }
@@ -692,7 +696,10 @@ bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
         return false;
     }
     const int64_t step = lane->run->steps;
-    lane->scheme = lane->run->scheme;
+    if (lane->scheme != lane->run->scheme) {
+        lane->scheme = lane->run->scheme;
+        look_at_start(lane);
+    }
     ((struct gm_timing *)lane->parameters)->dt = lane->run->dt;
     show_switches(lane, step);
     gm_history_show(&lane->history, step);

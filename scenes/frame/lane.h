@@ -42,8 +42,8 @@ struct gm_lane {
     struct gm_entries *entries; /* one per track */
     double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
     struct gm_worked *worked;   /* GM_WORKED */
-    double *cancelled;          /* per observable: struct gm_view */
-    struct gm_behind behind;    /* of sections, and of the stop */
+    double *initials, *cancelled; /* per observable: struct gm_view; of one piece of memory */
+    struct gm_behind behind;      /* of sections, and of the stop */
     int side; /* of the scene's stop at the start: -1 below 0, 1; 0: on it, until the first step leaves it */
     int64_t followed; /* after how many steps it was looked at last */
     bool unfollowed;  /* nobody asks what lies on the way: gm_lane_to makes its steps at once */

@@ -39,14 +39,15 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
-    const double *memory;                   /* the scheme's own; NULL if it has none */
+    const double *memory;                   /* the scheme's own; NULL if it has none, and at the start */
     const struct gm_entries *tracks;        /* the scene's, as recorded so far; NULL while a lane is opened */
     const struct gm_run *run;               /* for what a scheme says of itself */
     size_t member;                          /* that a track with `each` is asked of */
     const struct gm_observable *observable; /* the one that is evaluated (gm_observe) */
     struct gm_worked *worked;               /* the lane's, GM_WORKED of them */
-    const double *cancelled;                /* of each of the scene's observables: its terms, or 0; or NULL */
-    int side;                               /* of the scene's stop at the start: struct gm_lane */
+    const double *initials;  /* of each of the scene's observables with `error`: x at the start */
+    const double *cancelled; /* of each of the scene's observables: its terms, or 0; or NULL */
+    int side;                /* of the scene's stop at the start: struct gm_lane */
 };
 
 /* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate, and

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -308,6 +309,36 @@ static void schroedinger_solitons(void **unused)
     print_message("nls collision: charge error at most %.2g\n", charge);
     assert_true(charge < 4e-13);
     field_run_close(&run);
+
+    /* by another program: the same splitting, and the energy of the derivative by Fourier modes */
+    static const double steps[] = {0.005, 0.00125}, energy_errors[] = {7.737e-4, 4.850e-5};
+    for (size_t i = 0; i < GM_COUNT(steps); i++) {
+        char split[80];
+        snprintf(split, sizeof split, "nls scheme=split-step2 until=5 dt=%g", steps[i]);
+        run = field_run_make(split, 0);
+        expect_within(split, field_run_largest(&run, "energy_error"), energy_errors[i], 1e-3);
+        field_run_close(&run);
+    }
+}
+
+/* The Gauss box of one stage is the box, and has its energy: at the nodes the error is that of the grid. */
+static void one_stage_is_the_box(void **unused)
+{
+    (void)unused;
+    static const char *const schemes[] = {"box", "gauss-box2"};
+    double errors[2][2];
+    for (size_t i = 0; i < 4; i++) {
+        char words[80];
+        snprintf(words, sizeof words, "sine-gordon scheme=%s dt=%s until=2", schemes[i / 2],
+                 i % 2 ? "0.005" : "0.02");
+        struct field_run run = field_run_make(words, 0);
+        errors[i / 2][i % 2] = field_run_largest(&run, "own_energy_error");
+        field_run_close(&run);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        expect_within(schemes[i], errors[i][0], 8.04e-5, 1e-2);
+        expect_within("  of a quarter of the step", errors[i][1], 8.04e-5 / 16, 2e-2);
+    }
 }
 
 static void waves_on_a_ring(void **unused)
@@ -334,6 +365,7 @@ int main(void)
         cmocka_unit_test(the_local_laws_of_the_box),  cmocka_unit_test(the_law_of_the_box),
         cmocka_unit_test(korteweg_de_vries_solitons), cmocka_unit_test(the_cosine_of_zabusky_and_kruskal),
         cmocka_unit_test(schroedinger_solitons),      cmocka_unit_test(waves_on_a_ring),
+        cmocka_unit_test(one_stage_is_the_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -316,6 +316,13 @@ grep -q 'measured nowhere: dt is beyond' out || fail "phi4, long steps, certifie
 status 0 certify box --on nonlinear-dirac points=201
 grep -q 'Q keeps quadratic invariants *not claimed *defect .*e-1[4-6] (charge_error)' out ||
     fail "nonlinear-dirac, certified: $(cat out)"
+# of more stages the charge is that of the stages: of means in cells its error would be the grid's, 1e-6
+status 0 run nonlinear-dirac scheme=gauss-box3 dt=0.05,0.0125 until=0.5 --max --measure charge_error --json
+python3 -c '
+import json, sys
+errors = [json.loads(line)["observables"]["charge_error_max"] for line in open("out")]
+assert len(errors) == 2 and max(errors) < 1e-12, errors
+' || fail "nonlinear-dirac by gauss-box3: $(cat out)"
 # central differences do not keep what midpoint would: it is not blamed for that
 status 0 certify midpoint --on bbm
 grep -q 'L keeps linear invariants *holds *defect .* (mass_error)' out &&

@@ -9,12 +9,13 @@
    Values at the nodes are found of those at the stages, and the other way round at the start: of one stage they are
    means, so that on an odd number of cells a step is the box's of nodes to the last digits. On an even number no mean
    shows the part that alternates from node to node; it is left out. */
+#include "core/field/families/boxes/any_form.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/count.h"
-#include "core/field/families/boxes/collocation.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
@@ -216,6 +217,31 @@ static enum gm_status start(const struct gm_task *task)
     }
     remember(work, 1, task->memory_out);
     return GM_OK;
+}
+
+double *gm_any_form_stages(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                           const double *y, const double *remembered)
+{
+    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    double *begun = calloc(memory(problem, scheme), sizeof *begun);
+    double *stages = work ? malloc(of_level(work) * sizeof *stages) : NULL;
+    if (stages && begun) {
+        const struct gm_task task = {
+            .problem = problem, .scheme = scheme, .dt = dt, .y = y, .memory_out = begun, .workspace = work};
+        if (!remembered) {
+            start(&task);
+        }
+        memcpy(stages, (remembered ? remembered : begun) + ARRAYS, of_level(work) * sizeof *stages);
+    }
+    if (work) {
+        gm_collocation_close(work);
+    }
+    if (!begun) {
+        free(stages);
+        stages = NULL;
+    }
+    free(begun);
+    return stages;
 }
 
 /* The solution becomes the first of the past ones. */

@@ -344,6 +344,7 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .in_cells = true,
     },
     {
         .name = "gauss-box3",

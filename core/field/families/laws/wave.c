@@ -81,7 +81,7 @@ static enum gm_wave_law law_of(const struct gm_scheme *scheme)
 
 double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
 {
-    return law_of(scheme) == GM_LAW_CELLS ? gm_wave_cell_energy(problem, y) : gm_wave_energy(problem, y);
+    return scheme->in_cells ? gm_wave_cell_energy(problem, y) : gm_wave_energy(problem, y);
 }
 
 double gm_wave_momentum(const struct gm_problem *problem, const double *y)
