@@ -59,7 +59,7 @@ static const struct row rows[] = {
      "run: a row of --csv and --save, render: a frame, every K steps"},
     {"--interval", RATE, GM_RUN, AT(interval), "T",
      "a row at the steps next to multiples of T in model time"},
-    {"--save", TEXT, GM_RUN, AT(save), "FILE", "write the states to FILE: .npz, .csv or .pvd"},
+    {"--save", TEXT, GM_RUN, AT(save), "FILE", "write the states to FILE: .npz, .csv, .pvd or .xdmf"},
     {"--save-tracks", TEXT, GM_RUN, AT(tracks), "FILE", "write trails, sections ... to FILE.npz"},
     {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE", "keep the state in FILE, to be gone on with"},
     {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "go on from a checkpoint"},

@@ -67,6 +67,7 @@ struct gm_data_format {
     const char *(*refuse)(const struct gm_run *one, const struct gm_run *other);
 };
 
-extern const struct gm_data_format gm_data_format_npz, gm_data_format_csv, gm_data_format_pvd;
+extern const struct gm_data_format gm_data_format_npz, gm_data_format_csv, gm_data_format_pvd,
+    gm_data_format_xdmf;
 
 #endif

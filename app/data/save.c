@@ -26,7 +26,7 @@ struct gm_save {
 };
 
 static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
-                                                       &gm_data_format_pvd};
+                                                       &gm_data_format_pvd, &gm_data_format_xdmf};
 enum { FORMATS = GM_COUNT(formats) };
 
 static const struct gm_data_format *format_of(const char *path)
@@ -46,7 +46,7 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
 {
     const struct gm_data_format *format = format_of(path);
     if (!format) {
-        return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
+        return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd, .xdmf", path);
     }
     const bool compares = format->refuse && request->count > 1;
     struct gm_lane *first = compares ? gm_request_open_lane(request, 0, message) : NULL;

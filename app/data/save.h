@@ -8,7 +8,7 @@
 #include "core/run.h"
 
 /* The states of lanes, one lane after the other, as a file that other programs read: .npz, .csv, .pvd with
-   .vtu files. The file appears when it is complete, but for .pvd, which grows. */
+   .vtu files, .xdmf with .bin files. The file appears when it is complete, but for these two, which grow. */
 
 struct gm_save;
 

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* States for VTK: FILE.pvd is a list of times and files; these lie in the folder FILE, one .vtu file a row
    for the mesh, the line or the bodies, and one for the tracers. "VTK XML Formats", vtk.org; raw appended
-   data, lowest byte first. The file of a lane in the making holds its lines of the list. */
+   data, lowest byte first. The file of a lane in the making holds its lines of the list.
+
+   FILE.xdmf is a list of times, too, and of places in one file a lane, laneN.bin in the folder FILE, which has the
+   arrays that do not change once, and then the others, row by row. "XDMF Model and Format", xdmf.org. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -39,6 +42,7 @@ struct array {
     enum section section;
     const char *name, *type;
     size_t components, tuples, item; /* item: bytes of a number */
+    bool fixed;                      /* the same in all rows */
     const struct gm_quantity *quantity;
     void (*write)(const struct group *group, FILE *file);
 };
@@ -221,7 +225,7 @@ static enum section section_of(const struct group *group, const struct gm_quanti
 static size_t list_arrays(const struct group *group, struct array arrays[LONGEST])
 {
     size_t count = 0;
-    arrays[count++] = (struct array){FIELD, "TimeValue", "Float64", 1, 1, 8, NULL, write_time};
+    arrays[count++] = (struct array){FIELD, "TimeValue", "Float64", 1, 1, 8, false, NULL, write_time};
     for (size_t i = 0; i < group->lane->count; i++) {
         const struct gm_quantity *quantity = &group->lane->quantities[i];
         const enum section section = section_of(group, quantity);
@@ -233,18 +237,26 @@ static size_t list_arrays(const struct group *group, struct array arrays[LONGEST
                 quantity->width > 1 ? SOLID : 1,
                 section == POINT && group->apart ? group->points : quantity->count * group->lane->members,
                 8,
+                quantity->fixed,
                 quantity,
                 NULL};
         }
     }
     const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
+    const bool stays = !group->height && group->axes[0]->fixed;
     arrays[count++] =
-        (struct array){PLACES, "Points", "Float64", SOLID, group->points, 8, NULL, write_places};
+        (struct array){PLACES, "Points", "Float64", SOLID, group->points, 8, stays, NULL, write_places};
     arrays[count++] =
-        (struct array){TOPOLOGY, "connectivity", "Int64", 1, corners, 8, NULL, write_connectivity};
-    arrays[count++] = (struct array){TOPOLOGY, "offsets", "Int64", 1, group->cells, 8, NULL, write_offsets};
-    arrays[count++] = (struct array){TOPOLOGY, "types", "UInt8", 1, group->cells, 1, NULL, write_types};
+        (struct array){TOPOLOGY, "connectivity", "Int64", 1, corners, 8, true, NULL, write_connectivity};
+    arrays[count++] =
+        (struct array){TOPOLOGY, "offsets", "Int64", 1, group->cells, 8, true, NULL, write_offsets};
+    arrays[count++] = (struct array){TOPOLOGY, "types", "UInt8", 1, group->cells, 1, true, NULL, write_types};
     return count;
+}
+
+static uint64_t bytes_of(const struct array *array)
+{
+    return array->components * array->tuples * array->item;
 }
 
 static void write_head(const struct group *group, const struct array *arrays, size_t count, FILE *file)
@@ -265,7 +277,7 @@ static void write_head(const struct group *group, const struct array *arrays, si
                         section == FIELD ? "NumberOfTuples" : "NumberOfComponents",
                         section == FIELD ? arrays[i].tuples : arrays[i].components, offset);
             }
-            offset += sizeof offset + arrays[i].components * arrays[i].tuples * arrays[i].item;
+            offset += sizeof offset + bytes_of(&arrays[i]);
         }
         fprintf(file, "</%s>\n", names[section]);
         if (section == FIELD) {
@@ -274,6 +286,19 @@ static void write_head(const struct group *group, const struct array *arrays, si
         }
     }
     fputs("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
+}
+
+/* False with errno. */
+static bool write_array(const struct group *group, const struct array *array, FILE *file)
+{
+    const off_t before = ftello(file);
+    if (array->write) {
+        array->write(group, file);
+    } else {
+        write_values(group, array, file);
+    }
+    errno = ferror(file) ? errno : ENOMEM;
+    return !ferror(file) && ftello(file) - before == (off_t)bytes_of(array);
 }
 
 static bool write_group(const struct group *group, const char *path)
@@ -287,16 +312,9 @@ static bool write_group(const struct group *group, const char *path)
     write_head(group, arrays, count, file);
     bool good = true;
     for (size_t i = 0; i < count; i++) {
-        const uint64_t size = arrays[i].components * arrays[i].tuples * arrays[i].item;
+        const uint64_t size = bytes_of(&arrays[i]);
         fwrite(&size, sizeof size, 1, file);
-        const off_t before = ftello(file);
-        if (arrays[i].write) {
-            arrays[i].write(group, file);
-        } else {
-            write_values(group, &arrays[i], file);
-        }
-        errno = ferror(file) ? errno : ENOMEM;
-        good = good && !ferror(file) && ftello(file) - before == (off_t)size;
+        good = write_array(group, &arrays[i], file) && good;
     }
     fputs("\n</AppendedData>\n</VTKFile>\n", file);
     int why = errno;
@@ -311,10 +329,10 @@ static bool write_group(const struct group *group, const char *path)
     return good;
 }
 
-/* The folder of the .vtu files, FILE without its ending; malloc'ed. */
+/* The folder of the files beside the list, FILE without its ending; malloc'ed. */
 static char *folder_of(const struct gm_saving *saving)
 {
-    return strndup(saving->path, strlen(saving->path) - strlen(gm_data_format_pvd.ending));
+    return strndup(saving->path, (size_t)(strrchr(saving->path, '.') - saving->path));
 }
 
 static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
@@ -350,7 +368,7 @@ static const struct {
     const char *ending;
 } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
 
-static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const char *slash = strrchr(saving->path, '/');
     /* of the files' paths, which the list leaves out */
@@ -376,11 +394,164 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
 }
 
+/* The groups of a lane with their arrays, and where those of the file of all rows are. */
+struct places {
+    size_t groups, counts[GM_COUNT(groups)];
+    struct group group[GM_COUNT(groups)];
+    struct array arrays[GM_COUNT(groups)][LONGEST];
+    uint64_t head, row; /* bytes of the arrays that do not change, and of a row of the others */
+};
+
+static void find_places(const struct gm_saved *lane, const struct gm_run *run, struct places *places)
+{
+    *places = (struct places){0};
+    for (size_t g = 0; g < GM_COUNT(groups); g++) {
+        if (!group_of(lane, run, groups[g].support, &places->group[places->groups])) {
+            continue;
+        }
+        struct array *arrays = places->arrays[places->groups];
+        const size_t all = list_arrays(&places->group[places->groups], arrays);
+        size_t count = 0;
+        for (size_t i = 0; i < all; i++) {
+            if (arrays[i].write == write_time || arrays[i].write == write_offsets ||
+                arrays[i].write == write_types) {
+                continue; /* the list tells the time, and the topology's name the others */
+            }
+            arrays[count++] = arrays[i];
+            *(arrays[i].fixed ? &places->head : &places->row) += bytes_of(&arrays[i]);
+        }
+        places->counts[places->groups++] = count;
+    }
+}
+
+static uint64_t place_of_row(const struct places *places, uint64_t row)
+{
+    return row > 0 ? places->head + row * places->row : 0;
+}
+
+/* The file of a lane's rows; malloc'ed. */
+static char *rows_path_of(const struct gm_saving *saving, const struct gm_saved *lane)
+{
+    char *folder = folder_of(saving), *path = NULL;
+    if (folder && asprintf(&path, "%s/lane%zu.bin", folder, lane->index) < 0) {
+        path = NULL;
+    }
+    free(folder);
+    return path;
+}
+
+/* An array that begins at a place of the file of that name. */
+static bool put_item(struct gm_column *lines, const struct group *group, const struct array *array,
+                     uint64_t place, const char *name)
+{
+    static const char *const topologies[] = {
+        [POINTS] = "Polyvertex", [LINE] = "Polyline", [TRIANGLES] = "Triangle"};
+    static const char *const centres[] = {[FIELD] = "Grid", [POINT] = "Node", [CELL] = "Cell"};
+    const char *element = "Attribute";
+    size_t tuples = array->tuples, components = array->components;
+    bool good = true;
+    if (array->section == TOPOLOGY) {
+        element = "Topology";
+        tuples = group->cells;
+        components = array->tuples / tuples;
+        good = gm_column_print(
+            lines, "<Topology TopologyType=\"%s\" NumberOfElements=\"%zu\" NodesPerElement=\"%zu\">",
+            topologies[group->shape], tuples, components);
+    } else if (array->section == PLACES) {
+        element = "Geometry";
+        good = gm_column_print(lines, "<Geometry GeometryType=\"XYZ\">");
+    } else {
+        good = gm_column_print(lines, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">",
+                               array->name, components > 1 ? "Vector" : "Scalar", centres[array->section]);
+    }
+    return good &&
+           gm_column_print(
+               lines,
+               "<DataItem Dimensions=\"%zu %zu\" NumberType=\"%s\" Precision=\"8\" Format=\"Binary\" "
+               "Endian=\"Little\" Seek=\"%" PRIu64 "\">",
+               tuples, components, array->section == TOPOLOGY ? "Int" : "Float", place) &&
+           gm_column_put(lines, name, strlen(name)) && gm_column_print(lines, "</DataItem></%s>", element);
+}
+
+/* The line of a row. */
+static bool put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
+{
+    struct gm_column *lines = &lane->columns[0];
+    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* of arrays that change, and of others */
+    bool good = gm_column_print(
+        lines,
+        "<Grid Name=\"row\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"%.17g\"/>", t);
+    for (size_t g = 0; g < places->groups && good; g++) {
+        good = gm_column_print(lines, "<Grid Name=\"%s\"><Time Value=\"%.17g\"/>",
+                               places->group[g].support == GM_ON_TRACERS ? "tracers" : "state", t);
+        for (size_t i = 0; i < places->counts[g] && good; i++) {
+            const struct array *array = &places->arrays[g][i];
+            good = put_item(lines, &places->group[g], array, at[array->fixed], name);
+            at[array->fixed] += bytes_of(array);
+        }
+        good = good && gm_column_print(lines, "</Grid>");
+    }
+    return good && gm_column_print(lines, "</Grid>\n") && gm_column_flush(lines);
+}
+
+static bool row_of_one_file(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+{
+    struct places places;
+    find_places(lane, run, &places);
+    errno = ENOMEM;
+    char *path = rows_path_of(saving, lane);
+    FILE *file = path ? fopen(path, lane->rows > 0 ? "r+be" : "wbe") : NULL;
+    bool good = file && fseeko(file, (off_t)place_of_row(&places, lane->rows), SEEK_SET) == 0;
+    for (int fixed = lane->rows == 0; fixed >= 0; fixed--) {
+        for (size_t g = 0; g < places.groups; g++) {
+            for (size_t i = 0; i < places.counts[g] && good; i++) {
+                const struct array *array = &places.arrays[g][i];
+                good = array->fixed != (fixed == 1) || write_array(&places.group[g], array, file);
+            }
+        }
+    }
+    const int why = errno;
+    if (file && fclose(file) != 0 && good) {
+        good = false;
+    } else {
+        errno = why;
+    }
+    const char *slash = strrchr(saving->path, '/');
+    good = good && put_row(lane, &places, run->t, path + (slash ? slash + 1 - saving->path : 0));
+    free(path);
+    return good;
+}
+
+static bool is_of_files(const struct gm_saving *saving)
+{
+    return strcmp(strrchr(saving->path, '.'), gm_data_format_pvd.ending) == 0;
+}
+
+static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+{
+    return is_of_files(saving) ? row_of_files(saving, lane, run) : row_of_one_file(saving, lane, run);
+}
+
+static void shorten(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t rows)
+{
+    struct places places;
+    find_places(lane, NULL, &places);
+    char *path = rows_path_of(saving, lane);
+    const bool cut = path && rows > 0 && truncate(path, (off_t)place_of_row(&places, rows)) == 0;
+    if (path && !cut && rows == 0) { /* what is longer than its rows is read all the same */
+        unlink(path);
+    }
+    free(path);
+}
+
 /* Of the rows from `from` on, up to one that may have been begun; with the last file its folder goes. */
 static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
                         uint64_t last)
 {
-    for (uint64_t row = from; row <= last; row++) {
+    if (!is_of_files(saving)) {
+        shorten(saving, lane, from);
+    }
+    for (uint64_t row = from; row <= last && is_of_files(saving); row++) {
         for (size_t i = 0; i < GM_COUNT(groups); i++) {
             char *path = path_of(saving, lane, row, groups[i].ending);
             if (path) {
@@ -424,14 +595,21 @@ static bool copy_lines(const struct gm_saving *saving, const struct gm_saved *la
 
 static bool list(const struct gm_saving *saving, FILE *file)
 {
-    bool good = fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-                      "byte_order=\"LittleEndian\">\n<Collection>\n",
+    const bool files = is_of_files(saving);
+    bool good = fputs(files ? "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                              "byte_order=\"LittleEndian\">\n<Collection>\n"
+                            : "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n",
                       file) >= 0;
     for (size_t i = 0; i < saving->begun && good; i++) {
         const char *meta = saving->lanes[i].meta; /* not before the lane has ended */
-        good = (!meta || put_meta(meta, file)) && copy_lines(saving, &saving->lanes[i], file);
+        if (!files) {
+            fprintf(file, "<Grid Name=\"lane%zu\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+                    saving->lanes[i].index);
+        }
+        good = (!meta || put_meta(meta, file)) && copy_lines(saving, &saving->lanes[i], file) &&
+               (files || fputs("</Grid>\n", file) >= 0);
     }
-    return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
+    return good && fputs(files ? "</Collection>\n</VTKFile>\n" : "</Domain>\n</Xdmf>\n", file) >= 0;
 }
 
 static void cut(const struct gm_saving *saving, struct gm_saved *lane)
@@ -468,3 +646,5 @@ static bool end(const struct gm_saving *saving, struct gm_saved *lane)
 
 const struct gm_data_format gm_data_format_pvd = {
     .ending = ".pvd", .begin = begin, .row = row, .cut = cut, .end = end, .list = list, .drop = drop};
+const struct gm_data_format gm_data_format_xdmf = {
+    .ending = ".xdmf", .begin = begin, .row = row, .cut = cut, .end = end, .list = list, .drop = drop};

@@ -103,6 +103,7 @@ COMMANDS = [
     ("certify SHARE/schemes/kutta38.scheme --json", {}),
     ("backward kepler scheme=verlet until=1 -o OUT/a.svg", {}),
     ("run cavity steps=2 rows=14 columns=10 --save OUT/a.pvd", {}),
+    ("run cavity steps=2 rows=14 columns=10 --save OUT/a.xdmf", {}),
     ("run kepler steps=9 --continue OUT/a.checkpoint --json",
      {"before": "run kepler steps=5 --checkpoint OUT/a.checkpoint"}),
     ("cache", {}),
