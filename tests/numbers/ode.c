@@ -351,8 +351,8 @@ static void variational(void **unused)
 }
 
 /* Neither at the defaults of a scene nor in a published figure is anything lost that the exact motion keeps,
-   but by implicit Euler on stiff springs, which damps them, and by a box past its stability. Flows have no
-   such observable. */
+   but by explicit Euler in the figure of its error, by implicit Euler on stiff springs, which damps them, and by a box
+   past its stability. Flows have no such observable. */
 static void good_runs_do_not_warn(void **unused)
 {
     (void)unused;
@@ -364,7 +364,9 @@ static void good_runs_do_not_warn(void **unused)
         }
         for (size_t f = 0; kept && f <= scene->figure_count; f++) {
             const char *words = f < scene->figure_count ? scene->figures[f].arguments : scene->lanes;
-            gm_trial_expect_warning(scene, words ? words : "", false);
+            const bool lost =
+                f < scene->figure_count && strcmp(scene->figures[f].name, "razafindralandy-5-euler") == 0;
+            gm_trial_expect_warning(scene, words ? words : "", lost);
         }
         for (const char *const *name = scene->schemes; kept && *name; name++) {
             char words[96];
