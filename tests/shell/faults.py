@@ -369,11 +369,11 @@ def main():
             if arguments.only in words:
                 command = Command(words, options, arguments, folder)
                 jobs += [(words, kind, pool.submit(sweep, command, kind, arguments)) for kind in ("memory", "files")]
-        for names in SYSTEMS:
-            for words in [words.replace("NAME", names[arguments.day % len(names)]) for words in EACH]:
-                if arguments.only in words:
-                    command = Command(words, {"partial": True}, arguments, folder)
-                    jobs += [(words, kind, pool.submit(sweep_each, command, kind)) for kind in ("memory", "streams")]
+        each = [words.replace("NAME", names[arguments.day % len(names)]) for names in SYSTEMS for words in EACH]
+        for words in todays(each, arguments):
+            if arguments.only in words:
+                command = Command(words, {"partial": True}, arguments, folder)
+                jobs += [(words, kind, pool.submit(sweep_each, command, kind)) for kind in ("memory", "streams")]
         limits = [("osmesa", megabytes) for megabytes in (50, 100, 180, 220, 240, 260, 280, 285, 290, 300, 400)]
         limits += [("own", megabytes) for megabytes in (26, 28, 30, 32, 36, 40, 50, 100)]
         limits += [("auto", megabytes) for megabytes in (40, 100, 280)]
