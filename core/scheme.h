@@ -76,6 +76,7 @@ struct gm_scheme {
     /* What pictures and sentences ask of it beside. */
     const struct gm_step_limit *limit; /* NULL: none is told */
     bool steady;                       /* its steps lead to a steady state: there is no time */
+    bool in_modes;                     /* a field is the trigonometric polynomial through its nodes */
     bool in_cells; /* what it keeps of a field is made of means in cells, not of values at nodes */
     /* Of a scheme that was brought along: the word that makes it again, wherever a name may stand; and what
        theory knows it by. NULL: it is a row of its family. */

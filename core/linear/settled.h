@@ -25,6 +25,13 @@
 #define GM_SWEEPS_CONTRACT(change, before_previous, roundoff)                                                \
     (((change) <= 0.25 * (before_previous)) | ((change) <= (roundoff)))
 
+/* Whether the rounding of the terms of h f can decide that Newton's method is at its end: by the rule below the change
+   before is then less than 2^-26 of the scale. */
+static inline bool gm_rounding_decides(double scale, double previous)
+{
+    return previous <= 0x1p-26 * scale;
+}
+
 /* The same of Newton's method for stages. scale: the sum of |y| + |z|; rounding: that of the terms of h f. Without it
    stiff equations with long steps never settle; without a bound on it a first guess does whose residual is rounding
    alone. While changes are halved they still fall. */
@@ -39,13 +46,20 @@ static inline bool gm_newton_is_settled(size_t size, double change, double scale
     return settled;
 }
 
-/* The same of every other iteration. A change far below the level is the last one even if it falls on. */
-static inline bool gm_is_settled(double change, double roundoff, double *previous)
+/* The same of an iteration whose changes of at most `least` are round-off, even if they still fall; larger ones are,
+   up to `roundoff`, where they no longer fall. */
+static inline bool gm_is_settled_within(double change, double least, double roundoff, double *previous)
 {
     const bool settled =
-        change <= 0x1p-1000 || change <= 0x1p-14 * roundoff || (change >= *previous && change <= roundoff);
+        change <= 0x1p-1000 || change <= least || (change >= *previous && change <= roundoff);
     *previous = change;
     return settled;
+}
+
+/* The same of every other iteration: a change far below the level of round-off is the last one. */
+static inline bool gm_is_settled(double change, double roundoff, double *previous)
+{
+    return gm_is_settled_within(change, 0x1p-14 * roundoff, roundoff, previous);
 }
 
 /* What is in the way of an iteration that has made this change and not settled. */

@@ -92,6 +92,43 @@ static void others_end_far_below_their_level(void **unused)
     assert_int_equal(other_ends(least, GM_COUNT(least), 0), 2);
 }
 
+static void levels_that_are_given_hold(void **unused)
+{
+    (void)unused;
+    double previous = 1e-13;
+    assert_false(gm_is_settled_within(2e-15, 1e-15, 1e-12, &previous)); /* it still falls */
+    assert_true(gm_is_settled_within(1e-15, 1e-15, 1e-12, &previous));
+    previous = 5e-12;
+    assert_false(gm_is_settled_within(5e-12, 1e-15, 1e-12, &previous)); /* it stands too high */
+    previous = 5e-13;
+    assert_true(gm_is_settled_within(5e-13, 1e-15, 1e-12, &previous));
+}
+
+/* Where the rounding of slopes is said not to decide, no value of it changes the end. */
+static void rounding_is_asked_where_it_decides(void **unused)
+{
+    (void)unused;
+    for (int power = -70; power < 2; power++) {
+        const double previous = ldexp(1, power);
+        for (double ratio = 0.25; ratio < 4 && !gm_rounding_decides(1, previous); ratio *= 1.1) {
+            double one = previous, other = previous;
+            assert_int_equal(gm_newton_is_settled(3, ratio * previous, 1, 0, &one),
+                             gm_newton_is_settled(3, ratio * previous, 1, 1e300, &other));
+        }
+    }
+    assert_true(gm_rounding_decides(1, 0x1p-28));
+}
+
+static void obstacles_of_elimination(void **unused)
+{
+    (void)unused;
+    double zeros[] = {0, 0, 0, 0}, none[] = {1, NAN, 2, NAN}, right[2] = {1, 1};
+    assert_false(gm_eliminate(2, zeros, right));
+    assert_int_equal(gm_obstacle_of(4, zeros), GM_SINGULAR);
+    assert_false(gm_eliminate(2, none, right));
+    assert_int_equal(gm_obstacle_of(4, none), GM_NOT_FINITE);
+}
+
 /* z = h A f: the step of Gauss's method is made of z by -sqrt 3 and sqrt 3, that of Radau's is z_2. */
 static void weights_of_stages(void **unused)
 {
@@ -123,6 +160,9 @@ int main(void)
         cmocka_unit_test(newton_knows_the_rounding_of_slopes),
         cmocka_unit_test(sweeps_end_where_the_next_is_negligible),
         cmocka_unit_test(others_end_far_below_their_level),
+        cmocka_unit_test(levels_that_are_given_hold),
+        cmocka_unit_test(rounding_is_asked_where_it_decides),
+        cmocka_unit_test(obstacles_of_elimination),
         cmocka_unit_test(weights_of_stages),
         cmocka_unit_test(rounding_of_stages),
     };

@@ -239,7 +239,7 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
         if (!isfinite(size)) {
             return GM_NO_CONVERGENCE;
         }
-        if (gm_is_settled(size, 1e-12 * largest, &last)) {
+        if (gm_is_settled_within(size, 1e-16 * largest, 1e-12 * largest, &last)) {
             return GM_OK;
         }
     }

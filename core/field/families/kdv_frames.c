@@ -185,7 +185,7 @@ static enum gm_status evolve_and_project(struct work *work, const struct step *s
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }
-        if (gm_is_settled(change, 1e-12 * size, &last)) {
+        if (gm_is_settled_within(change, 1e-16 * size, 1e-12 * size, &last)) {
             close_ring(next, points);
             return GM_OK;
         }

@@ -138,9 +138,11 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
             matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * h * matrix[i];
         }
         progress->solves++;
-        const double rounding = gm_rounding_of_stages(n, n, matrix, members->y, d);
+        const double scale = roundoff / (8 * GM_EPSILON);
+        const double rounding =
+            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(n, n, matrix, members->y, d) : 0;
         if (!gm_eliminate(n, matrix, r)) {
-            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
+            progress->unsolved.obstacle = gm_obstacle_of(n * n, matrix);
             return false;
         }
         double change = 0;
@@ -148,7 +150,7 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
             d[c] += r[c];
             change += fabs(r[c]);
         }
-        if (gm_newton_is_settled(n, change, roundoff / (8 * GM_EPSILON), rounding, &previous)) {
+        if (gm_newton_is_settled(n, change, scale, rounding, &previous)) {
             return true;
         }
         progress->unsolved = gm_unsolved_by(change, roundoff / (16 * GM_EPSILON));

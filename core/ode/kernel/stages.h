@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "core/status.h"
+
 enum { GM_TABLEAU_STAGES = 16 };
 
 /* Solves a x = r, a an n * n matrix by rows, by Gaussian elimination with partial pivoting. a is destroyed, x
@@ -48,6 +50,16 @@ static inline bool gm_eliminate(size_t n, double *a, double *r)
         r[k] /= a[k * n + k];
     }
     return true;
+}
+
+/* Why a matrix of so many entries was not eliminated. */
+static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matrix)
+{
+    double sum = 0;
+    for (size_t i = 0; i < entries; i++) {
+        sum += fabs(matrix[i]);
+    }
+    return isfinite(sum) ? GM_SINGULAR : GM_NOT_FINITE;
 }
 
 /* The sum of |h a_ij J_cd Y_jd|, the terms of h f that rounding acts on, from the matrix I - h a_ij J(Y_j) and the

@@ -245,7 +245,7 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (gm_is_settled(change, 1e-11, &last)) {
+        if (gm_is_settled_within(change, 1e-15, 1e-11, &last)) {
             for (size_t at = 0; at < r * points; at++) {
                 double du = dt * work->v[at], dv = 0;
                 for (size_t l = 0; l < r; l++) {

@@ -157,7 +157,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (gm_is_settled(change, 1e-11, &last)) {
+        if (gm_is_settled_within(change, 1e-15, 1e-12, &last)) {
             return GM_OK;
         }
         for (size_t i = 0; i < points; i++) {

@@ -242,8 +242,8 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
         progress->evaluations++;
         progress->solves++;
         progress->iterations++;
-        const bool grows = change >= last,
-                   settled = gm_is_settled(change, 1e-12 * fmax(largest, 1e-3), &last);
+        const bool grows = change >= last, settled = gm_is_settled_within(change, 1e-16 * largest,
+                                                                          1e-12 * fmax(largest, 1e-3), &last);
         if (!isfinite(change) || (grows && !settled)) {
             memcpy(next, now, count * sizeof *next); /* the iteration diverges, not the solution */
             break;

@@ -170,6 +170,7 @@ static const struct gm_scheme schemes[] = {
         .order = 4,
         .needs = GM_NEEDS_KDV,
         .claims = GM_KEEPS_LINEAR,
+        .in_modes = true,
     },
 };
 

@@ -108,6 +108,7 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_NLS,
         .claims = GM_SYMMETRIC | GM_KEEPS_QUADRATIC,
+        .in_modes = true,
     },
 };
 

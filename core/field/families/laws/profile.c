@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/field/families/families.h"
 #include "core/linear/curve.h"
 
 /* False: out of memory. */
@@ -29,14 +28,13 @@ double *gm_field_profile(const struct gm_problem *problem, const struct gm_schem
 {
     const struct gm_line *line = &problem->line;
     const size_t points = line->points;
-    const bool modes = scheme->family == &gm_family_split_step || scheme->family == &gm_family_pseudospectral;
     double *values = malloc(2 * points * sizeof *values);
     for (size_t i = 0; values && i < points; i++) {
         const double right = u[i + 1 < points ? i + 1 : 0];
         values[i] = scheme->in_cells ? (u[i] + right) / 2 : u[i];
         values[points + i] = (right - u[i]) / line->dx;
     }
-    if (values && modes && !differentiate(line, u, values + points)) {
+    if (values && scheme->in_modes && !differentiate(line, u, values + points)) {
         free(values);
         return NULL;
     }

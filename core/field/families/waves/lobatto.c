@@ -138,7 +138,7 @@ static enum gm_status middle_stage(struct work *work, const struct gm_problem *p
         if (!isfinite(change)) {
             return GM_BLOW_UP;
         }
-        if (gm_is_settled(change, 1e-12 * largest, &last)) {
+        if (gm_is_settled_within(change, 1e-16 * largest, 1e-13 * largest, &last)) {
             return GM_OK;
         }
     }

@@ -311,9 +311,10 @@ static bool by_newton(const struct gm_problem *problem, const struct gm_tile *ti
         progress->evaluations += stages;
         progress->iterations++;
         progress->solves++;
-        const double rounding = gm_rounding_of_stages(size, n, matrix, y, z);
+        const double rounding =
+            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(size, n, matrix, y, z) : 0;
         if (!gm_eliminate(size, matrix, right)) {
-            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
+            progress->unsolved.obstacle = gm_obstacle_of(size * size, matrix);
             return false;
         }
         double change = 0;
@@ -394,7 +395,8 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
                 right[i] += h * row->a[i / 2][j] * block->slopes[j][i % 2][k];
             }
         }
-        const double rounding = gm_rounding_of_stages(size, 2, matrix, start, z);
+        const double rounding =
+            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(size, 2, matrix, start, z) : 0;
         if (!gm_eliminate(size, matrix, right)) {
             return false;
         }

@@ -155,9 +155,10 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
         counts->evaluations += (unsigned long)stages;
         counts->iterations++;
         counts->solves++;
-        const double rounding = gm_rounding_of_stages((size_t)size, N, matrix, y, z);
+        const double rounding =
+            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages((size_t)size, N, matrix, y, z) : 0;
         if (!gm_eliminate((size_t)size, matrix, right)) {
-            counts->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
+            counts->unsolved.obstacle = gm_obstacle_of((size_t)(size * size), matrix);
             return false;
         }
         double change = 0;

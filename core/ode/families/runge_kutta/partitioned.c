@@ -149,9 +149,11 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members,
             return false;
         }
         progress->solves++;
-        const double rounding = gm_rounding_of_stages(size, n, scratch.matrix, members->y, scratch.z);
+        const double rounding = gm_rounding_decides(scale, previous)
+                                    ? gm_rounding_of_stages(size, n, scratch.matrix, members->y, scratch.z)
+                                    : 0;
         if (!gm_eliminate(size, scratch.matrix, scratch.right)) {
-            progress->unsolved.obstacle = isfinite(rounding) ? GM_SINGULAR : GM_NOT_FINITE;
+            progress->unsolved.obstacle = gm_obstacle_of(size * size, scratch.matrix);
             return false;
         }
         double change = 0;
