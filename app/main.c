@@ -10,12 +10,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "app/base/interrupt.h"
+#include "app/base/share.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
-#include "app/ground/share.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/address_space.h"
 #include "render/gl/context.h"

@@ -151,22 +151,22 @@ char *__wrap_strndup(const char *text, size_t length)
 /* The C library's own stream tells nobody of a refusal: it goes on with a part of the text. */
 struct growing {
     char **text, *bytes;
-    size_t *size, used, room;
+    size_t *size, used, capacity;
     bool lost;
 };
 
 static ssize_t grow(void *cookie, const char *bytes, size_t size)
 {
     struct growing *growing = cookie;
-    if (growing->used + size >= growing->room) { /* a byte is left for the end */
-        const size_t room = 2 * (growing->used + size + 1);
-        char *grown = growing->lost ? NULL : __wrap_realloc(growing->bytes, room);
+    if (growing->used + size >= growing->capacity) { /* a byte is left for the end */
+        const size_t capacity = 2 * (growing->used + size + 1);
+        char *grown = growing->lost ? NULL : __wrap_realloc(growing->bytes, capacity);
         if (!grown) {
             growing->lost = true;
             return 0;
         }
         growing->bytes = grown;
-        growing->room = room;
+        growing->capacity = capacity;
     }
     memcpy(growing->bytes + growing->used, bytes, size);
     growing->used += size;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 
 /* A parameter is one row of a table. The row makes the key=value of the command line, the slider of the
    explorer, the help, the axis of a sweep, the text chunk of a PNG and the range that is fuzzed. */

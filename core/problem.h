@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/line.h"
+#include "core/grid1.h"
 #include "core/status.h"
 
 struct gm_kind; /* core/kind.h */
@@ -78,7 +78,7 @@ struct gm_problem {
     const void *parameters;       /* its constants; they outlive every run */
     const struct gm_exact *exact; /* NULL: not known */
     double bound;                 /* a component above this is a blow-up; 0: the default of core/run.c */
-    struct gm_line line;          /* the grid of a field */
+    struct gm_grid1 line;         /* the grid of a field */
 };
 
 #endif

@@ -9,9 +9,9 @@
 
 static void nodes(const struct gm_run *run, double *values)
 {
-    const struct gm_line *line = &run->problem->line;
-    for (size_t i = 0; i < gm_line_seen(line); i++) {
-        values[i] = gm_line_node(line, i);
+    const struct gm_grid1 *grid = &run->problem->line;
+    for (size_t i = 0; i < gm_grid1_seen(grid); i++) {
+        values[i] = gm_grid1_node(grid, i);
     }
 }
 
@@ -19,7 +19,7 @@ struct gm_quantity gm_quantity_grid(const struct gm_run *run)
 {
     return (struct gm_quantity){.name = "grid",
                                 .support = GM_ON_NODES,
-                                .count = gm_line_seen(&run->problem->line),
+                                .count = gm_grid1_seen(&run->problem->line),
                                 .width = 1,
                                 .axis = 1,
                                 .fixed = true,

@@ -189,7 +189,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         /* whatever the steps came to for want of memory, in factors or in a solution, is not theirs */
         return run->status = GM_OUT_OF_MEMORY;
     }
-    if (progress.done < steps && !(family->own_time && progress.status == GM_OK)) {
+    if (progress.done < steps && !(family->adaptive && progress.status == GM_OK)) {
         const int64_t done = progress.done;
         run->status = progress.status;
         run->unsolved = progress.unsolved;
@@ -211,7 +211,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     run->behind += progress.done;
     run->n += progress.done;
     run->steps += progress.done;
-    run->t = family->own_time ? progress.t : run->t0 + (double)run->n * run->dt;
+    run->t = family->adaptive ? progress.t : run->t0 + (double)run->n * run->dt;
     return run->status;
 }
 
@@ -223,7 +223,7 @@ enum gm_status gm_run_advance(struct gm_run *run, int64_t steps)
 bool gm_run_repeats(const struct gm_run *run)
 {
     const struct gm_family *family = run->scheme->family;
-    return run->status == GM_OK && run->n > 0 && run->behind == 1 && !family->own_time && !family->memory &&
+    return run->status == GM_OK && run->n > 0 && run->behind == 1 && !family->adaptive && !family->memory &&
            !family->workspace_reset;
 }
 
@@ -266,13 +266,13 @@ int64_t gm_run_steps_at(const struct gm_run *run, double t)
 {
     const double most = (double)(INT64_MAX / 4);
     const double steps = round((t - run->t0) / run->dt);
-    return run->scheme->family->own_time || !(steps < most) ? INT64_MAX / 4
+    return run->scheme->family->adaptive || !(steps < most) ? INT64_MAX / 4
                                                             : run->steps - run->n + (int64_t)steps;
 }
 
 int64_t gm_run_steps_by(const struct gm_run *run, double t)
 {
-    if (run->scheme->family->own_time) {
+    if (run->scheme->family->adaptive) {
         return run->steps + (run->t < t ? 1 : 0);
     }
     const double ahead = (t - run->t) / run->dt;
@@ -287,7 +287,7 @@ static double reached_from(double until)
 
 bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
 {
-    const bool there = run->scheme->family->own_time && run->t >= reached_from(until);
+    const bool there = run->scheme->family->adaptive && run->t >= reached_from(until);
     return run->status == GM_OK && run->steps < steps && !there;
 }
 
@@ -363,15 +363,15 @@ static bool is_finite(const double *values, size_t count)
 /* Whether the head of a snapshot can be that of a run that began like this one. */
 static bool is_possible(const struct gm_run *run, const struct gm_run *then)
 {
-    const struct gm_settings *own = &run->settings, *other = &then->settings;
-    const bool same = own->compensated == other->compensated && own->binding == other->binding &&
-                      own->tau0 == other->tau0 && own->tolerance == other->tolerance;
+    const struct gm_settings *settings = &run->settings, *other = &then->settings;
+    const bool same = settings->compensated == other->compensated && settings->binding == other->binding &&
+                      settings->tau0 == other->tau0 && settings->tolerance == other->tolerance;
     return same && then->half_size == run->half_size && (then->current == 0 || then->current == 1) &&
            then->n >= 0 && then->steps >= then->n && then->steps <= INT64_MAX / 4 &&
            strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
            then->unsolved.obstacle <= GM_STILL_LARGE && isfinite(then->t0) && isfinite(then->dt) &&
            then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
-           (run->scheme->family->own_time || then->t == then->t0 + (double)then->n * then->dt);
+           (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 
 bool gm_run_load(struct gm_run *run, const void *snapshot)

@@ -118,7 +118,7 @@ struct gm_family {
     void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
     /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member
        only. */
-    bool own_time;
+    bool adaptive;
     /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
     bool doubled;
     /* The residual of the discrete multisymplectic law at the state y, for gm_form_residual; by differences

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
 #include "core/count.h"

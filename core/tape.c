@@ -78,13 +78,13 @@ struct writing {
 static const uint32_t NONE = UINT32_MAX;
 
 /* The array with room for one more behind `count`. Where memory is refused it stays what it was. */
-static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *room)
+static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *capacity)
 {
-    if (count < *room) {
+    if (count < *capacity) {
         return array;
     }
     void *more = realloc(array, (2 * count + 64) * size);
-    *room = more ? 2 * count + 64 : *room;
+    *capacity = more ? 2 * count + 64 : *capacity;
     writing->failed |= !more;
     return more ? more : array;
 }
@@ -196,12 +196,12 @@ static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32
 static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
 {
     if (2 * (writing->product_count + 1) > writing->product_room) {
-        const size_t room = writing->product_room;
+        const size_t capacity = writing->product_room;
         uint32_t *before = writing->products;
-        writing->product_room = room > 0 ? 2 * room : 64;
+        writing->product_room = capacity > 0 ? 2 * capacity : 64;
         writing->products = calloc(writing->product_room, sizeof *writing->products);
         writing->failed |= !writing->products;
-        for (size_t i = 0; !writing->failed && i < room; i++) {
+        for (size_t i = 0; !writing->failed && i < capacity; i++) {
             if (before[i] > 0) {
                 const struct value *value =
                     &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
@@ -854,11 +854,11 @@ static bool open_code(struct gm_tape *tape, const struct gm_formula *graph, cons
     *tape = (struct gm_tape){.inputs = inputs, .outputs = count, .first_used = inputs};
     struct writing writing = {.tape = tape, .graph = graph, .least_rolled = least};
     writing.parts = gm_formula_parts_of(graph, nodes, count, &writing.part_count);
-    const size_t room =
+    const size_t capacity =
         writing.parts && writing.part_count > 0 ? writing.parts[writing.part_count - 1] + (size_t)1 : 1;
-    writing.numbers = malloc(room * sizeof *writing.numbers);
-    writing.folded = malloc(room * sizeof *writing.folded);
-    writing.dependent = malloc(room * sizeof *writing.dependent);
+    writing.numbers = malloc(capacity * sizeof *writing.numbers);
+    writing.folded = malloc(capacity * sizeof *writing.folded);
+    writing.dependent = malloc(capacity * sizeof *writing.dependent);
     writing.failed = !writing.parts || !writing.numbers || !writing.folded || !writing.dependent;
     if (!writing.failed) {
         fold(&writing, values);
@@ -1019,7 +1019,7 @@ GM_CLONES static void compute_by_instruction(uint32_t operation, double *restric
         }                                                                                                    \
         GM_ROWS(value_)                                                                                      \
         break;
-#include "core/formula/operations.def"
+#include "core/expression/operations.def"
 #undef GM_OPERATION
     case GM_CONSTANT:
     case GM_VARIABLE:
@@ -1040,7 +1040,7 @@ GM_CLONES static void compute_by_call(uint32_t operation, double *restrict to, c
         }                                                                                                    \
         GM_ROWS(value_)                                                                                      \
         break;
-#include "core/formula/operations.def"
+#include "core/expression/operations.def"
 #undef GM_OPERATION
     case GM_CONSTANT:
     case GM_VARIABLE:
@@ -1061,25 +1061,25 @@ static inline void compute_row(uint32_t operation, double *to, const double *x, 
 
 /* The operands of a batch for one state, in a row: where they are, or gathered. */
 static inline const double *gathered(const struct gm_tape *tape, const struct gm_operands *operands,
-                                     uint32_t count, const double *r, double *room)
+                                     uint32_t count, const double *r, double *scratch)
 {
     if (operands->lie != GM_LISTED) {
         return r + operands->at;
     }
     const uint32_t *list = tape->lists + operands->at;
     for (uint32_t i = 0; i < count; i++) {
-        room[i] = r[list[i]];
+        scratch[i] = r[list[i]];
     }
-    return room;
+    return scratch;
 }
 
 /* Not inlined: what it needs would burden every other instruction of a single state. */
 __attribute__((noinline)) static void compute_batch(const struct gm_tape *tape,
                                                     const struct gm_repeated *batch, double *r)
 {
-    double room[2][LARGEST_BATCH];
-    const double *x = gathered(tape, &batch->a, batch->count, r, room[0]),
-                 *y = gathered(tape, &batch->b, batch->count, r, room[1]);
+    double scratch[2][LARGEST_BATCH];
+    const double *x = gathered(tape, &batch->a, batch->count, r, scratch[0]),
+                 *y = gathered(tape, &batch->b, batch->count, r, scratch[1]);
     compute_row(batch->operation, r + batch->to, x, batch->a.lie == GM_THE_SAME, y,
                 batch->b.lie == GM_THE_SAME, batch->count);
 }
@@ -1132,7 +1132,7 @@ static void compute(const struct gm_tape *tape, double *r)
     GM_WAY(4 * (operation) + 3, last, last, value_)
 #define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
     GM_WAYS(GM_OPERATION_##constant, value_)
-#include "core/formula/operations.def"
+#include "core/expression/operations.def"
 #undef GM_OPERATION
             GM_WAYS(GM_VARIABLE, a)
 #undef GM_WAYS
@@ -1256,12 +1256,12 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
     block = block < 8 ? 8 : block > LARGEST_BLOCK ? LARGEST_BLOCK : block;
     _Alignas(LINE) double few[IN_CACHE];
     double *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
-    double *room = few, **at = few_rows;
+    double *scratch = few, **at = few_rows;
     if (between * block > IN_CACHE || tape->registers > ON_STACK) {
-        room = many = aligned_alloc(LINE, (between + 1) * block * sizeof *many);
+        scratch = many = aligned_alloc(LINE, (between + 1) * block * sizeof *many);
         at = many_rows = malloc(tape->registers * sizeof *many_rows);
     }
-    const bool short_of_memory = !room || !at;
+    const bool short_of_memory = !scratch || !at;
     for (size_t k = 0; short_of_memory && k < tape->outputs; k++) {
         for (size_t i = 0; i < m; i++) {
             outputs[k * outputs_apart + i] = NAN;
@@ -1279,7 +1279,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
             *next++ = outputs + i * outputs_apart + first;
         }
         for (size_t i = 0; i < between; i++) {
-            *next++ = room + i * block;
+            *next++ = scratch + i * block;
         }
         compute_rows(tape, at, m - first < block ? m - first : block);
     }

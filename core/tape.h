@@ -5,7 +5,7 @@
 #ifndef GM_CORE_TAPE_H
 #define GM_CORE_TAPE_H
 
-#include "core/formula/graph.h"
+#include "core/expression/graph.h"
 
 /* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums number
    `to`. */

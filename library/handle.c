@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/data/meta.h"
-#include "app/ground/arguments.h"
 #include "app/output/json.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -278,7 +278,7 @@ int64_t geomint_steps_left(const geomint *handle, size_t lane)
     }
     const int64_t end = handle->request.lanes[lane].steps;
     return !gm_drive_goes_on(&handle->lanes[lane].drive, end) ? 0
-           : run->scheme->family->own_time                    ? -1
+           : run->scheme->family->adaptive                    ? -1
                                                               : end - run->steps;
 }
 

@@ -5,8 +5,8 @@
 #include <locale.h>
 #include <stdbool.h>
 
-#include "app/request/chosen.h"
-#include "app/request/drive.h"
+#include "app/words/chosen.h"
+#include "app/words/drive.h"
 #include "core/quantity.h"
 #include "library/geomint.h"
 

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/grid/certified_lane.h"
 #include "app/output/scheme_json.h"
-#include "app/own/scheme.h"
-#include "app/studies/certified_lane.h"
+#include "app/words/scheme.h"
 #include "library/handle.h"
 #include "library/host.h"
 

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/ground/arguments.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "app/output/still.h"
-#include "app/own/system.h"
-#include "app/request/drive.h"
-#include "app/request/interrupt.h"
+#include "app/words/drive.h"
+#include "app/words/system.h"
 #include "render/pixels/canvas.h"
 #include "render/vector/svg.h"
 
@@ -211,7 +211,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         gm_complain("%s cannot be made again: %s", path, message);
     } else {
         gm_catch_interrupts();
-        gm_press_expect(print.format);
+        gm_printer_expect(print.format);
         lanes = calloc(request.count, sizeof *lanes);
         if (!lanes || !same_room(&request, texts[ROOM], message) ||
             !drive(&request, lanes, texts[STEPS], message)) {
@@ -219,9 +219,9 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         } else if (gm_interrupted) {
             status = GM_EXIT_INTERRUPTED;
         } else if (!gm_still_write(&print, &request, (const struct gm_lane *const *)lanes, message)) {
-            status = gm_press_fail(print.path, message);
+            status = gm_printer_fail(print.path, message);
         } else {
-            gm_press_tell(&print, "");
+            gm_printer_report(&print, "");
             status = GM_EXIT_OK;
         }
     }

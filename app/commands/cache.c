@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/exit.h"
 #include "app/commands/commands.h"
-#include "app/ground/exit.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 #include "core/memory.h"
 
 static int command_cache(const struct gm_options *options)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "app/own/system.h"
+#include "app/words/system.h"
 
 const struct gm_command_row *const gm_commands[] = {
 #define GM_COMMAND(name) &gm_command_##name,

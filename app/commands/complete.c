@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
-#include "app/ground/arguments.h"
+#include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "app/own/found.h"
-#include "app/own/replacing.h"
-#include "app/own/room.h"
-#include "app/own/system.h"
-#include "app/request/fitting.h"
-#include "app/request/words.h"
-#include "app/studies/sweep.h"
 #include "app/tours/tour.h"
+#include "app/words/fitting.h"
+#include "app/words/lookup.h"
+#include "app/words/replacing.h"
+#include "app/words/room.h"
+#include "app/words/system.h"
+#include "app/words/words.h"
 #include "core/schemes.h"
 
 /* The word that is being typed: what stays of it, and what the candidates have to begin with. */
@@ -211,7 +211,8 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
     char key[64];
     snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
     const struct gm_common_key *common = gm_common_key_find(key);
-    const struct gm_parameter *own = gm_scene_parameter(scene, key), *row = own ? own : gm_setting_find(key);
+    const struct gm_parameter *parameter = gm_scene_parameter(scene, key),
+                              *row = parameter ? parameter : gm_setting_find(key);
     if (strcmp(key, "scheme") == 0) {
         offer_schemes(&stem, scene);
     } else if (common) {

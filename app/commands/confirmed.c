@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "app/output/say.h"
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 #include "core/count.h"
 
 const double gm_many_steps = 1e11;

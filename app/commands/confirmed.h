@@ -3,7 +3,7 @@
 #define GM_APP_COMMANDS_CONFIRMED_H
 
 #include "app/commands/options.h"
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 /* More steps than these are made if --yes confirms that. */
 extern const double gm_many_steps;

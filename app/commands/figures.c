@@ -13,14 +13,14 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "app/base/interrupt.h"
+#include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/cores/pool.h"
 #include "app/figures/page.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 #include "render/clock.h"
 #include "render/message.h"
 
@@ -34,7 +34,7 @@ struct worker {
 struct series {
     const struct gm_options *options;
     struct gm_figure_output output;
-    struct gm_figure *own; /* of systems of somebody's own, as many as there are words */
+    struct gm_figure *user; /* of systems of somebody's own, as many as there are words */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes; /* shared with the workers */
     size_t count, next, made, printed;
@@ -135,7 +135,7 @@ static bool open_series(struct series *series, const struct gm_options *options)
                                          .look = options->look,
                                          .format = options->format,
                                          .quick = options->quick},
-                              .own = calloc((size_t)options->arguments.count + 1, sizeof *series->own),
+                              .user = calloc((size_t)options->arguments.count + 1, sizeof *series->user),
                               .jobs = calloc(most, sizeof *series->jobs)};
     if (small) {
         series->output.look.width = QUICK_WIDTH;
@@ -144,7 +144,7 @@ static bool open_series(struct series *series, const struct gm_options *options)
     void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     series->outcomes = shared == MAP_FAILED ? NULL : shared;
-    if (!series->own || !series->jobs || !series->outcomes) {
+    if (!series->user || !series->jobs || !series->outcomes) {
         gm_complain("not enough memory");
         return false;
     }
@@ -162,9 +162,9 @@ static bool open_series(struct series *series, const struct gm_options *options)
         char *word = options->arguments.words[i];
         const struct gm_scene *scene = is_published(word) ? NULL : own_scene(word, &status, message);
         if (scene) {
-            series->own[i] =
+            series->user[i] =
                 (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
-            gm_figure_plan(&series->jobs[series->count++], scene, &series->own[i], false);
+            gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
         }
     }
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
@@ -180,7 +180,7 @@ static void close_series(struct series *series)
     if (series->outcomes) {
         munmap(series->outcomes, all_figures(series->options) * sizeof *series->outcomes);
     }
-    free(series->own);
+    free(series->user);
     free(series->jobs);
 }
 

@@ -11,16 +11,16 @@
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/output/wrapped.h"
-#include "app/own/found.h"
-#include "app/own/room.h"
-#include "app/own/system.h"
-#include "app/request/fitting.h"
-#include "core/formula/nearest.h"
+#include "app/words/fitting.h"
+#include "app/words/lookup.h"
+#include "app/words/room.h"
+#include "app/words/system.h"
+#include "core/expression/nearest.h"
 #include "core/memory.h"
+#include "core/model/equations.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 
 static void list_scenes(const struct gm_options *options)
 {
@@ -53,7 +53,7 @@ static void list_system(const char *name, const void *data)
 {
     const struct gm_options *options = data;
     char path[4096], message[GM_MESSAGE];
-    struct gm_own_system system = {0};
+    struct gm_user_system system = {0};
     const bool found = gm_system_path(name, path, sizeof path);
     const bool good = found && gm_system_open(&system, path, NULL, 0, message) == GM_EXIT_OK;
     const char *title = good && system.texts[GM_WORD_TITLE] ? system.texts[GM_WORD_TITLE] : "";

@@ -6,7 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/output/say.h"
-#include "app/request/words.h"
+#include "app/words/words.h"
 #include "core/count.h"
 #include "core/schemes.h"
 

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "core/count.h"
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
 

@@ -3,10 +3,10 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
 #include "app/native/engine.h"
-#include "app/output/press.h"
-#include "app/request/request.h"
+#include "app/output/printer.h"
+#include "app/words/request.h"
 
 /* The commands, as bits: an option says which of them take it. */
 enum gm_command {

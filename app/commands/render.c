@@ -6,15 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/confirmed.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
 #include "app/output/say.h"
 #include "app/output/still.h"
-#include "app/request/drive.h"
-#include "app/request/interrupt.h"
-#include "core/formula/number.h"
+#include "app/words/drive.h"
+#include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/sink.h"
@@ -426,16 +426,16 @@ static int paint_still(struct work *work, const char *name)
     }
     struct gm_print print = {.path = path, .format = options->format, .look = options->look};
     int status = GM_EXIT_FILE;
-    gm_press_expect(print.format);
+    gm_printer_expect(print.format);
     const bool driven = path && drive_to(work, 0, message);
     if (gm_interrupted) {
         status = GM_EXIT_INTERRUPTED;
     } else if (!driven || !write_still(&print, work, message)) {
-        status = gm_press_fail(path, message);
+        status = gm_printer_fail(path, message);
         status = gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
     } else {
         status = tell_end(work);
-        gm_press_tell(&print, "");
+        gm_printer_report(&print, "");
     }
     free(path);
     return status;

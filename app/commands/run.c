@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/confirmed.h"
 #include "app/data/meta.h"
@@ -21,9 +22,8 @@
 #include "app/output/json.h"
 #include "app/output/pause.h"
 #include "app/output/say.h"
-#include "app/request/chosen.h"
-#include "app/request/drive.h"
-#include "app/request/interrupt.h"
+#include "app/words/chosen.h"
+#include "app/words/drive.h"
 #include "core/count.h"
 #include "core/memory.h"
 #include "render/clock.h"

@@ -4,15 +4,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
 #include "app/output/json.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
 #include "app/tours/movie.h"
 #include "app/tours/tour.h"
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 
 int gm_list_tours(bool json)
 {

@@ -188,7 +188,7 @@ static uint64_t most_rows(const struct gm_saving *saving, const struct gm_saved 
         row += is_fixed(lane, i) ? 0 : bytes_of(lane, i);
         beside += HEADS + (is_fixed(lane, i) ? bytes_of(lane, i) : 0);
     }
-    const uint64_t room = gm_part_room(saving->part, own);
+    const uint64_t room = gm_part_capacity(saving->part, own);
     return room > beside ? (room - beside) / row : 0;
 }
 

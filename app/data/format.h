@@ -8,7 +8,7 @@
 #include "app/data/npz.h"
 #include "app/data/part.h"
 #include "core/quantity.h"
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* What a format does with the states of lanes: rows to the lanes' files, and these to the file. */
 

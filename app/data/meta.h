@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* What was run, as JSON. */
 

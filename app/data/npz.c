@@ -28,7 +28,7 @@ struct entry {
 struct gm_npz {
     int file;
     struct entry *entries;
-    size_t count, room;
+    size_t count, capacity;
     uint64_t place; /* where the next entry begins */
     bool failed;
 };
@@ -168,13 +168,13 @@ void gm_npz_close(struct gm_npz *npz)
 /* Takes a malloc'ed name; NULL when memory is short. */
 static struct entry *add_entry(struct gm_npz *npz, char *name)
 {
-    if (npz->count == npz->room) {
-        const size_t room = npz->room ? 2 * npz->room : 16;
-        struct entry *entries = realloc(npz->entries, room * sizeof *entries);
-        npz->room = entries ? room : npz->room;
+    if (npz->count == npz->capacity) {
+        const size_t capacity = npz->capacity ? 2 * npz->capacity : 16;
+        struct entry *entries = realloc(npz->entries, capacity * sizeof *entries);
+        npz->capacity = entries ? capacity : npz->capacity;
         npz->entries = entries ? entries : npz->entries;
     }
-    if (!name || npz->count == npz->room || npz->failed) {
+    if (!name || npz->count == npz->capacity || npz->failed) {
         free(name);
         errno = npz->failed ? errno : ENOMEM;
         npz->failed = true;
@@ -190,14 +190,14 @@ static size_t head_of(const struct entry *entry, char head[NPY_HEAD], size_t lea
 {
     enum { FRONT = 10, ALIGNED = 64 };
     char *dictionary = head + FRONT;
-    const size_t room = NPY_HEAD - FRONT, axes = entry->axes;
-    size_t used =
-        (size_t)snprintf(dictionary, room, "{'descr': '%s', 'fortran_order': False, 'shape': (", entry->type);
+    const size_t capacity = NPY_HEAD - FRONT, axes = entry->axes;
+    size_t used = (size_t)snprintf(dictionary, capacity, "{'descr': '%s', 'fortran_order': False, 'shape': (",
+                                   entry->type);
     for (size_t i = 0; i < axes; i++) {
-        used += (size_t)snprintf(dictionary + used, room - used, "%s%" PRIu64 "%s", i ? " " : "",
+        used += (size_t)snprintf(dictionary + used, capacity - used, "%s%" PRIu64 "%s", i ? " " : "",
                                  entry->shape[i], i + 1 < axes || axes == 1 ? "," : "");
     }
-    used += (size_t)snprintf(dictionary + used, room - used, "), }");
+    used += (size_t)snprintf(dictionary + used, capacity - used, "), }");
     size_t size = (FRONT + used + 1 + ALIGNED - 1) / ALIGNED * ALIGNED;
     size = size > least ? size : least;
     memset(dictionary + used, ' ', size - FRONT - used - 1);

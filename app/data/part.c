@@ -172,7 +172,7 @@ bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path)
     return renameat(part->folder, name, AT_FDCWD, path) == 0;
 }
 
-uint64_t gm_part_room(const struct gm_part *part, uint64_t own)
+uint64_t gm_part_capacity(const struct gm_part *part, uint64_t own)
 {
     struct statvfs disk;
     struct rlimit limit;

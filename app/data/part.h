@@ -35,6 +35,6 @@ bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path);
 
 /* How many bytes a file in the folder may have that has `own` bytes of the disk already: as the disk and the
    limits of the process are now. */
-uint64_t gm_part_room(const struct gm_part *part, uint64_t own);
+uint64_t gm_part_capacity(const struct gm_part *part, uint64_t own);
 
 #endif

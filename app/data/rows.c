@@ -8,7 +8,7 @@
 static bool is_by_time(const struct gm_rows *rows, const struct gm_run *run)
 {
     return rows->every == 0 && !isnan(rows->interval) &&
-           (run->scheme->family->own_time || rows->interval > fabs(run->dt));
+           (run->scheme->family->adaptive || rows->interval > fabs(run->dt));
 }
 
 /* The step next to the first multiple of the interval whose step is not before `step`. */
@@ -33,7 +33,7 @@ int64_t gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
     if (!is_by_time(rows, run)) {
         return rows->every < 2 ? next : run->steps - run->steps % rows->every + rows->every;
     }
-    if (run->scheme->family->own_time) {
+    if (run->scheme->family->adaptive) {
         return next;
     }
     return (int64_t)fmin(step_from(rows, run, (double)next), (double)(next + far));
@@ -44,7 +44,7 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
     if (!is_by_time(rows, run)) {
         return rows->every < 2 || run->steps % rows->every == 0;
     }
-    if (run->scheme->family->own_time) {
+    if (run->scheme->family->adaptive) {
         return floor(run->t / rows->interval) != floor(before / rows->interval);
     }
     return step_from(rows, run, (double)run->steps) == (double)run->steps;
@@ -52,7 +52,7 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
 
 uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, int64_t last)
 {
-    if (run->scheme->family->own_time || last < 0) {
+    if (run->scheme->family->adaptive || last < 0) {
         return 0;
     }
     if (!is_by_time(rows, run)) {

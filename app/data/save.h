@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "core/run.h"
 
 /* The states of lanes, one lane after the other, as a file that other programs read: .npz, .csv, .pvd with

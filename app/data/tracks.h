@@ -2,7 +2,7 @@
 #ifndef GM_APP_DATA_TRACKS_H
 #define GM_APP_DATA_TRACKS_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* What lanes have recorded on their way (trails, crossings of a section ...) as an .npz file: of each track
    the entries, NAME with an axis of entries and one of numbers, and the times, NAME_t. */

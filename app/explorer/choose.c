@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/share.h"
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
-#include "app/ground/share.h"
-#include "app/own/found.h"
-#include "app/own/room.h"
+#include "app/words/lookup.h"
+#include "app/words/room.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 
@@ -99,7 +99,7 @@ static bool is_open(const struct gm_explorer *explorer, const struct gm_start_en
     if (entry->tour) {
         return open->touring && strcmp(entry->name, open->guide.tour->name) == 0;
     }
-    if (gm_start_is_own(entry)) { /* or by a file that is in no list */
+    if (gm_start_is_user(entry)) { /* or by a file that is in no list */
         return !open->touring && open->scene && open->scene->text && !is_listed(&explorer->list, open->name);
     }
     return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
@@ -108,7 +108,7 @@ static bool is_open(const struct gm_explorer *explorer, const struct gm_start_en
 /* Whether it has a live look. */
 static bool can_be_looked_at(const struct gm_start_entry *entry)
 {
-    return entry && !entry->tour && !gm_start_is_own(entry);
+    return entry && !entry->tour && !gm_start_is_user(entry);
 }
 
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
@@ -156,9 +156,9 @@ static void find_scenes(struct gm_start *start)
             .group = GM_START_SCENES, .name = scene->name, .title = scene->title, .scene = scene};
         find(start, 0, &entry, scene->blurb, scene->watch);
     }
-    const struct gm_start_entry own = {
+    const struct gm_start_entry start_entry = {
         .group = GM_START_SCENES, .name = GM_START_OWN, .title = GM_START_OWN_TITLE};
-    find(start, 0, &own, NULL, NULL);
+    find(start, 0, &start_entry, NULL, NULL);
 }
 
 static void find_tours(struct gm_start *start, const struct gm_list *list)
@@ -256,7 +256,7 @@ void gm_explorer_enter(struct gm_explorer *explorer)
         return;
     }
     const bool goes_on = explorer->list.kept && is_open(explorer, entry);
-    if (!goes_on && gm_start_is_own(entry)) {
+    if (!goes_on && gm_start_is_user(entry)) {
         gm_explorer_ask_system(explorer);
         return;
     }

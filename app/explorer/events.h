@@ -6,8 +6,8 @@
 #include "app/explorer/background/measure.h"
 #include "app/explorer/open.h"
 #include "app/explorer/terminal/mouse.h"
-#include "app/explorer/view/own.h"
 #include "app/explorer/view/start.h"
+#include "app/explorer/view/typed_system.h"
 
 /* What the files of the explorer share: explorer.c its beginning, its events and its end, choose.c the list
    of what there is, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
@@ -44,7 +44,7 @@ struct gm_explorer {
     struct gm_list list;
     struct gm_pointer pointer;
     struct gm_measure measure;
-    struct gm_own_prompt own;
+    struct gm_typed_prompt typed_prompt;
     struct gm_check check; /* of what is typed in it */
     bool editing;          /* the present system is asked for, to be edited */
     int64_t held_until;    /* keys wait for what is not there yet; 0: they do not */
@@ -85,14 +85,14 @@ void gm_explorer_ask_system(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
 void gm_explorer_ask_map(struct gm_explorer *explorer);
-void gm_explorer_press_own(struct gm_explorer *explorer, int key);
+void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
 /* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
-void gm_explorer_check_own(struct gm_explorer *explorer);
-void gm_explorer_close_own(struct gm_explorer *explorer);
+void gm_explorer_check_typed(struct gm_explorer *explorer);
+void gm_explorer_close_typed(struct gm_explorer *explorer);
 
 /* ---- input ---- */
 
-void gm_explorer_press(struct gm_explorer *explorer, int key);
+void gm_explorer_key(struct gm_explorer *explorer, int key);
 /* Offers the chosen one of the command lines that are shown to the terminal's clipboard. */
 void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);

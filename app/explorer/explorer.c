@@ -97,7 +97,7 @@ static void read_keys(struct gm_explorer *explorer)
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->pointer.mouse, key, &event);
         if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
-            gm_explorer_press(explorer, key);
+            gm_explorer_key(explorer, key);
         } else if (result == GM_MOUSE_EVENT) {
             gm_explorer_point(explorer, &event);
         }
@@ -248,7 +248,7 @@ static void run(struct gm_explorer *explorer)
         if (watched[MEASURE].revents && gm_measure_read(&explorer->measure)) {
             explorer->dirty = true;
         }
-        gm_explorer_check_own(explorer);
+        gm_explorer_check_typed(explorer);
         if (hold > 0) {
             continue;
         }
@@ -256,7 +256,7 @@ static void run(struct gm_explorer *explorer)
             gm_explorer_leave(explorer, GM_EXIT_OK);
         } else if (watched[KEYS].revents || patience >= 0) {
             read_keys(explorer);
-            gm_explorer_check_own(explorer);
+            gm_explorer_check_typed(explorer);
             read_cell_size(explorer);
         }
     }
@@ -280,7 +280,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
                                      .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .studies = &explorer.open.studies};
     explorer.late = explorer.terminal.asked >= 0 && !explorer.terminal.answers.attributes ? 2 : 0;
-    explorer.face.own = &explorer.own;
+    explorer.face.typed_prompt = &explorer.typed_prompt;
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     explorer.open.wake = explorer.wake;
     explorer.open.display = &explorer.display;
@@ -308,7 +308,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     }
     gm_console_close();
     gm_measure_close(&explorer.measure);
-    gm_explorer_close_own(&explorer);
+    gm_explorer_close_typed(&explorer);
     gm_open_leave(&explorer.open);
     gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);

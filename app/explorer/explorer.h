@@ -3,8 +3,8 @@
 #define GM_APP_EXPLORER_EXPLORER_H
 
 #include "app/explorer/terminal/terminal.h"
-#include "app/request/request.h"
 #include "app/tours/tour.h"
+#include "app/words/request.h"
 
 /* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an
    exit status; a signal that asks to leave ends the process as that signal does, the terminal restored. */

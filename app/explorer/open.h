@@ -6,7 +6,7 @@
 #include "app/explorer/view/guide.h"
 #include "app/explorer/view/studies.h"
 #include "app/explorer/worker/worker.h"
-#include "app/request/typed.h"
+#include "app/words/typed.h"
 
 /* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
 
@@ -31,7 +31,7 @@ struct gm_open {
 
 /* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
-/* What a typed line says (app/request/typed.h), as of a file; what was open stays where that is wrong. */
+/* What a typed line says (app/words/typed.h), as of a file; what was open stays where that is wrong. */
 bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault);
 /* A scene, a system or a room as its name alone gives it; a preview is for the list of them. */
 bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message);

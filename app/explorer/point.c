@@ -39,9 +39,9 @@ static void drag(struct gm_explorer *explorer, int column)
 
 static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
 {
-    if (scheme == &gm_chooser_own) {
+    if (scheme == &gm_chooser_user) {
         explorer->face.choice = scheme;
-        gm_explorer_press(explorer, '\n');
+        gm_explorer_key(explorer, '\n');
         return;
     }
     bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
@@ -129,7 +129,7 @@ static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event
     const bool up = event->kind == GM_MOUSE_UP;
     const bool space =
         !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
-    gm_explorer_press(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
+    gm_explorer_key(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
 }
 
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
@@ -143,7 +143,7 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
     explorer->pointer.column = event->column;
     explorer->pointer.row = event->row;
     if (hit->kind == GM_HIT_KEY) {
-        gm_explorer_press(explorer, (int)hit->index);
+        gm_explorer_key(explorer, (int)hit->index);
         return;
     }
     if (hit->kind == GM_HIT_SCENE) {

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
+#include "app/base/interrupt.h"
 #include "app/output/still.h"
-#include "app/request/drive.h"
-#include "app/request/interrupt.h"
+#include "app/words/drive.h"
 #include "core/memory.h"
 #include "render/clock.h"
 
@@ -20,19 +20,19 @@ enum { FEW_SCHEMES = 3 };
  * are. */
 static void shorten(char *arguments, size_t size, const char *quick)
 {
-    struct gm_arguments own = {0}, instead = {0};
-    if (gm_arguments_split(&own, arguments) && gm_arguments_split(&instead, quick)) {
+    struct gm_arguments self = {0}, instead = {0};
+    if (gm_arguments_split(&self, arguments) && gm_arguments_split(&instead, quick)) {
         size_t used = 0;
-        for (int i = 0; i < own.count && used < size; i++) {
-            if (!gm_arguments_have(&instead, own.words[i])) {
-                used += (size_t)snprintf(arguments + used, size - used, "%s ", own.words[i]);
+        for (int i = 0; i < self.count && used < size; i++) {
+            if (!gm_arguments_have(&instead, self.words[i])) {
+                used += (size_t)snprintf(arguments + used, size - used, "%s ", self.words[i]);
             }
         }
         if (used < size) {
             snprintf(arguments + used, size - used, "%s", quick);
         }
     }
-    gm_arguments_close(&own);
+    gm_arguments_close(&self);
     gm_arguments_close(&instead);
 }
 
@@ -491,7 +491,7 @@ static int make(const struct gm_figure_job *job, const struct gm_figure_output *
         snprintf(outcome->message, sizeof outcome->message, "it has more than %d lanes", GM_FIGURE_LANES);
         return GM_EXIT_USAGE;
     }
-    gm_press_expect(GM_FORMAT_PNG);
+    gm_printer_expect(GM_FORMAT_PNG);
     for (size_t i = 0; i < request->count; i++) {
         lanes[i] = gm_request_open_lane(request, i, outcome->message);
         struct gm_drive drive = {.lane = lanes[i], .request = request, .index = i};

@@ -2,9 +2,9 @@
 #ifndef GM_APP_FIGURES_FIGURE_H
 #define GM_APP_FIGURES_FIGURE_H
 
-#include "app/output/press.h"
-#include "app/request/request.h"
-#include "scenes/frame/published.h"
+#include "app/output/printer.h"
+#include "app/words/request.h"
+#include "scenes/common/published.h"
 
 /* One figure: run, painted in both themes, and, if it is a published one, held against what its document says of it. */
 
@@ -59,7 +59,7 @@ struct gm_figure_job {
 };
 
 /* Whether it is of a system of somebody's own. */
-static inline bool gm_figure_is_own(const struct gm_figure_job *job)
+static inline bool gm_figure_is_user(const struct gm_figure_job *job)
 {
     return job->scene->words;
 }
@@ -67,7 +67,7 @@ static inline bool gm_figure_is_own(const struct gm_figure_job *job)
 /* What `geomint render` calls the scene. */
 static inline const char *gm_figure_word(const struct gm_figure_job *job)
 {
-    return gm_figure_is_own(job) ? job->scene->words[0] : job->scene->name;
+    return gm_figure_is_user(job) ? job->scene->words[0] : job->scene->name;
 }
 
 /* How many of the scene's observables are among the numbers of a lane. */

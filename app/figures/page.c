@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/files/base64.h"
 
@@ -232,7 +232,7 @@ static void put_failures(FILE *page, const struct gm_outcome *outcome)
 static void put_title(FILE *page, const struct gm_figure_job *job)
 {
     const char *name = job->figure->name;
-    if (gm_figure_is_own(job)) {
+    if (gm_figure_is_user(job)) {
         put_text(page, job->figure->statement);
         return;
     }
@@ -253,7 +253,7 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
     fputs("</a> <span class=\"soft\">", page);
     put_text(page, gm_figure_word(job));
     fputs("</span></h3>\n<p>", page);
-    if (gm_figure_is_own(job)) {
+    if (gm_figure_is_user(job)) {
         put_text(page, job->scene->blurb);
     } else {
         put_sentence(page, job->figure->statement);
@@ -295,8 +295,8 @@ static const struct gm_document own_systems = {.prefix = "own", .citation = "Sys
 
 static bool is_of(const struct gm_document *document, const struct gm_figure_job *job)
 {
-    if (document == &own_systems || gm_figure_is_own(job)) {
-        return document == &own_systems && gm_figure_is_own(job);
+    if (document == &own_systems || gm_figure_is_user(job)) {
+        return document == &own_systems && gm_figure_is_user(job);
     }
     const size_t length = strlen(document->prefix);
     return strncmp(job->figure->name, document->prefix, length) == 0 && job->figure->name[length] == '-';
@@ -323,7 +323,7 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
         const char *scene = jobs[i].scene->name;
         fprintf(page, "</a><span class=\"soft scene\">%s</span>",
                 strstr(jobs[i].figure->name, scene) ? "" : scene);
-        if (sum.made && gm_figure_is_own(&jobs[i])) {
+        if (sum.made && gm_figure_is_user(&jobs[i])) {
             fputs("<span>made</span>", page);
         } else if (!sum.made) {
             fputs("<span class=\"bad\">✗ not made</span>", page);

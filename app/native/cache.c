@@ -217,7 +217,7 @@ void gm_cache_sweep(const char *folder)
 
 struct list {
     struct gm_cache_entry *entries;
-    size_t count, room;
+    size_t count, capacity;
 };
 
 static void add_entry(void *data, const char *path, const char *name, const struct stat *about)
@@ -227,14 +227,14 @@ static void add_entry(void *data, const char *path, const char *name, const stru
     if (!S_ISREG(about->st_mode)) {
         return;
     }
-    if (list->count == list->room) {
-        const size_t room = 2 * list->room + 16;
-        struct gm_cache_entry *more = realloc(list->entries, room * sizeof *more);
+    if (list->count == list->capacity) {
+        const size_t capacity = 2 * list->capacity + 16;
+        struct gm_cache_entry *more = realloc(list->entries, capacity * sizeof *more);
         if (!more) {
             return;
         }
         list->entries = more;
-        list->room = room;
+        list->capacity = capacity;
     }
     struct gm_cache_entry *entry = &list->entries[list->count++];
     *entry = (struct gm_cache_entry){.size = (size_t)about->st_size, .used = about->st_mtime};

@@ -20,7 +20,7 @@
 #include "core/kind.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/own/own.h"
+#include "core/ode/user/problem.h"
 #include "render/message.h"
 
 /* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. (The search for
@@ -139,7 +139,7 @@ static bool is_written(const struct gm_lane *lane)
 /* Whether it has taken loops, those of its scheme's family where that has some. */
 static bool is_native(const struct gm_lane *lane)
 {
-    const struct gm_loops *taken = gm_own_problem_taken(&lane->problem);
+    const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);
     const int over = lane->scheme->family->over_kernels;
     return taken && (over == GM_OVER_NONE || taken->over_kernels[over]);
 }
@@ -188,7 +188,7 @@ static void load(struct build *build, const char *folder)
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     const char *error = library ? NULL : dlerror();
-    build->loops = library ? dlsym(library, "gm_loops_own_native") : NULL;
+    build->loops = library ? dlsym(library, "gm_loops_user_native") : NULL;
     if (build->loops) {
         build->state = READY;
         return;
@@ -346,12 +346,12 @@ static struct build *build_of(const struct gm_lane *lane)
 {
     const char *lacks = NULL;
     const struct part part = part_of(lane);
-    void **note = gm_own_problem_note(&lane->problem);
+    void **note = gm_user_problem_note(&lane->problem);
     const struct build *noted = *note;
     if (noted && noted->part.family == part.family && noted->part.alone == part.alone) {
         return *note;
     }
-    char *text = gm_own_problem_kernel(&lane->problem, part.family, &lacks);
+    char *text = gm_user_problem_kernel(&lane->problem, part.family, &lacks);
     struct gm_digest source = gm_digest_open();
     if (!text && !lacks) {
         return NULL;
@@ -412,7 +412,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
         gm_run_save(run, before);
         good = try_steps(run, before, one);
         struct gm_run then = *run;
-        gm_own_problem_take(&lane->problem, loops);
+        gm_user_problem_take(&lane->problem, loops);
         good = good && try_steps(run, before, other) && run->status == then.status &&
                run->steps == then.steps && run->evaluations == then.evaluations &&
                run->iterations == then.iterations && run->solves == then.solves;
@@ -424,7 +424,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
         gm_run_load(run, before);
     }
     if (!good) {
-        gm_own_problem_take(&lane->problem, NULL);
+        gm_user_problem_take(&lane->problem, NULL);
     }
     free(before);
     return good;
@@ -434,7 +434,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
 static void give(struct build *build, struct gm_lane *lane)
 {
     if (build->state != READY || lane->run->status != GM_OK ||
-        gm_own_problem_taken(&lane->problem) == build->loops) {
+        gm_user_problem_taken(&lane->problem) == build->loops) {
         return;
     }
     const unsigned long refusals = gm_memory_refusals();
@@ -458,7 +458,7 @@ void gm_engine_meet(struct gm_lane *lane)
     if (build) {
         give(build, lane);
     }
-    if (build && build->state == READY && gm_own_problem_taken(&lane->problem) == build->loops &&
+    if (build && build->state == READY && gm_user_problem_taken(&lane->problem) == build->loops &&
         !is_native(lane)) {
         gm_refuse(build->sentence, "splittings have native loops where H = T(p) + V(q) holds no time");
         refuse(build);

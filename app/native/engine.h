@@ -2,7 +2,7 @@
 #ifndef GM_APP_NATIVE_ENGINE_H
 #define GM_APP_NATIVE_ENGINE_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* Which engine advances the systems that somebody wrote. The interpreter does at once, everywhere. Native
    loops are compiled of the same formulas by the system's C compiler, once for a system and a family of

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
 
@@ -33,23 +33,23 @@ static const char *source_of(const char *command)
 static bool paint(struct gm_chart *chart, const void *data,
                   void (*draw)(const void *data, struct gm_picture *picture), char *message)
 {
-    struct gm_press *press = gm_press_open(&chart->print, message);
+    struct gm_printer *press = gm_printer_open(&chart->print, message);
     if (!press) {
         return false;
     }
     struct gm_picture *picture = gm_picture_open();
     struct gm_provenance provenance = {0};
     bool good = picture && gm_provenance_of_command(&provenance, chart->command, source_of(chart->command),
-                                                    &chart->print.look, gm_press_backend(press));
+                                                    &chart->print.look, gm_printer_backend(press));
     if (good) {
         draw(data, picture);
-        good = gm_press_write(press, &chart->print, picture, provenance.texts, provenance.count, message);
+        good = gm_printer_write(press, &chart->print, picture, provenance.texts, provenance.count, message);
     } else {
         snprintf(message, GM_MESSAGE, "not enough memory for a picture");
     }
     gm_provenance_close(&provenance);
     gm_picture_close(picture);
-    gm_press_close(press);
+    gm_printer_close(press);
     return good;
 }
 

@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_CHART_H
 #define GM_APP_OUTPUT_CHART_H
 
-#include "app/output/press.h"
+#include "app/output/printer.h"
 
 /* The diagram of a study and its numbers, beside each other: FOLDER/NAME.png and FOLDER/NAME.csv. */
 struct gm_chart {

@@ -8,7 +8,7 @@
 #include "app/output/snapshot.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 
 char *gm_checkpoint_path(const struct gm_frames *frames)
 {

@@ -8,7 +8,7 @@
 
 #include "app/output/snapshot.h"
 #include "core/schemes.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 
 /* A lane's record: its size in bytes, this size not among them, then struct gm_paused, then the
    packed lane. The body of the file is the records of the lanes in order; of those that have not begun the

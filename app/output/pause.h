@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 /* The checkpoints of a command that runs lanes one after the other: how far each has come. */
 

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/ground/arguments.h"
-#include "app/request/drive.h"
+#include "app/base/arguments.h"
+#include "app/words/drive.h"
 
 static bool take(struct gm_provenance *provenance, const char *key, char *text)
 {

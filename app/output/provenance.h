@@ -2,8 +2,8 @@
 #ifndef GM_APP_OUTPUT_PROVENANCE_H
 #define GM_APP_OUTPUT_PROVENANCE_H
 
-#include "app/ground/arguments.h"
-#include "app/request/request.h"
+#include "app/base/arguments.h"
+#include "app/words/request.h"
 #include "render/files/png.h"
 #include "render/layout/appearance.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "app/ground/exit.h"
+#include "app/base/exit.h"
 
 /* What commands say, line by line. */
 

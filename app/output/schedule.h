@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_SCHEDULE_H
 #define GM_APP_OUTPUT_SCHEDULE_H
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 /* What is asked for of a render's frames. */
 struct gm_pace {

@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 
 /* The file: this head, the identity, the body. Its numbers are this machine's, as the lanes' bytes are this
    program's. */

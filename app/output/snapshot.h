@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* The file of a checkpoint: packed lanes and whose they are. */
 struct gm_snapshot {

@@ -9,7 +9,7 @@
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 
-static bool print_texts(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
+static bool print_texts(struct gm_printer *press, struct gm_print *print, struct gm_picture *picture,
                         const struct gm_provenance *provenance, char *steps, char *failures, char *message)
 {
     struct gm_png_text texts[GM_PROVENANCE_TEXTS + 2];
@@ -19,7 +19,7 @@ static bool print_texts(struct gm_press *press, struct gm_print *print, struct g
     if (failures[0]) {
         texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
     }
-    return gm_press_write(press, print, picture, texts, count, message);
+    return gm_printer_write(press, print, picture, texts, count, message);
 }
 
 bool gm_still_write(struct gm_print *print, const struct gm_request *request,
@@ -28,7 +28,7 @@ bool gm_still_write(struct gm_print *print, const struct gm_request *request,
     if (!gm_folder_make_for(print->path, message)) {
         return false;
     }
-    struct gm_press *press = gm_press_open(print, message);
+    struct gm_printer *press = gm_printer_open(print, message);
     if (!press) {
         return false;
     }
@@ -37,7 +37,7 @@ bool gm_still_write(struct gm_print *print, const struct gm_request *request,
     char *failures = gm_provenance_failures(lanes, request->count);
     struct gm_provenance provenance = {0};
     bool good = picture && steps && failures &&
-                gm_provenance_make(&provenance, request, &print->look, gm_press_backend(press));
+                gm_provenance_make(&provenance, request, &print->look, gm_printer_backend(press));
     if (good) {
         gm_lanes_draw(lanes, request->count, picture);
         good = print_texts(press, print, picture, &provenance, steps, failures, message);
@@ -48,6 +48,6 @@ bool gm_still_write(struct gm_print *print, const struct gm_request *request,
     free(steps);
     free(failures);
     gm_picture_close(picture);
-    gm_press_close(press);
+    gm_printer_close(press);
     return good;
 }

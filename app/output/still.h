@@ -2,8 +2,8 @@
 #ifndef GM_APP_OUTPUT_STILL_H
 #define GM_APP_OUTPUT_STILL_H
 
-#include "app/output/press.h"
-#include "app/request/request.h"
+#include "app/output/printer.h"
+#include "app/words/request.h"
 
 /* Paints lanes as they are now into one file that `geomint again` can redo, and makes the folders that it
    lies in. `request` holds the lanes' start and the changes since. False with a sentence (GM_MESSAGE

@@ -40,12 +40,12 @@ static int letters_of(const char *text, size_t bytes)
 
 /* The bytes of the first word; where that has no room in a line those up to the last comma that has, else up
    to the first. */
-static size_t first_part(const char *text, int room)
+static size_t first_part(const char *text, int available)
 {
     const size_t word = strcspn(text, " ");
     size_t part = word;
-    for (size_t i = 1; room > 0 && letters_of(text, word) > room && i < word; i++) {
-        if (text[i - 1] == ',' && (part == word || letters_of(text, i) <= room)) {
+    for (size_t i = 1; available > 0 && letters_of(text, word) > available && i < word; i++) {
+        if (text[i - 1] == ',' && (part == word || letters_of(text, i) <= available)) {
             part = i;
         }
     }

@@ -2,7 +2,7 @@
 #ifndef GM_APP_TOURS_AGENDA_H
 #define GM_APP_TOURS_AGENDA_H
 
-#include "app/lanes/session.h"
+#include "app/runs/session.h"
 #include "app/tours/tour.h"
 
 /* What a step of a tour has arranged for a session: changes in flight, and where to stop. Without a tour

@@ -7,9 +7,9 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "app/ground/share.h"
+#include "app/base/share.h"
 #include "app/tours/tour.h"
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 
 static const char ending[] = ".tour";
 

@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
+#include "app/base/interrupt.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
 #include "app/tours/agenda.h"
 #include "core/memory.h"
 #include "render/files/png.h"

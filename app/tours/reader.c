@@ -9,11 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/ground/arguments.h"
-#include "app/own/scheme.h"
+#include "app/base/arguments.h"
 #include "app/tours/tour.h"
+#include "app/words/scheme.h"
 #include "core/count.h"
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"

@@ -2,11 +2,11 @@
 #ifndef GM_CORE_FLOW_ROOM_H
 #define GM_CORE_FLOW_ROOM_H
 
+#include "core/expression/lines.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/formula/lines.h"
 
-/* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/formula/lines.h), where
+/* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/expression/lines.h), where
    formulas may hold x, y, of an inlet s, which runs from 0 to 1 along its pieces (core/flow/boundary.h), and
    of what the boundary gives the time t. */
 

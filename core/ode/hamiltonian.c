@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "core/formula/reader.h"
+#include "core/expression/reader.h"
 
 struct reading {
     const struct gm_problem *problem;

@@ -3,7 +3,7 @@
 #ifndef GM_CORE_ODE_ODE_H
 #define GM_CORE_ODE_ODE_H
 
-#include "core/formula/graph.h"
+#include "core/expression/graph.h"
 #include "core/kind.h"
 
 struct gm_loops; /* core/ode/kernel/loops.h */
@@ -152,7 +152,7 @@ struct gm_ode {
     bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic; /* f is a polynomial of degree 2 */
     bool rough;     /* f is not smooth: no order can be told */
-    bool written;   /* it was written by somebody: core/ode/own/own.h knows more of it */
+    bool written;   /* it was written by somebody: core/ode/user/problem.h knows more of it */
     bool forced;    /* a force acts beside what an energy gives */
     const struct gm_split *split; /* NULL: it has none, and so on */
     const struct gm_hamiltonian *hamiltonian;

@@ -26,14 +26,14 @@ double gm_tree_density(const struct gm_tree *tree)
 static bool add(struct gm_trees *trees, struct gm_tree tree)
 {
     int *count = &trees->first[tree.order + 1];
-    if (*count == trees->room) {
-        const int room = trees->room ? 2 * trees->room : 64;
-        struct gm_tree *grown = realloc(trees->trees, (size_t)room * sizeof *grown);
+    if (*count == trees->capacity) {
+        const int capacity = trees->capacity ? 2 * trees->capacity : 64;
+        struct gm_tree *grown = realloc(trees->trees, (size_t)capacity * sizeof *grown);
         if (!grown) {
             return false;
         }
         trees->trees = grown;
-        trees->room = room;
+        trees->capacity = capacity;
     }
     trees->trees[(*count)++] = tree;
     return true;

@@ -26,7 +26,7 @@ struct gm_trees {
     enum gm_equations equations;
     int orders;                    /* that are there */
     int first[GM_TREES_ORDER + 2]; /* of each order; the one behind the last */
-    int room;
+    int capacity;
     struct gm_tree *trees;
 };
 

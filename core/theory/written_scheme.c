@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/formula/nearest.h"
+#include "core/expression/nearest.h"
 
 enum {
     ONE_TABLEAU = 1 << GM_WRITTEN_RUNGE_KUTTA | 1 << GM_WRITTEN_EXPLICIT,
@@ -467,9 +467,9 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
     struct gm_written_line *line = &reading->scheme->lines[word];
     const bool stages = words[word].kinds & TABLEAUS;
     const int most = stages ? GM_MOST_STAGES : GM_MOST_SUBSTEPS;
-    const size_t room = (size_t)most * (words[word].holds == MATRIX ? (size_t)most : 1);
-    line->numbers = calloc(room, sizeof *line->numbers);
-    reading->nodes[word] = calloc(room, sizeof *reading->nodes[word]);
+    const size_t capacity = (size_t)most * (words[word].holds == MATRIX ? (size_t)most : 1);
+    line->numbers = calloc(capacity, sizeof *line->numbers);
+    reading->nodes[word] = calloc(capacity, sizeof *reading->nodes[word]);
     if (!line->numbers || !reading->nodes[word]) {
         return gm_fail_memory(&reading->fault);
     }

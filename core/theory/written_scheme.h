@@ -4,7 +4,7 @@
 #ifndef GM_CORE_THEORY_WRITTEN_SCHEME_H
 #define GM_CORE_THEORY_WRITTEN_SCHEME_H
 
-#include "core/formula/lines.h"
+#include "core/expression/lines.h"
 #include "core/theory/ball.h"
 
 enum gm_written_kind {

@@ -76,16 +76,16 @@ static void paint_text(struct painter *painter, double x, int row, enum gm_ancho
 }
 
 /* Grid and axes as dots of the raster, beneath the marks: where dots are fine enough for a hairline. */
-static void paint_dotted_grid(struct gm_raster *raster, const struct gm_frame *frame)
+static void paint_dotted_grid(struct gm_raster *raster, const struct gm_axes *axes)
 {
-    const struct gm_box *box = &frame->box;
+    const struct gm_box *box = &axes->box;
     double right = box->x + box->width, bottom = box->y + box->height;
-    for (size_t i = 0; i < frame->x_tick_count; i++) {
-        double x = frame->x_ticks[i].position;
+    for (size_t i = 0; i < axes->x_tick_count; i++) {
+        double x = axes->x_ticks[i].position;
         gm_marks_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
     }
-    for (size_t i = 0; i < frame->y_tick_count; i++) {
-        double y = frame->y_ticks[i].position;
+    for (size_t i = 0; i < axes->y_tick_count; i++) {
+        double y = axes->y_ticks[i].position;
         gm_marks_rule(raster, box->x, y, right, y, GM_GRID, 2);
     }
     gm_marks_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
@@ -132,15 +132,15 @@ static void rule(const struct painter *painter, double x0, double y0, double x1,
     }
 }
 
-static void paint_thin_grid(const struct painter *painter, const struct gm_frame *frame)
+static void paint_thin_grid(const struct painter *painter, const struct gm_axes *axes)
 {
-    const struct gm_box *box = &frame->box;
+    const struct gm_box *box = &axes->box;
     double right = box->x + box->width, bottom = box->y + box->height;
-    for (size_t i = 0; i < frame->x_tick_count; i++) {
-        rule(painter, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position, bottom, GM_GRID);
+    for (size_t i = 0; i < axes->x_tick_count; i++) {
+        rule(painter, axes->x_ticks[i].position, box->y, axes->x_ticks[i].position, bottom, GM_GRID);
     }
-    for (size_t i = 0; i < frame->y_tick_count; i++) {
-        rule(painter, box->x, frame->y_ticks[i].position, right, frame->y_ticks[i].position, GM_GRID);
+    for (size_t i = 0; i < axes->y_tick_count; i++) {
+        rule(painter, box->x, axes->y_ticks[i].position, right, axes->y_ticks[i].position, GM_GRID);
     }
     rule(painter, box->x, bottom, right, bottom, GM_SECONDARY);
     rule(painter, box->x, box->y, box->x, bottom, GM_SECONDARY);
@@ -155,17 +155,16 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_frame
 }
 
 /* The points of a colour bar beyond whose ends values lie: in the cells of its ends. */
-static void paint_tips(const struct painter *painter, const struct gm_frame *frame)
+static void paint_tips(const struct painter *painter, const struct gm_axes *axes)
 {
     static const uint32_t glyphs[2] = {0x25BC, 0x25B2}, letters[2] = {'v', '^'};
-    const struct gm_mark *field = gm_panel_field(frame->panel);
-    const struct gm_box *bar = &frame->colour_bar;
-    const double places[2] = {bar->y + bar->height + 0.5 * frame->bar_tip[0],
-                              bar->y - 0.5 * frame->bar_tip[1]};
+    const struct gm_mark *field = gm_panel_field(axes->panel);
+    const struct gm_box *bar = &axes->colour_bar;
+    const double places[2] = {bar->y + bar->height + 0.5 * axes->bar_tip[0], bar->y - 0.5 * axes->bar_tip[1]};
     for (int end = 0; end < 2; end++) {
         const int row = cell_of(places[end], CELL_HEIGHT);
         for (int column = cell_of(bar->x, CELL_WIDTH);
-             field && frame->bar_tip[end] > 0 && row >= 0 && row < painter->cells->rows && column >= 0 &&
+             field && axes->bar_tip[end] > 0 && row >= 0 && row < painter->cells->rows && column >= 0 &&
              column < painter->cells->columns && column * CELL_WIDTH < bar->x + bar->width;
              column++) {
             painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column] =
@@ -206,22 +205,22 @@ static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout
 {
     bool ok = true;
     for (size_t i = 0; i < layout->frame_count; i++) {
-        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_axes *axes = &layout->frames[i];
         const struct gm_mark *before = NULL;
-        if (taking.only && !is_filled(frame->panel)) {
+        if (taking.only && !is_filled(axes->panel)) {
             continue;
         }
-        if (frame->panel->axes && taking.grid) {
-            paint_dotted_grid(raster, frame);
+        if (axes->panel->axes && taking.grid) {
+            paint_dotted_grid(raster, axes);
         }
-        for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next) {
+        for (const struct gm_mark *mark = axes->panel->first; ok && mark; before = mark, mark = mark->next) {
             if (!taking.outlines || !mark->next || !is_outline(mark, mark->next)) {
-                ok = gm_marks_draw(raster, frame, mark, taking.areas && is_outline(before, mark));
+                ok = gm_marks_draw(raster, axes, mark, taking.areas && is_outline(before, mark));
             }
         }
-        const struct gm_mark *field = gm_panel_field(frame->panel);
-        if (frame->colour_bar.width > 0 && field) {
-            gm_marks_bar(raster, &frame->colour_bar, field->map);
+        const struct gm_mark *field = gm_panel_field(axes->panel);
+        if (axes->colour_bar.width > 0 && field) {
+            gm_marks_bar(raster, &axes->colour_bar, field->map);
         }
     }
     return ok;

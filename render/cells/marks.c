@@ -128,14 +128,14 @@ static void line_piece(struct gm_raster *raster, double x0, double y0, double x1
     }
 }
 
-static void draw_line(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_line(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     double thickness = mark->style.width * raster->scale / smaller(raster->unit_x, raster->unit_y);
     double width = raster->sharp ? round(0.7 * thickness) : larger(1, thickness), length = 0;
     size_t count = mark->count + (mark->closed && mark->count > 1 ? 1 : 0);
     struct gm_raster_place before = {NAN, NAN};
     for (size_t i = 0; i < count; i++) {
-        struct gm_raster_place now = gm_raster_place(raster, frame, &mark->points[2 * (i % mark->count)]);
+        struct gm_raster_place now = gm_raster_place(raster, axes, &mark->points[2 * (i % mark->count)]);
         if (gm_raster_is_place(before) && gm_raster_is_place(now)) {
             /* what is nearer than a part of a sub-pixel adds nothing but work */
             if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
@@ -149,12 +149,12 @@ static void draw_line(struct gm_raster *raster, const struct gm_frame *frame, co
 
 /* ---- points ---- */
 
-static void draw_points(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_points(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     double radius = 0.5 * mark->style.width * raster->scale;
     double radius_x = larger(radius / raster->unit_x, 0.5), radius_y = larger(radius / raster->unit_y, 0.5);
     for (size_t i = 0; i < mark->count; i++) {
-        struct gm_raster_place middle = gm_raster_place(raster, frame, &mark->points[2 * i]);
+        struct gm_raster_place middle = gm_raster_place(raster, axes, &mark->points[2 * i]);
         if (!gm_raster_is_place(middle) || middle.x < raster->clip_left - radius_x ||
             middle.y < raster->clip_top - radius_y || middle.x > raster->clip_right + radius_x ||
             middle.y > raster->clip_bottom + radius_y) {
@@ -261,7 +261,7 @@ static void fill_crossings(struct gm_raster *raster, const struct scan *scan, do
     }
 }
 
-static bool draw_polygon(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+static bool draw_polygon(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     double *row = calloc((size_t)raster->width + 1, sizeof *row);
     struct scan scan = {.fine = raster->sharp ? 1 : SCANS};
@@ -270,7 +270,7 @@ static bool draw_polygon(struct gm_raster *raster, const struct gm_frame *frame,
         return false;
     }
     for (size_t i = 0; i < mark->count; i++) {
-        struct gm_raster_place now = gm_raster_place(raster, frame, &mark->points[2 * i]);
+        struct gm_raster_place now = gm_raster_place(raster, axes, &mark->points[2 * i]);
         if (!gm_raster_is_place(now)) {
             continue;
         }
@@ -338,7 +338,7 @@ static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark,
     }
 }
 
-static void draw_mesh(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_mesh(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     for (size_t i = 0; i < mark->triangle_count; i++) {
         struct gm_raster_place corner[3];
@@ -346,7 +346,7 @@ static void draw_mesh(struct gm_raster *raster, const struct gm_frame *frame, co
         bool drawn = true;
         for (size_t k = 0; k < 3; k++) {
             size_t vertex = (size_t)mark->triangles[3 * i + k];
-            corner[k] = gm_raster_place(raster, frame, &mark->points[2 * vertex]);
+            corner[k] = gm_raster_place(raster, axes, &mark->points[2 * vertex]);
             value[k] = mark->values[vertex];
             drawn = drawn && gm_raster_is_place(corner[k]) && isfinite(value[k]);
         }
@@ -356,10 +356,10 @@ static void draw_mesh(struct gm_raster *raster, const struct gm_frame *frame, co
     }
 }
 
-static void draw_image(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
-    struct gm_raster_place low = gm_raster_place(raster, frame, &mark->points[0]);
-    struct gm_raster_place high = gm_raster_place(raster, frame, &mark->points[2]);
+    struct gm_raster_place low = gm_raster_place(raster, axes, &mark->points[0]);
+    struct gm_raster_place high = gm_raster_place(raster, axes, &mark->points[2]);
     if (mark->rows == 0 || mark->columns == 0 || !gm_raster_is_place(low) || !gm_raster_is_place(high) ||
         low.x == high.x || low.y == high.y) {
         return;
@@ -387,34 +387,34 @@ static void draw_image(struct gm_raster *raster, const struct gm_frame *frame, c
 
 /* ---- all of them, and what is around ---- */
 
-bool gm_marks_draw(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark,
                    bool outline)
 {
     struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
     if (mark->count == 0) {
         return true;
     }
-    gm_raster_clip(raster, &frame->box);
+    gm_raster_clip(raster, &axes->box);
     switch (mark->kind) {
     case GM_MARK_LINE:
-        draw_line(raster, frame, mark);
+        draw_line(raster, axes, mark);
         gm_raster_settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE,
                          mark->style.role);
         return true;
     case GM_MARK_POINTS:
-        draw_points(raster, frame, mark);
+        draw_points(raster, axes, mark);
         gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
         return true;
     case GM_MARK_POLYGON: {
-        bool ok = draw_polygon(raster, frame, mark);
+        bool ok = draw_polygon(raster, axes, mark);
         gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
         return ok;
     }
     case GM_MARK_MESH:
-        draw_mesh(raster, frame, mark);
+        draw_mesh(raster, axes, mark);
         return true;
     case GM_MARK_IMAGE:
-        draw_image(raster, frame, mark);
+        draw_image(raster, axes, mark);
         return true;
     case GM_MARK_TEXT:
         return true;

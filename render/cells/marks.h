@@ -8,7 +8,7 @@
 
 /* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it,
    and counts as a part of that. False when memory is short. */
-bool gm_marks_draw(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark,
                    bool outline);
 
 /* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */

@@ -62,11 +62,11 @@ void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
         gm_raster_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
 }
 
-struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_frame *frame,
+struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_axes *axes,
                                        const double *point)
 {
-    return (struct gm_raster_place){gm_frame_x(frame, point[0]) / raster->unit_x,
-                                    gm_frame_y(frame, point[1]) / raster->unit_y};
+    return (struct gm_raster_place){gm_axes_x(axes, point[0]) / raster->unit_x,
+                                    gm_axes_y(axes, point[1]) / raster->unit_y};
 }
 
 bool gm_raster_is_place(struct gm_raster_place place)

@@ -50,7 +50,7 @@ struct gm_raster_place {
     double x, y;
 };
 /* Where a point (x, y) of the panel lies. */
-struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_frame *frame,
+struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_axes *axes,
                                        const double *point);
 /* Whether it is finite. */
 bool gm_raster_is_place(struct gm_raster_place place);

@@ -32,18 +32,18 @@ static void clip_to(struct gm_painter *painter, const struct gm_box *box, double
 }
 
 /* The mark's points on the surface. False when memory is short. */
-static bool project(struct gm_painter *painter, const struct gm_frame *frame, const struct gm_mark *mark)
+static bool project(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_polyline *line = &painter->line;
     if (!gm_polyline_reserve(line, mark->count)) {
         return false;
     }
-    const bool linear = frame->panel->x.scale != GM_LOG && frame->panel->y.scale != GM_LOG;
+    const bool linear = axes->panel->x.scale != GM_LOG && axes->panel->y.scale != GM_LOG;
     const double far = 1e7; /* where floats still have whole pixels */
     for (size_t i = 0; i < mark->count; i++) {
         const double *p = mark->points + 2 * i;
-        const double x = linear ? frame->x_origin + frame->x_factor * p[0] : gm_frame_x(frame, p[0]);
-        const double y = linear ? frame->y_origin + frame->y_factor * p[1] : gm_frame_y(frame, p[1]);
+        const double x = linear ? axes->x_origin + axes->x_factor * p[0] : gm_axes_x(axes, p[0]);
+        const double y = linear ? axes->y_origin + axes->y_factor * p[1] : gm_axes_y(axes, p[1]);
         line->points[i] = (struct gm_point){(float)(x > far    ? far
                                                     : x < -far ? -far
                                                                : x),
@@ -66,9 +66,9 @@ static float stroke_width(const struct gm_painter *painter, const struct gm_styl
     return (float)(style->width * painter->scale);
 }
 
-static struct gm_bounds bounds_of(const struct gm_frame *frame, float margin)
+static struct gm_bounds bounds_of(const struct gm_axes *axes, float margin)
 {
-    const struct gm_box *box = &frame->box;
+    const struct gm_box *box = &axes->box;
     return (struct gm_bounds){(float)box->x - margin, (float)box->y - margin,
                               (float)(box->x + box->width) + margin, (float)(box->y + box->height) + margin};
 }
@@ -84,11 +84,11 @@ static bool can_be_dashed(const struct gm_polyline *piece, const float *pattern,
     return gm_polyline_length(piece) * (float)parts < 2.0f * most_dashes * period;
 }
 
-static void draw_line(struct gm_painter *painter, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_line(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(painter, style);
-    if (!(width > 0.0f) || !project(painter, frame, mark)) {
+    if (!(width > 0.0f) || !project(painter, axes, mark)) {
         return;
     }
     struct gm_stroke stroke = {.width = width, .ink = ink_of(painter, style)};
@@ -97,7 +97,7 @@ static void draw_line(struct gm_painter *painter, const struct gm_frame *frame, 
         stroke.pattern[i] =
             dashes[style->dash].lengths[i] * fmaxf(width, 1.2f * (float)fmax(painter->scale, 0.8));
     }
-    const struct gm_bounds bounds = bounds_of(frame, cut + 2.0f * width);
+    const struct gm_bounds bounds = bounds_of(axes, cut + 2.0f * width);
     for (size_t from = 0; gm_polyline_clip(&painter->line, bounds, &from, &painter->piece);) {
         gm_polyline_simplify(&painter->piece, tolerance);
         stroke.parts = can_be_dashed(&painter->piece, stroke.pattern, parts) ? parts : 0;
@@ -105,17 +105,17 @@ static void draw_line(struct gm_painter *painter, const struct gm_frame *frame, 
     }
 }
 
-static void draw_points(struct gm_painter *painter, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_points(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(painter, style);
-    if (!(width > 0.0f) || !project(painter, frame, mark)) {
+    if (!(width > 0.0f) || !project(painter, axes, mark)) {
         return;
     }
     const float radius = 0.5f * fmaxf(width, 1.0f);
     const struct gm_ink ink = ink_of(painter, style);
-    const struct gm_bounds bounds = bounds_of(frame, 0.5f);
-    clip_to(painter, &frame->box, radius + 1.0f);
+    const struct gm_bounds bounds = bounds_of(axes, 0.5f);
+    clip_to(painter, &axes->box, radius + 1.0f);
     for (size_t i = 0; i < painter->line.count; i++) {
         const struct gm_point p = painter->line.points[i];
         if (p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom) {
@@ -124,9 +124,9 @@ static void draw_points(struct gm_painter *painter, const struct gm_frame *frame
     }
 }
 
-static void draw_polygon(struct gm_painter *painter, const struct gm_frame *frame, const struct gm_mark *mark)
+static void draw_polygon(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
-    if (!project(painter, frame, mark)) {
+    if (!project(painter, axes, mark)) {
         return;
     }
     struct gm_polyline *line = &painter->line;
@@ -139,23 +139,23 @@ static void draw_polygon(struct gm_painter *painter, const struct gm_frame *fram
     painter->pen->fill(painter->self, line, ink_of(painter, &mark->style));
 }
 
-void gm_paint_marks(struct gm_painter *painter, const struct gm_frame *frame)
+void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes)
 {
-    for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
-        clip_to(painter, &frame->box, 2.5 * painter->scale);
+    for (const struct gm_mark *mark = axes->panel->first; mark; mark = mark->next) {
+        clip_to(painter, &axes->box, 2.5 * painter->scale);
         switch (mark->kind) {
         case GM_MARK_LINE:
-            draw_line(painter, frame, mark);
+            draw_line(painter, axes, mark);
             break;
         case GM_MARK_POINTS:
-            draw_points(painter, frame, mark);
+            draw_points(painter, axes, mark);
             break;
         case GM_MARK_POLYGON:
-            draw_polygon(painter, frame, mark);
+            draw_polygon(painter, axes, mark);
             break;
         case GM_MARK_MESH:
         case GM_MARK_IMAGE:
-            painter->pen->field(painter->self, frame, mark);
+            painter->pen->field(painter->self, axes, mark);
             break;
         case GM_MARK_TEXT: /* after everything else: gm_paint_labels */
             break;

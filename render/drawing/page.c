@@ -49,7 +49,7 @@ bool gm_page_draw(struct gm_painter *painter, struct gm_picture *picture)
         return false;
     }
     for (size_t i = 0; i < layout->frame_count; i++) {
-        gm_paint_frame(painter, &layout->frames[i]);
+        gm_paint_axes(painter, &layout->frames[i]);
     }
     gm_paint_labels(painter, layout);
     return true;

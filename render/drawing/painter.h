@@ -21,10 +21,10 @@ struct gm_painter {
 };
 
 /* marks.c: everything of a panel's data but its texts. */
-void gm_paint_marks(struct gm_painter *painter, const struct gm_frame *frame);
+void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes);
 
 /* frame.c: grid, marks, axes and colour bar. */
-void gm_paint_frame(struct gm_painter *painter, const struct gm_frame *frame);
+void gm_paint_axes(struct gm_painter *painter, const struct gm_axes *axes);
 
 /* text.c: every label of the layout, those among the marks on plates of paper; and the layout's view of the
    fonts, whose self is the painter. */

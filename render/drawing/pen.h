@@ -51,7 +51,7 @@ struct gm_pen {
     /* The inside of a closed line (even-odd). */
     void (*fill)(void *self, const struct gm_polyline *line, struct gm_ink ink);
     /* A mesh or an image: values between those given are interpolated, and then get their colour. */
-    void (*field)(void *self, const struct gm_frame *frame, const struct gm_mark *mark);
+    void (*field)(void *self, const struct gm_axes *frame, const struct gm_mark *mark);
     /* The colours of a map, its low end at the bottom of the box. */
     void (*ramp)(void *self, struct gm_box box, enum gm_colour_map map);
     void (*text)(void *self, const struct gm_writing *writing, const char *text);

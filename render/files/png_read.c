@@ -26,7 +26,7 @@ enum {
 /* A chunk's data, and what is left of the bytes that texts may have. */
 struct chunk {
     const unsigned char *data;
-    size_t size, room;
+    size_t size, limit;
 };
 
 static char *copy_of(const void *bytes, size_t size)
@@ -40,14 +40,14 @@ static char *copy_of(const void *bytes, size_t size)
 }
 
 /* A text packed in zlib's format; NULL if it is damaged or larger than the room. */
-static char *unpack(const unsigned char *packed, size_t size, size_t room)
+static char *unpack(const unsigned char *packed, size_t size, size_t limit)
 {
     gm_deflate_prepare();
     struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
-    char *bytes = decompressor ? malloc(room + 1) : NULL, *text = NULL;
+    char *bytes = decompressor ? malloc(limit + 1) : NULL, *text = NULL;
     size_t length = 0;
     if (bytes &&
-        libdeflate_zlib_decompress(decompressor, packed, size, bytes, room, &length) == LIBDEFLATE_SUCCESS) {
+        libdeflate_zlib_decompress(decompressor, packed, size, bytes, limit, &length) == LIBDEFLATE_SUCCESS) {
         text = copy_of(bytes, length);
         if (text && strlen(text) != length) {
             free(text);
@@ -84,16 +84,16 @@ static char *text_of(const struct chunk *chunk, const char *type, size_t key)
     }
     const size_t size = (size_t)(end - at);
     if (packed) {
-        return unpack(at, size, chunk->room);
+        return unpack(at, size, chunk->limit);
     }
-    return size > chunk->room || memchr(at, 0, size) ? NULL : copy_of(at, size);
+    return size > chunk->limit || memchr(at, 0, size) ? NULL : copy_of(at, size);
 }
 
 /* The texts that are looked for. */
 struct search {
     const char *const *keys;
     char **texts;
-    size_t count, room;
+    size_t count, limit;
 };
 
 /* The index of a chunk's key among those that are still looked for; their number if it is none of them. */
@@ -117,14 +117,14 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
     bool good = bytes && fread(bytes + TYPE, 1, length + CHECKSUM, file) == length + CHECKSUM;
     if (good) {
         memcpy(bytes, type, TYPE);
-        const struct chunk chunk = {bytes + TYPE, length, search->room};
+        const struct chunk chunk = {bytes + TYPE, length, search->limit};
         const size_t i = wanted(search, chunk.data, length);
         good = libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
         if (good && i < search->count) {
             char *text = text_of(&chunk, type, strlen(search->keys[i]));
             good = text != NULL;
             search->texts[i] = text;
-            search->room -= text ? strlen(text) : 0;
+            search->limit -= text ? strlen(text) : 0;
         }
     }
     if (!good) {

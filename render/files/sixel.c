@@ -38,7 +38,7 @@ struct gm_sixel {
     uint8_t *pixels, *bands;
     size_t pixel_room, band_room;
     char *out;
-    size_t length, room;
+    size_t length, capacity;
 };
 
 struct gm_sixel *gm_sixel_open(void)
@@ -220,16 +220,16 @@ static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t 
 /* Room for so many bytes more. */
 static bool make_room(struct gm_sixel *sixel, size_t more)
 {
-    if (sixel->length + more <= sixel->room) {
+    if (sixel->length + more <= sixel->capacity) {
         return true;
     }
-    size_t room = 2 * (sixel->length + more);
-    char *out = realloc(sixel->out, room);
+    size_t capacity = 2 * (sixel->length + more);
+    char *out = realloc(sixel->out, capacity);
     if (!out) {
         return false;
     }
     sixel->out = out;
-    sixel->room = room;
+    sixel->capacity = capacity;
     return true;
 }
 
@@ -311,15 +311,15 @@ static bool put_band(struct gm_sixel *sixel, const uint8_t *pixels, int width, i
     return true;
 }
 
-static bool grow(uint8_t **bytes, size_t *room, size_t wanted)
+static bool grow(uint8_t **bytes, size_t *capacity, size_t wanted)
 {
-    if (wanted > *room) {
+    if (wanted > *capacity) {
         uint8_t *more = realloc(*bytes, wanted);
         if (!more) {
             return false;
         }
         *bytes = more;
-        *room = wanted;
+        *capacity = wanted;
     }
     return true;
 }

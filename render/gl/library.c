@@ -12,11 +12,11 @@
 static bool has_own_memory(void)
 {
     void *library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
-    void *own = library ? dlsym(library, "malloc") : NULL;
+    void *self = library ? dlsym(library, "malloc") : NULL;
     if (library) {
         dlclose(library);
     }
-    return own && own == dlsym(RTLD_DEFAULT, "malloc");
+    return self && self == dlsym(RTLD_DEFAULT, "malloc");
 }
 
 /* Mesa and LLVM look 20 000 symbols up while they are loaded: in the program's forty libraries first, if nobody says

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "render/layout/frame.h"
+#include "render/layout/axes.h"
 #include "render/layout/labels.h"
 
 /* Distances in pixels of a picture 720 high. */
@@ -28,7 +28,7 @@ static const double graph_aspect = 1.75, graph_narrowest = 1.0;
 
 /* Panels of one place, in a grid over an area. */
 struct group {
-    struct gm_frame *frames; /* only their panels are set beforehand */
+    struct gm_axes *frames; /* only their panels are set beforehand */
     size_t count;
     enum gm_place place;
     struct gm_box area;
@@ -71,15 +71,15 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
     size_t bars = 0;
     bool between = false; /* a panel with a bar has another one beside it */
     for (size_t i = 0; i < group->count; i++) {
-        const struct gm_border own =
+        const struct gm_border self =
             gm_border_of(list, group->frames[i].panel, group->detail, names_x(group, i), calm);
-        border.left = fmax(border.left, own.left);
-        border.right = fmax(border.right, own.right);
-        border.top = fmax(border.top, own.top);
-        border.bottom = fmax(border.bottom, own.bottom);
-        border.bar = fmax(border.bar, own.bar);
-        bars += own.bar > 0.0;
-        between |= own.bar > 0.0 && i + 1 < group->count && (i + 1) % group->columns != 0;
+        border.left = fmax(border.left, self.left);
+        border.right = fmax(border.right, self.right);
+        border.top = fmax(border.top, self.top);
+        border.bottom = fmax(border.bottom, self.bottom);
+        border.bar = fmax(border.bar, self.bar);
+        bars += self.bar > 0.0;
+        between |= self.bar > 0.0 && i + 1 < group->count && (i + 1) % group->columns != 0;
     }
     if (bars > 1 || between) {
         border.right += border.bar;
@@ -288,17 +288,17 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
             box.x += 0.5 * (width - box.width);
         }
         box.y += 0.5 * (height - box.height);
-        gm_frame_fill(list, &group->frames[i], panel,
-                      &(struct gm_fill){.box = box,
-                                        .detail = group->detail,
-                                        .x_label = names_x(group, i),
-                                        .note_lines = border.note_lines,
-                                        .note_words = note_words(list, group, i, column),
-                                        .small_title = small_titles,
-                                        .title_lines = group->title_lines,
-                                        .title_skip = skip,
-                                        .title_left = x,
-                                        .title_width = column});
+        gm_axes_fill(list, &group->frames[i], panel,
+                     &(struct gm_fill){.box = box,
+                                       .detail = group->detail,
+                                       .x_label = names_x(group, i),
+                                       .note_lines = border.note_lines,
+                                       .note_words = note_words(list, group, i, column),
+                                       .small_title = small_titles,
+                                       .title_lines = group->title_lines,
+                                       .title_skip = skip,
+                                       .title_left = x,
+                                       .title_width = column});
     }
 }
 
@@ -324,9 +324,9 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
         header = true;
     }
     const char *lines[GM_TITLE_LINES];
-    const size_t room = (size_t)fmax(1.0, title_share * metrics->height / metrics->line[GM_TEXT_TITLE]);
+    const size_t capacity = (size_t)fmax(1.0, title_share * metrics->height / metrics->line[GM_TEXT_TITLE]);
     const size_t count = gm_labels_wrap(list, GM_TEXT_TITLE, picture->title, left,
-                                        room < GM_TITLE_LINES ? room : GM_TITLE_LINES, lines);
+                                        capacity < GM_TITLE_LINES ? capacity : GM_TITLE_LINES, lines);
     for (size_t i = 0; i < count; i++) {
         header |= gm_labels_add(list, (struct gm_label){.text = lines[i],
                                                         .size = GM_TEXT_TITLE,
@@ -384,18 +384,18 @@ static double place_told(struct gm_label_list *list, const struct gm_picture *pi
     static const double most_share = 0.4;
     const struct gm_metrics *metrics = list->metrics;
     const double line = metrics->line[GM_TEXT_PANEL], width = fmax(0.0, metrics->width - 2.0 * margin);
-    const size_t room = (size_t)fmin(MOST_TOLD, most_share * metrics->height / line);
+    const size_t capacity = (size_t)fmin(MOST_TOLD, most_share * metrics->height / line);
     const char *lines[MOST_TOLD];
     const struct gm_paragraph *owners[MOST_TOLD];
     size_t count = 0;
     for (size_t i = 0; i < picture->told_count; i++) {
-        const size_t more =
-            gm_labels_wrap(list, GM_TEXT_PANEL, picture->told[i].text, width, room - count, &lines[count]);
+        const size_t more = gm_labels_wrap(list, GM_TEXT_PANEL, picture->told[i].text, width,
+                                           capacity - count, &lines[count]);
         for (size_t k = 0; k < more; k++) {
             owners[count++] = &picture->told[i];
         }
     }
-    const size_t kept = picture->told_lines < room ? picture->told_lines : room;
+    const size_t kept = picture->told_lines < capacity ? picture->told_lines : capacity;
     const double top =
         metrics->height - bottom_margin * metrics->scale - (double)(count > kept ? count : kept) * line;
     for (size_t i = 0; i < count; i++) {
@@ -411,12 +411,12 @@ static double place_told(struct gm_label_list *list, const struct gm_picture *pi
 
 /* Gives the panels of a place their frames, the graphs after the states. */
 static size_t collect(const struct gm_picture *picture, enum gm_place place, size_t most,
-                      struct gm_frame *frames)
+                      struct gm_axes *axes)
 {
     size_t count = 0;
     for (const struct gm_panel *panel = picture->first; panel && count < most; panel = panel->next) {
         if (panel->place == place) {
-            frames[count++].panel = panel;
+            axes[count++].panel = panel;
         }
     }
     return count;
@@ -548,12 +548,12 @@ static size_t terse_count(const struct group *graphs, bool beside)
 
 /* Texts among the marks come last: one that meets another label or stands over the edge of its panel moves a
    little, and is left out where that does not help. */
-static void place_notes(struct gm_label_list *list, const struct gm_frame *frames, size_t count)
+static void place_notes(struct gm_label_list *list, const struct gm_axes *axes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        for (const struct gm_mark *mark = frames[i].panel->first; mark; mark = mark->next) {
+        for (const struct gm_mark *mark = axes[i].panel->first; mark; mark = mark->next) {
             if (mark->kind == GM_MARK_TEXT) {
-                gm_frame_note(list, frames, count, i, mark);
+                gm_axes_note(list, axes, count, i, mark);
             }
         }
     }
@@ -609,8 +609,8 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     const size_t panel_count = count_panels(picture);
     struct gm_label_list list;
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
-    struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
-    if (!layout || !frames || !gm_labels_open(&list, picture, metrics, most_labels(picture))) {
+    struct gm_axes *axes = gm_picture_memory(picture, (panel_count + 1) * sizeof *axes);
+    if (!layout || !axes || !gm_labels_open(&list, picture, metrics, most_labels(picture))) {
         return NULL;
     }
 
@@ -619,9 +619,9 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     const double bottom =
         picture->told_count > 0 ? place_told(&list, picture, margin) : place_caption(&list, picture, margin);
 
-    struct group states = {.frames = frames, .place = GM_PLACE_STATE, .wanted = picture->state_columns};
-    states.count = collect(picture, GM_PLACE_STATE, panel_count, frames);
-    struct group graphs = {.frames = frames + states.count, .place = GM_PLACE_GRAPH};
+    struct group states = {.frames = axes, .place = GM_PLACE_STATE, .wanted = picture->state_columns};
+    states.count = collect(picture, GM_PLACE_STATE, panel_count, axes);
+    struct group graphs = {.frames = axes + states.count, .place = GM_PLACE_GRAPH};
     graphs.count = collect(picture, GM_PLACE_GRAPH, panel_count, graphs.frames);
 
     const struct gm_box area = {margin, top, fmax(0.0, metrics->width - 2.0 * margin),
@@ -645,9 +645,9 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         place_group(&list, &graphs, margin, false);
     }
     const size_t frame_count = states.count + graphs.count;
-    place_notes(&list, frames, frame_count);
+    place_notes(&list, axes, frame_count);
     *layout = (struct gm_layout){
-        .frames = frames, .frame_count = frame_count, .labels = list.labels, .label_count = list.count};
+        .frames = axes, .frame_count = frame_count, .labels = list.labels, .label_count = list.count};
     return layout;
 }
 
@@ -655,14 +655,14 @@ const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double a
                                         double *y)
 {
     for (size_t i = 0; layout && i < layout->frame_count; i++) {
-        const struct gm_frame *frame = &layout->frames[i];
-        const struct gm_box *box = &frame->box;
-        if (frame->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
-            down >= box->y && down <= box->y + box->height && frame->panel->x.scale != GM_LOG &&
-            frame->panel->y.scale != GM_LOG) {
-            *x = (across - frame->x_origin) / frame->x_factor;
-            *y = (down - frame->y_origin) / frame->y_factor;
-            return frame->panel;
+        const struct gm_axes *axes = &layout->frames[i];
+        const struct gm_box *box = &axes->box;
+        if (axes->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
+            down >= box->y && down <= box->y + box->height && axes->panel->x.scale != GM_LOG &&
+            axes->panel->y.scale != GM_LOG) {
+            *x = (across - axes->x_origin) / axes->x_factor;
+            *y = (down - axes->y_origin) / axes->y_factor;
+            return axes->panel;
         }
     }
     return NULL;

@@ -7,7 +7,7 @@
 /* Where everything of a picture goes on a surface of given size; the layout is one for all painters. */
 
 struct gm_layout {
-    struct gm_frame *frames;
+    struct gm_axes *frames;
     size_t frame_count;
     struct gm_label *labels; /* every text, those among the marks and of the ticks included */
     size_t label_count;

@@ -27,14 +27,14 @@ static double frame_coordinate(const struct gm_axis *axis, double origin, double
     return origin + factor * value;
 }
 
-double gm_frame_x(const struct gm_frame *frame, double value)
+double gm_axes_x(const struct gm_axes *axes, double value)
 {
-    return frame_coordinate(&frame->panel->x, frame->x_origin, frame->x_factor, value);
+    return frame_coordinate(&axes->panel->x, axes->x_origin, axes->x_factor, value);
 }
 
-double gm_frame_y(const struct gm_frame *frame, double value)
+double gm_axes_y(const struct gm_axes *axes, double value)
 {
-    return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
+    return frame_coordinate(&axes->panel->y, axes->y_origin, axes->y_factor, value);
 }
 
 /* Towards zero, and within the bounds; NaN is the lower one. */

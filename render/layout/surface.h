@@ -40,7 +40,7 @@ struct gm_label { /* a text placed on the surface */
     bool among_marks; /* a text of a panel's data, to be read on whatever lies under it */
 };
 
-struct gm_frame { /* a panel on the surface */
+struct gm_axes { /* a panel on the surface */
     const struct gm_panel *panel;
     struct gm_box box; /* of the data; marks are clipped to it */
     /* surface = origin + factor * value (of log10 of the value on a log axis) */
@@ -60,8 +60,8 @@ double gm_anchor_share(enum gm_anchor anchor);
 const struct gm_mark *gm_panel_field(const struct gm_panel *panel);
 
 /* Surface coordinates of a value on a frame's axes. */
-double gm_frame_x(const struct gm_frame *frame, double value);
-double gm_frame_y(const struct gm_frame *frame, double value);
+double gm_axes_x(const struct gm_axes *axes, double value);
+double gm_axes_y(const struct gm_axes *axes, double value);
 
 /* The value of an image at a place from 0 to 1 in both directions, from its left and its bottom: linear in both
    between the middles of its cells. */

@@ -111,12 +111,12 @@ static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look,
         canvas->opengl =
             gm_opengl_open((enum gm_context_kind)painter, look->width, look->height, look->theme, message);
     }
-    const bool is_own = painter == OWN || (!canvas->opengl && chosen == AUTO);
-    if (is_own ? !rasteriser_open(&canvas->rasteriser, look, message) : !canvas->opengl) {
+    const bool is_user = painter == OWN || (!canvas->opengl && chosen == AUTO);
+    if (is_user ? !rasteriser_open(&canvas->rasteriser, look, message) : !canvas->opengl) {
         return false;
     }
-    snprintf(canvas->backend, sizeof canvas->backend, "%s%s%s", names[is_own ? OWN : painter],
-             is_own ? "" : ", ", is_own ? "" : gm_opengl_name(canvas->opengl));
+    snprintf(canvas->backend, sizeof canvas->backend, "%s%s%s", names[is_user ? OWN : painter],
+             is_user ? "" : ", ", is_user ? "" : gm_opengl_name(canvas->opengl));
     canvas->rgba = malloc((size_t)look->width * (size_t)look->height * 4);
     return canvas->rgba || gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.",
                                      look->width, look->height);

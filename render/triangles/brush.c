@@ -123,7 +123,7 @@ static struct gm_vertex vertex(double x, double y, double across, double along, 
                               (float)along, (float)alpha, {row, 255, 255, 255}};
 }
 
-static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, const struct gm_mark *mark)
+static void paint_mesh(struct gm_brush *brush, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     uint32_t *indices;
     gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
@@ -135,9 +135,8 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, con
     const size_t first = (size_t)(vertices - brush->batch.vertices);
     const double factor = 1.0 / (mark->high - mark->low);
     for (size_t i = 0; i < mark->count; i++) {
-        vertices[i] =
-            vertex(gm_frame_x(frame, mark->points[2 * i]), gm_frame_y(frame, mark->points[2 * i + 1]),
-                   factor * (mark->values[i] - mark->low), 0.0, mark->style.alpha, mark->map);
+        vertices[i] = vertex(gm_axes_x(axes, mark->points[2 * i]), gm_axes_y(axes, mark->points[2 * i + 1]),
+                             factor * (mark->values[i] - mark->low), 0.0, mark->style.alpha, mark->map);
     }
     for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
         indices[i] = (uint32_t)(first + (size_t)mark->triangles[i]);
@@ -168,10 +167,10 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
     gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
-static void paint_image(struct gm_brush *brush, const struct gm_frame *frame, const struct gm_mark *mark)
+static void paint_image(struct gm_brush *brush, const struct gm_axes *axes, const struct gm_mark *mark)
 {
-    const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);
-    const double bottom = gm_frame_y(frame, mark->points[1]), top = gm_frame_y(frame, mark->points[3]);
+    const double left = gm_axes_x(axes, mark->points[0]), right = gm_axes_x(axes, mark->points[2]);
+    const double bottom = gm_axes_y(axes, mark->points[1]), top = gm_axes_y(axes, mark->points[3]);
     const double alpha = mark->style.alpha;
     gm_batch_state(&brush->batch, GM_PROGRAM_IMAGE, GM_STENCIL_NONE);
     gm_batch_image(&brush->batch, mark);
@@ -183,12 +182,12 @@ static void paint_image(struct gm_brush *brush, const struct gm_frame *frame, co
     gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
-static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     if (mark->kind == GM_MARK_MESH) {
-        paint_mesh(self, frame, mark);
+        paint_mesh(self, axes, mark);
     } else {
-        paint_image(self, frame, mark);
+        paint_image(self, axes, mark);
     }
 }
 

@@ -60,7 +60,7 @@ static void paint_triangle(struct gm_field_image *field, const struct gm_mark *m
     }
 }
 
-static void paint_mesh(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
+static void paint_mesh(struct gm_field_image *field, const struct gm_axes *axes, const struct gm_mark *mark,
                        int fine)
 {
     for (size_t i = 0; i < mark->triangle_count; i++) {
@@ -68,9 +68,9 @@ static void paint_mesh(struct gm_field_image *field, const struct gm_frame *fram
         bool known = true;
         for (size_t k = 0; k < 3; k++) {
             const size_t vertex = (size_t)mark->triangles[3 * i + k];
-            corners[k] = (struct corner){
-                fine * (gm_frame_x(frame, mark->points[2 * vertex]) - field->left),
-                fine * (gm_frame_y(frame, mark->points[2 * vertex + 1]) - field->top), mark->values[vertex]};
+            corners[k] = (struct corner){fine * (gm_axes_x(axes, mark->points[2 * vertex]) - field->left),
+                                         fine * (gm_axes_y(axes, mark->points[2 * vertex + 1]) - field->top),
+                                         mark->values[vertex]};
             known = known && isfinite(corners[k].value);
         }
         if (known) {
@@ -79,11 +79,11 @@ static void paint_mesh(struct gm_field_image *field, const struct gm_frame *fram
     }
 }
 
-static void paint_image(struct gm_field_image *field, const struct gm_frame *frame,
-                        const struct gm_mark *mark, int fine)
+static void paint_image(struct gm_field_image *field, const struct gm_axes *axes, const struct gm_mark *mark,
+                        int fine)
 {
-    const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);
-    const double bottom = gm_frame_y(frame, mark->points[1]), top = gm_frame_y(frame, mark->points[3]);
+    const double left = gm_axes_x(axes, mark->points[0]), right = gm_axes_x(axes, mark->points[2]);
+    const double bottom = gm_axes_y(axes, mark->points[1]), top = gm_axes_y(axes, mark->points[3]);
     for (int y = 0; y < field->rows; y++) {
         const double v = (field->top + (y + 0.5) / fine - bottom) / (top - bottom);
         for (int x = 0; x < field->columns; x++) {
@@ -97,7 +97,7 @@ static void paint_image(struct gm_field_image *field, const struct gm_frame *fra
     }
 }
 
-static bool paint(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
+static bool paint(struct gm_field_image *field, const struct gm_axes *axes, const struct gm_mark *mark,
                   int fine)
 {
     field->columns = fine * field->width;
@@ -109,9 +109,9 @@ static bool paint(struct gm_field_image *field, const struct gm_frame *frame, co
     }
     memset(field->pixels, GM_FIELD_NONE, size);
     if (mark->kind == GM_MARK_MESH) {
-        paint_mesh(field, frame, mark, fine);
+        paint_mesh(field, axes, mark, fine);
     } else {
-        paint_image(field, frame, mark, fine);
+        paint_image(field, axes, mark, fine);
     }
     return true;
 }
@@ -132,14 +132,14 @@ static void keep_whole_pixels(struct gm_field_image *field, const struct gm_fiel
     }
 }
 
-bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
+bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *axes,
                           const struct gm_mark *mark, const int clip[4])
 {
     const size_t count = mark->kind == GM_MARK_IMAGE ? 2 : mark->count;
     double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
     for (size_t i = 0; i < count; i++) {
-        const double x = gm_frame_x(frame, mark->points[2 * i]);
-        const double y = gm_frame_y(frame, mark->points[2 * i + 1]);
+        const double x = gm_axes_x(axes, mark->points[2 * i]);
+        const double y = gm_axes_y(axes, mark->points[2 * i + 1]);
         low_x = fmin(low_x, x);
         high_x = fmax(high_x, x);
         low_y = fmin(low_y, y);
@@ -158,7 +158,7 @@ bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *f
     const double large = 4e6; /* pixels */
     const int fine = (double)field->width * field->height > large ? 1 : 2;
     struct gm_field_image whole = *field;
-    const bool painted = paint(&whole, frame, mark, 1) && paint(field, frame, mark, fine);
+    const bool painted = paint(&whole, axes, mark, 1) && paint(field, axes, mark, fine);
     if (painted) {
         keep_whole_pixels(field, &whole, fine);
     }

@@ -23,7 +23,7 @@ struct gm_field_image {
 /* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with
    two pixels for one of the surface, as drawings are looked at from near, or one where it is large. An empty
    field (width 0) where nothing of it does. False when memory is short. */
-bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
+bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *axes,
                           const struct gm_mark *mark, const int clip[4]);
 void gm_field_image_close(struct gm_field_image *field);
 

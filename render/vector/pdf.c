@@ -124,11 +124,11 @@ static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_col
     return surface;
 }
 
-static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_pdf *pdf = self;
     struct gm_field_image image;
-    if (!gm_field_image_paint(&image, frame, mark, pdf->clip)) {
+    if (!gm_field_image_paint(&image, axes, mark, pdf->clip)) {
         pdf->short_of_memory = true;
         return;
     }

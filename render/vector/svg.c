@@ -309,12 +309,12 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
     free(png);
 }
 
-static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_svg *svg = self;
     struct gm_field_image image;
     end_shapes(svg);
-    if (!gm_field_image_paint(&image, frame, mark, svg->clip)) {
+    if (!gm_field_image_paint(&image, axes, mark, svg->clip)) {
         svg->short_of_memory = true;
         return;
     }

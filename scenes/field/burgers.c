@@ -51,28 +51,28 @@ static double half_length(const struct gm_burgers_scene *scene)
     return scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 2;
 }
 
-static double t0(const void *own)
+static double t0(const void *self)
 {
-    return gm_burgers_t0(&((const struct gm_burgers_scene *)own)->burgers);
+    return gm_burgers_t0(&((const struct gm_burgers_scene *)self)->burgers);
 }
 
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
-    struct gm_burgers_scene *scene = own;
+    struct gm_burgers_scene *scene = self;
     const double length = 2 * half_length(scene);
     scene->dx = length / fmax(2, round(length / scene->dx));
     return gm_settle_courant(keys, count, scene->dx, &scene->timing, &scene->courant, sentence);
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_burgers_scene *scene = own;
+    const struct gm_burgers_scene *scene = self;
     const double most = 1e7, lambda = scene->burgers.lambda;
     *problem = gm_problem_burgers;
     problem->parameters = &scene->burgers;
     /* a grid at rest grows to where the front travels */
     const double travel =
-        scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(own));
+        scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(self));
     const double more = round(fabs(travel) / scene->dx);
     const double pieces = round(2 * half_length(scene) / scene->dx) + more;
     if (!(pieces < most)) {
@@ -80,7 +80,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
                          "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most",
                          pieces);
     }
-    problem->line = (struct gm_line){
+    problem->line = (struct gm_grid1){
         .points = (size_t)pieces + 1,
         .dx = scene->dx,
         .first = -half_length(scene) + scene->offset * scene->dx - (travel < 0 ? more * scene->dx : 0),
@@ -91,20 +91,20 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 
 static double node(const struct gm_problem *problem, size_t j)
 {
-    return gm_line_node(&problem->line, j);
+    return gm_grid1_node(&problem->line, j);
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    struct gm_burgers burgers = ((const struct gm_burgers_scene *)own)->burgers;
+    struct gm_burgers burgers = ((const struct gm_burgers_scene *)self)->burgers;
     const size_t points = problem->line.points;
     for (size_t j = 0; j < points; j++) {
-        y[j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(own));
+        y[j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(self));
     }
     if (burgers.lambda != 0) {
         burgers.lambda = 0;
         for (size_t j = 0; j < points; j++) {
-            y[points + j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(own));
+            y[points + j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(self));
         }
         y[2 * points] = 1;
     }
@@ -302,9 +302,9 @@ static const struct gm_work work = {
 };
 
 /* A Courant number of 1. */
-static double crossing_time(const void *own)
+static double crossing_time(const void *self)
 {
-    return ((const struct gm_burgers_scene *)own)->dx;
+    return ((const struct gm_burgers_scene *)self)->dx;
 }
 
 static const double viscosities[] = {0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.0175};

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scenes/common/graph.h"
 #include "scenes/field/burgers_draw.h"
-#include "scenes/frame/graph.h"
 
 enum { DRAWN = 1600 /* most points of a profile */, TOLD = 60 /* nodes that can be told apart */ };
 
@@ -17,14 +17,14 @@ static double lambda_of(const struct gm_lane *lane)
 /* The nodes inside the panel, in the original frame; at most DRAWN and a little more. */
 static size_t profile(const struct gm_panel *panel, const struct gm_view *view, double *points)
 {
-    const struct gm_line *line = &view->problem->line;
+    const struct gm_grid1 *grid = &view->problem->line;
     const struct gm_burgers *burgers = gm_burgers_of(view->problem);
     const double travelled =
         gm_burgers_fixed(burgers, view->scheme) ? burgers->lambda * (view->t - view->t0) : 0;
-    const size_t stride = (line->points + DRAWN - 1) / DRAWN;
+    const size_t stride = (grid->points + DRAWN - 1) / DRAWN;
     size_t count = 0;
-    for (size_t j = 0; j < line->points; j += stride) {
-        const double x = gm_line_node(line, j) - travelled, reach = (double)stride * line->dx;
+    for (size_t j = 0; j < grid->points; j += stride) {
+        const double x = gm_grid1_node(grid, j) - travelled, reach = (double)stride * grid->dx;
         if (x > panel->x.low - reach && x < panel->x.high + reach) {
             points[2 * count] = x;
             points[2 * count + 1] = view->state[j] - burgers->lambda;
@@ -307,18 +307,18 @@ static struct gm_moving_frame moving_frame(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_burgers_scene *scene = lane->parameters;
-    const struct gm_line *line = &view.problem->line;
+    const struct gm_grid1 *grid = &view.problem->line;
     const bool fixed = gm_burgers_fixed(&scene->burgers, view.scheme);
     const double lambda = scene->burgers.lambda, k = view.dt, sigma = fixed ? 0 : lambda * k;
-    const size_t j = gm_stencil_node(line, scene->at + (fixed ? lambda * (view.t - view.t0) : 0));
+    const size_t j = gm_stencil_node(grid, scene->at + (fixed ? lambda * (view.t - view.t0) : 0));
     const struct gm_burgers_symmetry frame =
-        gm_burgers_frame(view.scheme, &scene->burgers, line->dx, view.state + j - 1);
+        gm_burgers_frame(view.scheme, &scene->burgers, grid->dx, view.state + j - 1);
     struct gm_moving_frame made = {.known = frame.a4 * k < 1};
     for (size_t e = 0; made.known && e < 2 * GM_STENCIL; e++) {
         const size_t i = j + e % GM_STENCIL - GM_STENCIL / 2;
         const bool next = e >= GM_STENCIL;
         made.seen[e] = (struct gm_event){.t = next ? k : 0,
-                                         .x = ((double)i - (double)j) * line->dx + (next ? sigma : 0),
+                                         .x = ((double)i - (double)j) * grid->dx + (next ? sigma : 0),
                                          .u = view.state[i]};
         made.carried[e] = gm_burgers_carried(&frame, made.seen[e]);
     }
@@ -337,7 +337,7 @@ static void draw_frame(struct gm_picture *picture, const struct gm_lane *const *
         gm_picture_text(picture, "the node nearest to x = %g,  ν = %g,  h = %g,  k = %s", scene->at,
                         scene->burgers.viscosity, scene->dx, gm_step_text(picture, lanes[0]->run->dt));
     const struct gm_burgers_row *row = lanes[0]->scheme->coefficients;
-    const struct gm_frame_look look = {
+    const struct gm_axes_style look = {
         .h = scene->dx,
         .k = lanes[0]->run->dt,
         .value = "u",

@@ -9,18 +9,18 @@
 
 enum { DRAWN = 1600 /* most points of a profile */ };
 
-struct gm_line gm_ring(double half_length, long points)
+struct gm_grid1 gm_ring(double half_length, long points)
 {
-    return (struct gm_line){
+    return (struct gm_grid1){
         .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
 }
 
-struct gm_line gm_between_walls(double half_length, long points)
+struct gm_grid1 gm_between_walls(double half_length, long points)
 {
-    return (struct gm_line){.points = 2 * ((size_t)points - 1),
-                            .dx = 2 * half_length / (double)(points - 1),
-                            .first = -half_length,
-                            .walls = true};
+    return (struct gm_grid1){.points = 2 * ((size_t)points - 1),
+                             .dx = 2 * half_length / (double)(points - 1),
+                             .first = -half_length,
+                             .walls = true};
 }
 
 bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
@@ -47,8 +47,8 @@ double gm_field_u(const struct gm_view *view, size_t node)
 double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x))
 {
     double largest = 0;
-    for (size_t i = 0; i < gm_line_seen(&view->problem->line); i++) {
-        const double error = fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i)));
+    for (size_t i = 0; i < gm_grid1_seen(&view->problem->line); i++) {
+        const double error = fabs(view->state[i] - exact(view, gm_grid1_node(&view->problem->line, i)));
         largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
@@ -61,7 +61,7 @@ double gm_field_form_residual(const struct gm_view *view)
 
 static size_t columns_of(const struct gm_problem *problem)
 {
-    const size_t seen = gm_line_seen(&problem->line);
+    const size_t seen = gm_grid1_seen(&problem->line);
     return seen < GM_SURFACE_COLUMNS ? seen : GM_SURFACE_COLUMNS;
 }
 
@@ -79,7 +79,7 @@ double gm_surface_interval(const void *parameters)
 void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
                        double *entry)
 {
-    const size_t seen = gm_line_seen(&view->problem->line), columns = columns_of(view->problem);
+    const size_t seen = gm_grid1_seen(&view->problem->line), columns = columns_of(view->problem);
     for (size_t k = 0; k < columns; k++) {
         entry[k] = value(view, k * seen / columns);
     }
@@ -90,9 +90,9 @@ void gm_surface_record_u(const struct gm_view *view, double *entry)
     gm_surface_record(view, gm_field_u, entry);
 }
 
-static double end_of(const struct gm_line *line)
+static double end_of(const struct gm_grid1 *grid)
 {
-    return line->first + line->dx * (double)(line->walls ? line->points / 2 : line->points);
+    return grid->first + grid->dx * (double)(grid->walls ? grid->points / 2 : grid->points);
 }
 
 static const char *law_name(const struct gm_field_look *look)
@@ -119,12 +119,12 @@ static struct gm_field_look look_of_law(struct gm_picture *picture, const struct
         high = fmax(high, fabs(rows->values[k]));
     }
     gm_range_round(&low, &high, GM_LINEAR);
-    struct gm_field_look own = *look;
-    own.name = gm_picture_text(picture, "residual of the local %s law", law_name(look));
-    own.low = -high;
-    own.high = high;
-    own.map = GM_MAP_DIVERGING;
-    return own;
+    struct gm_field_look field_look = *look;
+    field_look.name = gm_picture_text(picture, "residual of the local %s law", law_name(look));
+    field_look.low = -high;
+    field_look.high = high;
+    field_look.map = GM_MAP_DIVERGING;
+    return field_look;
 }
 
 /* A panel for every lane: the surface so far. */
@@ -134,10 +134,11 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
     const bool law = shown->show != GM_SHOW_FIELD;
     for (size_t i = 0; i < count; i++) {
         const struct gm_lane *lane = lanes[i];
-        const struct gm_field_look own = law ? look_of_law(picture, lane, shown) : *shown, *look = &own;
+        const struct gm_field_look field_look = law ? look_of_law(picture, lane, shown) : *shown,
+                                   *look = &field_look;
         const struct gm_entries *rows = &lane->entries[0];
         const struct gm_timing *timing = lane->parameters;
-        const struct gm_line *line = &lane->problem.line;
+        const struct gm_grid1 *grid = &lane->problem.line;
         const char *name =
             lane->shown.colour_name[0]
                 ? gm_picture_text(picture, "%s, %s", gm_lane_title(lane), lane->shown.colour_name)
@@ -146,7 +147,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         panel->axes = true;
         panel->title_role = gm_lane_role(lane->shown.colour);
         panel->x =
-            (struct gm_axis){.label = "x", .scale = look->x_scale, .low = line->first, .high = end_of(line)};
+            (struct gm_axis){.label = "x", .scale = look->x_scale, .low = grid->first, .high = end_of(grid)};
         panel->y = (struct gm_axis){.label = "t", .low = lane->t0, .high = fmax(timing->until, lane->run->t)};
         if (!(panel->y.high > panel->y.low)) {
             panel->y.high = panel->y.low + 1;
@@ -166,7 +167,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         /* what is there at the start is seen as a thin strip */
         const double thin = (panel->y.high - panel->y.low) / 200;
         const double reached = rows->times[rows->count - 1];
-        const double corners[] = {line->first, lane->t0, end_of(line),
+        const double corners[] = {grid->first, lane->t0, end_of(grid),
                                   reached > lane->t0 ? reached : lane->t0 + thin};
         gm_mark_image(picture, panel, look->map, look->low, look->high, corners, rows->values, rows->count,
                       rows->width);
@@ -185,11 +186,11 @@ static void hold(struct gm_axis *axis, const double *points, size_t count)
 static size_t profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
 {
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_line *line = &lane->problem.line;
-    const size_t seen = gm_line_seen(line), stride = (seen + DRAWN - 1) / DRAWN;
+    const struct gm_grid1 *grid = &lane->problem.line;
+    const size_t seen = gm_grid1_seen(grid), stride = (seen + DRAWN - 1) / DRAWN;
     size_t count = 0;
     for (size_t i = 0; i < seen; i += stride, count++) {
-        points[2 * count] = line->first + line->dx * (double)i;
+        points[2 * count] = grid->first + grid->dx * (double)i;
         points[2 * count + 1] = look->value(&view, i);
     }
     return count;
@@ -198,10 +199,10 @@ static size_t profile(const struct gm_lane *lane, const struct gm_field_look *lo
 static size_t exact_profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
 {
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_line *line = &lane->problem.line;
+    const struct gm_grid1 *grid = &lane->problem.line;
     const size_t count = 800;
     for (size_t i = 0; i < count; i++) {
-        points[2 * i] = line->first + (end_of(line) - line->first) * (double)i / (double)count;
+        points[2 * i] = grid->first + (end_of(grid) - grid->first) * (double)i / (double)count;
         points[2 * i + 1] = look->exact(&view, points[2 * i]);
     }
     return count;
@@ -256,7 +257,7 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
                           const struct gm_field_look *look)
 {
     const struct gm_lane *ahead = farthest(lanes, count);
-    const struct gm_line *line = &ahead->problem.line;
+    const struct gm_grid1 *grid = &ahead->problem.line;
     double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
     if (!points) {
         return;
@@ -269,7 +270,7 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
     panel->axes = true;
     panel->title_role = GM_INK;
     panel->x =
-        (struct gm_axis){.label = "x", .scale = look->x_scale, .low = line->first, .high = end_of(line)};
+        (struct gm_axis){.label = "x", .scale = look->x_scale, .low = grid->first, .high = end_of(grid)};
     panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
     const double most = 0.5 * (look->high - look->low);
     for (size_t i = 0; i < count; i++) {

@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_FIELD_FIELD_H
 #define GM_SCENES_FIELD_FIELD_H
 
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 
 /* What the scenes of fields on a line have in common: the profile now, and the field so far over space and
    time. */
@@ -35,9 +35,9 @@ struct gm_field_look {
     GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
 /* A ring from -half_length to half_length. */
-struct gm_line gm_ring(double half_length, long points);
+struct gm_grid1 gm_ring(double half_length, long points);
 /* So many points from wall to wall. */
-struct gm_line gm_between_walls(double half_length, long points);
+struct gm_grid1 gm_between_walls(double half_length, long points);
 
 /* Either the time step is given or the Courant number dt / dx, and the other follows. False with a sentence
    where both are given and contradict. */

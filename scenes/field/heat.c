@@ -46,17 +46,17 @@ static const struct gm_parameter parameters[] = {
     GM_FRAME_ROWS(struct scene, show, at, "0.5"),
 };
 
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)keys, (void)count, (void)sentence;
-    struct scene *scene = own;
+    struct scene *scene = self;
     scene->dx = 2 * scene->half_length / fmax(4, round(2 * scene->half_length / scene->dx));
     return true;
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     const double pieces = round(2 * scene->half_length / scene->dx), most = 1e7, most_power = 300;
     const double lambda = fabs(scene->heat.lambda), travel = lambda * fmin(scene->timing.until, 1e6);
     const double power =
@@ -74,16 +74,16 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     *problem = gm_problem_heat;
     problem->parameters = &scene->heat;
     problem->line =
-        (struct gm_line){.points = (size_t)pieces + 1, .dx = scene->dx, .first = -scene->half_length};
+        (struct gm_grid1){.points = (size_t)pieces + 1, .dx = scene->dx, .first = -scene->half_length};
     problem->n = problem->line.points;
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    (void)own;
+    (void)self;
     for (size_t j = 0; j < problem->n; j++) {
-        y[j] = gm_heat_exact(gm_heat_of(problem), true, gm_line_node(&problem->line, j), 0);
+        y[j] = gm_heat_exact(gm_heat_of(problem), true, gm_grid1_node(&problem->line, j), 0);
     }
 }
 
@@ -92,7 +92,7 @@ static double at_rest(const struct gm_view *view, size_t j)
 {
     const struct gm_heat *heat = gm_heat_of(view->problem);
     return view->state[j] / gm_heat_factor(heat, gm_heat_fixed(heat, view->scheme),
-                                           gm_line_node(&view->problem->line, j), view->t);
+                                           gm_grid1_node(&view->problem->line, j), view->t);
 }
 
 static double sup_error(const struct gm_view *view)
@@ -101,7 +101,7 @@ static double sup_error(const struct gm_view *view)
     const bool fixed = gm_heat_fixed(heat, view->scheme);
     double largest = 0;
     for (size_t j = 0; j < view->problem->n; j++) {
-        const double x = gm_line_node(&view->problem->line, j);
+        const double x = gm_grid1_node(&view->problem->line, j);
         const double exact = gm_heat_exact(heat, fixed, x, view->t);
         largest = fmax(largest, fabs(view->state[j] - exact) / gm_heat_factor(heat, fixed, x, view->t));
     }
@@ -143,18 +143,18 @@ static const struct gm_observable observables[] = {
 /* Why an invariant scheme makes no step. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const struct gm_line *line = &view->problem->line;
-    for (size_t j = 1; gm_heat_keeps(view->scheme) & GM_HEAT_BOOSTS && j + 1 < line->points; j++) {
+    const struct gm_grid1 *grid = &view->problem->line;
+    for (size_t j = 1; gm_heat_keeps(view->scheme) & GM_HEAT_BOOSTS && j + 1 < grid->points; j++) {
         const struct gm_heat_symmetry frame = gm_heat_frame(
-            view->scheme, gm_heat_of(view->problem)->diffusivity, line->dx, view->state + j - 1);
+            view->scheme, gm_heat_of(view->problem)->diffusivity, grid->dx, view->state + j - 1);
         if (!isfinite(frame.boost)) {
             snprintf(text, size, "u is not positive near x = %.4g, where no boost levels it",
-                     gm_line_node(line, j));
+                     gm_grid1_node(grid, j));
             return;
         }
         if (frame.projection * view->dt >= 1) {
             snprintf(text, size, "no projection levels u near x = %.4g: p dt = %.3g is not below 1",
-                     gm_line_node(line, j), frame.projection * view->dt);
+                     gm_grid1_node(grid, j), frame.projection * view->dt);
             return;
         }
     }
@@ -165,18 +165,18 @@ static struct gm_moving_frame stencil(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct scene *scene = lane->parameters;
-    const struct gm_line *line = &view.problem->line;
+    const struct gm_grid1 *grid = &view.problem->line;
     const bool fixed = gm_heat_fixed(&scene->heat, view.scheme);
     const double travelled = fixed ? scene->heat.lambda * view.t : 0, k = view.dt;
     const double sigma = fixed ? 0 : scene->heat.lambda * k, nu = scene->heat.diffusivity;
-    const size_t j = gm_stencil_node(line, scene->at + travelled);
-    const struct gm_heat_symmetry frame = gm_heat_frame(view.scheme, nu, line->dx, view.state + j - 1);
+    const size_t j = gm_stencil_node(grid, scene->at + travelled);
+    const struct gm_heat_symmetry frame = gm_heat_frame(view.scheme, nu, grid->dx, view.state + j - 1);
     struct gm_moving_frame made = {.known = isfinite(frame.boost) && frame.projection * k < 1};
     for (size_t e = 0; made.known && e < 2 * GM_STENCIL; e++) {
         const size_t i = j + e % GM_STENCIL - GM_STENCIL / 2;
         const bool next = e >= GM_STENCIL;
         struct gm_event event = {.t = next ? k : 0, .u = view.state[i] / view.state[j]};
-        event.x = ((double)i - (double)j) * line->dx + (next ? sigma : 0);
+        event.x = ((double)i - (double)j) * grid->dx + (next ? sigma : 0);
         made.carried[e] = gm_heat_carried(nu, &frame, event);
         made.carried[e].u = log(made.carried[e].u);
         event.u = log(event.u);
@@ -200,7 +200,7 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
     picture->subtitle =
         gm_picture_text(picture, "the node nearest to x = %g,  ν = %g,  h = %g,  k = %s", scene->at,
                         scene->heat.diffusivity, scene->dx, gm_step_text(picture, lanes[0]->run->dt));
-    const struct gm_frame_look look = {.h = scene->dx,
+    const struct gm_axes_style look = {.h = scene->dx,
                                        .k = lanes[0]->run->dt,
                                        .value = "ln u/uⱼ",
                                        .carried = "ln û/ûⱼ",
@@ -217,14 +217,14 @@ static void draw_profile(struct gm_picture *picture, struct gm_panel *panel, con
 {
     enum { DRAWN = 1600 };
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_line *line = &view.problem->line;
+    const struct gm_grid1 *grid = &view.problem->line;
     const struct gm_heat *heat = gm_heat_of(view.problem);
     const double travelled = gm_heat_fixed(heat, view.scheme) ? heat->lambda * view.t : 0;
-    const size_t stride = (line->points + DRAWN - 1) / DRAWN;
+    const size_t stride = (grid->points + DRAWN - 1) / DRAWN;
     double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
     size_t count = 0;
-    for (size_t j = 0; points && j < line->points; j += stride) {
-        const double x = gm_line_node(line, j) - travelled;
+    for (size_t j = 0; points && j < grid->points; j += stride) {
+        const double x = gm_grid1_node(grid, j) - travelled;
         if (x >= panel->x.low && x <= panel->x.high) {
             points[2 * count] = x;
             points[2 * count + 1] = at_rest(&view, j);
@@ -307,9 +307,9 @@ static const struct gm_work work = {
 };
 
 /* A mesh ratio of 1. */
-static double diffusion_time(const void *own)
+static double diffusion_time(const void *self)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     return scene->dx * scene->dx / scene->heat.diffusivity;
 }
 

@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/kdv_frames.h"
+#include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/profile.h"
 #include "core/field/problems/dispersive.h"
 #include "core/larger.h"
@@ -70,10 +70,10 @@ static const struct gm_parameter parameters[] = {
 };
 
 /* The ring, the dispersion and the end that belong to a start. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    struct scene *scene = own;
+    struct scene *scene = self;
     const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
     if (!gm_is_given("at", keys, count) && scene->kdv.initial != GM_KDV_TWO) {
         scene->at = cosine ? 0.4 : scene->kdv.position + 1;
@@ -96,10 +96,10 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
     return true;
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     *problem = gm_problem_kdv;
     problem->parameters = &scene->kdv;
     problem->line = gm_ring(scene->half_length, scene->points);
@@ -110,9 +110,9 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    gm_kdv_levels(problem, ((const struct gm_timing *)own)->dt, y);
+    gm_kdv_levels(problem, ((const struct gm_timing *)self)->dt, y);
 }
 
 /* How far the nodes are from where they were, as the original frame sees them. */
@@ -176,7 +176,7 @@ static double solution_error(const struct gm_view *view)
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
     double largest = 0;
     for (size_t i = 0; i < view->problem->line.points; i++) {
-        const double here = exact(view, gm_line_node(&view->problem->line, i) + travelled(view));
+        const double here = exact(view, gm_grid1_node(&view->problem->line, i) + travelled(view));
         largest = gm_larger(fabs(view->state[i] - kdv->lambda / kdv->eta - here), largest);
     }
     return largest;
@@ -197,13 +197,13 @@ static double scaling_defect(const struct gm_view *view)
 #define NO_FRAME "the scheme does not step in a moving frame, or the step from here is not solved"
 
 /* The halves of the cosine cancel in u and in u³: the integrals of |u| and η|u|³/6 over its period. */
-static double mass_of_cosine(const void *own)
+static double mass_of_cosine(const void *self)
 {
-    return ((const struct scene *)own)->kdv.initial == GM_KDV_COSINE ? 4 / M_PI : 0;
+    return ((const struct scene *)self)->kdv.initial == GM_KDV_COSINE ? 4 / M_PI : 0;
 }
-static double energy_of_cosine(const void *own)
+static double energy_of_cosine(const void *self)
 {
-    const struct gm_kdv *kdv = &((const struct scene *)own)->kdv;
+    const struct gm_kdv *kdv = &((const struct scene *)self)->kdv;
     return kdv->initial == GM_KDV_COSINE ? 4 * kdv->eta / (9 * M_PI) : 0;
 }
 
@@ -236,11 +236,11 @@ static void record(const struct gm_view *view, double *entry)
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 /* The one soliton starts there. */
-static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+static size_t point(const void *self, double x, double u, struct gm_choice *choices)
 {
     (void)u;
     gm_choose(&choices[0], "position", x);
-    return ((const struct scene *)own)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
+    return ((const struct scene *)self)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
 }
 
 /* At a node of the lane, in the frame that its scheme makes the next step in; the scaling by which the nodes
@@ -249,22 +249,22 @@ static struct gm_moving_frame moving_frame(const struct gm_lane *lane, double un
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_kdv *kdv = gm_kdv_of(view.problem);
-    const struct gm_line *line = &view.problem->line;
-    const size_t points = line->points;
+    const struct gm_grid1 *grid = &view.problem->line;
+    const size_t points = grid->points;
     const double sigma = gm_kdv_fixed(kdv, view.scheme) ? 0 : kdv->lambda * view.dt;
     const double at = ((const struct scene *)view.parameters)->at - travelled(&view);
-    const double turns = floor((at - line->first) / (line->dx * (double)points));
-    const size_t j = gm_stencil_node(line, at - turns * line->dx * (double)points);
+    const double turns = floor((at - grid->first) / (grid->dx * (double)points));
+    const size_t j = gm_stencil_node(grid, at - turns * grid->dx * (double)points);
     double *boosts = malloc(points * sizeof *boosts);
-    struct gm_moving_frame made = {.known =
-                                       gm_kdv_has_frames(view.scheme) && boosts &&
-                                       gm_kdv_frames(view.problem, view.scheme, view.dt, view.state, boosts)};
-    const struct gm_kdv_symmetry frame = {.boost = made.known ? boosts[j] : 0, .scale = unit / line->dx};
+    struct gm_moving_frame made = {
+        .known = gm_kdv_has_frames(view.scheme) && boosts &&
+                 gm_kdv_moving_frames(view.problem, view.scheme, view.dt, view.state, boosts)};
+    const struct gm_kdv_symmetry frame = {.boost = made.known ? boosts[j] : 0, .scale = unit / grid->dx};
     for (size_t e = 0; made.known && e < 2 * GM_STENCIL; e++) {
         const size_t i = j + e % GM_STENCIL - GM_STENCIL / 2;
         const bool next = e >= GM_STENCIL;
         made.seen[e] = (struct gm_event){.t = next ? view.dt : 0,
-                                         .x = ((double)i - (double)j) * line->dx + (next ? sigma : 0),
+                                         .x = ((double)i - (double)j) * grid->dx + (next ? sigma : 0),
                                          .u = view.state[i]};
         made.carried[e] = gm_kdv_carried(kdv, &frame, made.seen[e]);
     }
@@ -286,7 +286,7 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
     picture->title = "The moving frame at a node of the Korteweg-de Vries equation";
     picture->subtitle = gm_picture_text(picture, "the node nearest to x = %g,  h = %.3g,  k = %s,  and ĥ = h",
                                         scene->at, h, gm_step_text(picture, lanes[0]->run->dt));
-    const struct gm_frame_look look = {.h = h,
+    const struct gm_axes_style look = {.h = h,
                                        .k = lanes[0]->run->dt,
                                        .value = "u",
                                        .carried = "û",
@@ -303,12 +303,12 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
 /* Why evolution and projection makes no step. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const struct gm_line *line = &view->problem->line;
+    const struct gm_grid1 *grid = &view->problem->line;
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
     double steepest = 0;
-    for (size_t i = 0; i < line->points; i++) {
-        const size_t right = i + 1 < line->points ? i + 1 : 0;
-        steepest = fmax(steepest, kdv->eta * fabs(view->state[right] - view->state[i]) / line->dx);
+    for (size_t i = 0; i < grid->points; i++) {
+        const size_t right = i + 1 < grid->points ? i + 1 : 0;
+        steepest = fmax(steepest, kdv->eta * fabs(view->state[right] - view->state[i]) / grid->dx);
     }
     text[0] = '\0';
     if (gm_kdv_solves(view->scheme) && steepest * fabs(view->dt) >= 2) {
@@ -388,9 +388,9 @@ static const struct gm_work work = {.arguments = "initial=soliton until=4",
                                     .errors = compared};
 
 /* What leapfrog can take: 0.385 dx^3/mu (Zabusky & Kruskal). */
-static double dispersion_time(const void *own)
+static double dispersion_time(const void *self)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     const double dx = 2 * scene->half_length / (double)scene->points;
     return dx * dx * dx / scene->kdv.mu;
 }

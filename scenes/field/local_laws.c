@@ -58,7 +58,7 @@ void gm_surface_record_shown(const struct gm_view *view, int show,
         gm_surface_record(view, value, entry);
         return;
     }
-    const size_t seen = gm_line_seen(&view->problem->line), columns = gm_surface_width(view);
+    const size_t seen = gm_grid1_seen(&view->problem->line), columns = gm_surface_width(view);
     double *residual = malloc(view->problem->line.points * sizeof *residual);
     const bool known = residual && residuals(view, (enum gm_local_law)(show - 1), residual);
     for (size_t k = 0; k < columns; k++) {

@@ -4,14 +4,14 @@
 
 #include <math.h>
 
-const char *const gm_frame_shown[] = {"profiles", "frame", NULL};
+const char *const gm_axes_shown[] = {"profiles", "frame", NULL};
 
 enum { MIDDLE = GM_STENCIL / 2 };
 
-size_t gm_stencil_node(const struct gm_line *line, double place)
+size_t gm_stencil_node(const struct gm_grid1 *grid, double place)
 {
-    const double nearest = round((place - line->first) / line->dx);
-    const double last = (double)line->points - 1 - MIDDLE;
+    const double nearest = round((place - grid->first) / grid->dx);
+    const double last = (double)grid->points - 1 - MIDDLE;
     return (size_t)fmax(MIDDLE, fmin(last, nearest));
 }
 
@@ -41,7 +41,7 @@ static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t c
 
 /* The grid around the node, its stencil as points. */
 static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                       const struct gm_moving_frame *stencils, const struct gm_frame_look *look, bool carried)
+                       const struct gm_moving_frame *stencils, const struct gm_axes_style *look, bool carried)
 {
     struct gm_panel *panel =
         carried ? add(picture, "the same nodes, carried by the frame", "x̂ / h", "t̂ / k")
@@ -87,7 +87,7 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
 
 /* The values around the node at the present level. */
 static void draw_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                        const struct gm_moving_frame *stencils, const struct gm_frame_look *look,
+                        const struct gm_moving_frame *stencils, const struct gm_axes_style *look,
                         bool carried)
 {
     struct gm_panel *panel =
@@ -139,7 +139,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
 }
 
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_moving_frame *stencils, const struct gm_frame_look *look)
+                          const struct gm_moving_frame *stencils, const struct gm_axes_style *look)
 {
     picture->state_columns = 2;
     draw_nodes(picture, lanes, count, stencils, look, false);

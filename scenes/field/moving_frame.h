@@ -2,8 +2,8 @@
 #ifndef GM_SCENES_FIELD_MOVING_FRAME_H
 #define GM_SCENES_FIELD_MOVING_FRAME_H
 
-#include "core/field/problems/frames.h"
-#include "scenes/frame/graph.h"
+#include "core/field/problems/moving_frames.h"
+#include "scenes/common/graph.h"
 
 /* What an invariant scheme does at a node: the nodes around it and the values there, and where the moving
    frame carries both. Figures 19 to 23 of Razafindralandy, Hamdouni & Chhay (2018). */
@@ -19,18 +19,18 @@ struct gm_moving_frame {
 
 /* The values that are shown, as a choice's list, and the row for it. */
 enum { GM_PROFILES_SHOWN, GM_FRAME_SHOWN };
-extern const char *const gm_frame_shown[];
+extern const char *const gm_axes_shown[];
 #define GM_FRAME_ROWS(own, show, at, standard)                                                               \
-    GM_CHOICE_ROW(own, show, "show", "profiles", gm_frame_shown,                                             \
+    GM_CHOICE_ROW(own, show, "show", "profiles", gm_axes_shown,                                              \
                   "the profiles, or the moving frame: a node with its neighbours, and where the frame "      \
                   "carries them"),                                                                           \
         GM_REAL_ROW(own, at, "at", standard, -1e4, 1e4,                                                      \
                     "show=frame: the node nearest to this place of the original frame")
 
 /* The node nearest to a place that has its stencil inside the line; its number there. */
-size_t gm_stencil_node(const struct gm_line *line, double place);
+size_t gm_stencil_node(const struct gm_grid1 *grid, double place);
 
-struct gm_frame_look {
+struct gm_axes_style {
     double h, k;         /* the units of x and t */
     const char *value;   /* what u of the events is, "u" */
     const char *carried; /* and what it is when it is carried, "û" */
@@ -39,6 +39,6 @@ struct gm_frame_look {
 
 /* Four panels: the nodes as the lanes see them and where they are carried, and the values likewise. */
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_moving_frame *stencils, const struct gm_frame_look *look);
+                          const struct gm_moving_frame *stencils, const struct gm_axes_style *look);
 
 #endif

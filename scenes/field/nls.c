@@ -39,10 +39,10 @@ static const struct gm_parameter parameters[] = {
     GM_LAW_ROW(struct scene, show, shown),
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     *problem = gm_problem_nls;
     problem->parameters = &scene->nls;
     problem->line = gm_ring(scene->half_length, scene->points);
@@ -50,12 +50,12 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     const size_t points = problem->line.points;
     for (size_t i = 0; i < points; i++) {
-        gm_nls_exact(&scene->nls, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
+        gm_nls_exact(&scene->nls, &problem->line, gm_grid1_node(&problem->line, i), 0, &y[i], &y[points + i]);
     }
 }
 
@@ -110,12 +110,12 @@ static double energy(const struct gm_view *view)
 
 static double solution_error(const struct gm_view *view)
 {
-    const struct gm_line *line = &view->problem->line;
+    const struct gm_grid1 *grid = &view->problem->line;
     double largest = 0;
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         double re = 0, im = 0;
-        exact_parts(view, gm_line_node(line, i), &re, &im);
-        const double error = hypot(view->state[i] - re, view->state[line->points + i] - im);
+        exact_parts(view, gm_grid1_node(grid, i), &re, &im);
+        const double error = hypot(view->state[i] - re, view->state[grid->points + i] - im);
         largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
@@ -123,19 +123,19 @@ static double solution_error(const struct gm_view *view)
 
 static double modulus_error(const struct gm_view *view)
 {
-    const struct gm_line *line = &view->problem->line;
+    const struct gm_grid1 *grid = &view->problem->line;
     double largest = 0;
-    for (size_t i = 0; i < line->points; i++) {
-        const double error = fabs(value(view, i) - exact(view, gm_line_node(line, i)));
+    for (size_t i = 0; i < grid->points; i++) {
+        const double error = fabs(value(view, i) - exact(view, gm_grid1_node(grid, i)));
         largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
 }
 
 /* What a soliton at rest has; where it moves with c = 2a/√3 its energy is 0. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    const struct gm_nls *nls = &((const struct scene *)own)->nls;
+    const struct gm_nls *nls = &((const struct scene *)self)->nls;
     const double a = nls->amplitude, solitons = nls->initial == GM_NLS_SOLITON ? 1 : 2;
     return solitons * 4 * a * a * a / 3;
 }
@@ -166,9 +166,9 @@ static void record(const struct gm_view *view, double *entry)
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 /* The soliton starts there; of two that meet the other one at the mirror image. */
-static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+static size_t point(const void *self, double x, double u, struct gm_choice *choices)
 {
-    const bool one = ((const struct scene *)own)->nls.initial == GM_NLS_SOLITON;
+    const bool one = ((const struct scene *)self)->nls.initial == GM_NLS_SOLITON;
     (void)u;
     gm_choose(&choices[0], "position", one ? x : -fabs(x));
     return 1;
@@ -225,9 +225,9 @@ static const struct gm_work work = {.arguments = "initial=soliton until=4",
                                     .resolution_count = GM_COUNT(mesh_points),
                                     .errors = compared};
 
-static double dispersion_time(const void *own)
+static double dispersion_time(const void *self)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     const double dx = 2 * scene->half_length / (double)scene->points;
     return dx * dx;
 }

@@ -43,10 +43,10 @@ static const struct gm_parameter parameters[] = {
     GM_LAW_ROW(struct scene, show, shown),
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     *problem = gm_problem_sine_gordon;
     problem->parameters = &scene->solution;
     problem->line = gm_ring(scene->half_length, scene->points);
@@ -55,9 +55,9 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    gm_sine_gordon_levels(problem, 0, ((const struct gm_timing *)own)->dt, y);
+    gm_sine_gordon_levels(problem, 0, ((const struct gm_timing *)self)->dt, y);
 }
 
 /* NaN where it is not known. */
@@ -73,10 +73,10 @@ static double exact(const struct gm_view *view, double x)
 /* At the nodes as gm_sine_gordon_levels places them, so that the start has no error at all. */
 static double solution_error(const struct gm_view *view)
 {
-    const struct gm_line *line = &view->problem->line;
+    const struct gm_grid1 *grid = &view->problem->line;
     double largest = 0;
-    for (size_t i = 0; i < line->points; i++) {
-        const double error = fabs(view->state[i] - exact(view, line->first + (double)i * line->dx));
+    for (size_t i = 0; i < grid->points; i++) {
+        const double error = fabs(view->state[i] - exact(view, grid->first + (double)i * grid->dx));
         largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
@@ -97,9 +97,9 @@ static void record(const struct gm_view *view, double *entry)
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 /* A kink starts there; of two that meet the other one at the mirror image. */
-static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+static size_t point(const void *self, double x, double u, struct gm_choice *choices)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     (void)u;
     const bool one = scene->solution.initial == GM_KINK || scene->solution.initial == GM_ANTIKINK;
     gm_choose(&choices[0], "position", one ? x : -fabs(x));
@@ -175,9 +175,9 @@ static const struct gm_work work = {.arguments = "until=10 half_length=30",
                                     .errors = compared};
 
 /* A Courant number of 1. */
-static double crossing_time(const void *own)
+static double crossing_time(const void *self)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     return 2 * scene->half_length / (double)scene->points;
 }
 

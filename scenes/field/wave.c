@@ -38,17 +38,17 @@ static const struct gm_parameter parameters[] = {
                 .logarithmic = true),
 };
 
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
-    struct scene *scene = own;
+    struct scene *scene = self;
     return gm_settle_courant(keys, count, 2 * M_PI / (double)scene->points, &scene->timing, &scene->courant,
                              sentence);
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     *problem = gm_problem_wave;
     problem->line = gm_ring(M_PI, scene->points);
     problem->n = gm_wave_size(problem->line.points);
@@ -66,12 +66,12 @@ static double exact_at(const struct scene *scene, double x, double t)
     return scene->standing ? (bump(scene, x - t) + bump(scene, x + t)) / 2 : bump(scene, x - t);
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    const struct scene *scene = own;
+    const struct scene *scene = self;
     const size_t points = problem->line.points;
     for (size_t i = 0; i < points; i++) {
-        const double x = gm_line_node(&problem->line, i);
+        const double x = gm_grid1_node(&problem->line, i);
         y[i] = exact_at(scene, x, 0);
         y[points + i] = exact_at(scene, x, scene->timing.dt);
     }
@@ -238,9 +238,9 @@ static const struct gm_work work = {.arguments = "until=2*pi",
                                     .errors = compared};
 
 /* A Courant number of 1. */
-static double crossing_time(const void *own)
+static double crossing_time(const void *self)
 {
-    return 2 * M_PI / (double)((const struct scene *)own)->points;
+    return 2 * M_PI / (double)((const struct scene *)self)->points;
 }
 
 static const double sharpnesses[] = {1, 2, 4, 8};

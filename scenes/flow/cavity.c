@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/common/graph.h"
 #include "scenes/flow/flows.h"
-#include "scenes/frame/graph.h"
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-7, 10),
@@ -37,22 +37,25 @@ static unsigned char side_at(const double middle[2])
     return middle[1] == 1 ? GM_EDGE_LID : GM_EDGE_WALL;
 }
 
-static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
+static struct gm_flow *open_square(const struct gm_flows *flows, unsigned char **sides, char *sentence)
 {
-    struct gm_rectangle rectangle = {
-        .width = 1, .height = 1, .edges = own->columns, .strips = own->rows, .irregular = own->irregular};
+    struct gm_rectangle rectangle = {.width = 1,
+                                     .height = 1,
+                                     .edges = flows->columns,
+                                     .strips = flows->rows,
+                                     .irregular = flows->irregular};
     struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     *sides = flow ? gm_flows_sides(flow, side_at, sentence) : NULL;
     return flow;
 }
 
-static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sides, char *sentence)
+static struct gm_flow *open_file(const struct gm_flows *flows, unsigned char **sides, char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence)) {
+    if (!gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence)) {
         return NULL;
     }
-    const long lid = gm_flows_group(&mesh, "lid", own->lid, sentence);
+    const long lid = gm_flows_group(&mesh, "lid", flows->lid, sentence);
     struct gm_flow *flow = NULL;
     if (lid) {
         *sides = calloc(mesh.complex->boundary, 1);
@@ -70,10 +73,10 @@ static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sid
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_flows *own = parameters_of;
+    const struct gm_flows *flows = parameters_of;
     unsigned char *sides = NULL;
-    struct gm_flow *flow = strcmp(own->mesh, "none") != 0 ? open_file(own, &sides, sentence)
-                                                          : open_square(own, &sides, sentence);
+    struct gm_flow *flow = strcmp(flows->mesh, "none") != 0 ? open_file(flows, &sides, sentence)
+                                                            : open_square(flows, &sides, sentence);
     const bool good = flow && sides &&
                       gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_FIXED, 0), sentence);
     free(sides);
@@ -81,9 +84,9 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         gm_flow_close(flow);
         return false;
     }
-    flow->viscosity = 1 / own->reynolds;
-    flow->reynolds = own->reynolds;
-    flow->tracers = (size_t)own->tracers;
+    flow->viscosity = 1 / flows->reynolds;
+    flow->reynolds = flows->reynolds;
+    flow->tracers = (size_t)flows->tracers;
     return gm_flows_problem(problem, flow, "cavity", sentence);
 }
 
@@ -133,9 +136,9 @@ static int ghia_row(double reynolds)
 
 static void profile(const struct gm_view *view, const char *front, FILE *stream)
 {
-    const struct gm_flows *own = view->parameters;
-    const bool square = strcmp(own->mesh, "none") == 0;
-    const int row = square ? ghia_row(own->reynolds) : -1;
+    const struct gm_flows *flows = view->parameters;
+    const bool square = strcmp(flows->mesh, "none") == 0;
+    const int row = square ? ghia_row(flows->reynolds) : -1;
     for (size_t i = 0; row >= 0 && i < STATIONS; i++) {
         gm_flows_write_sample(view, front, "ghia-u", 0.5, ghia_y[i], ghia_u[row][i], stream);
     }
@@ -169,7 +172,7 @@ static void draw_line(struct gm_picture *picture, const struct gm_lane *const *l
     panel->x = vertical ? value : along;
     panel->y = vertical ? along : value;
     for (size_t k = 0; k < count; k++) {
-        const struct gm_flows *own = lanes[k]->parameters;
+        const struct gm_flows *flows = lanes[k]->parameters;
         size_t made = 0;
         for (size_t i = 0; i < POINTS; i++) {
             const double s = (double)i / (POINTS - 1);
@@ -181,7 +184,7 @@ static void draw_line(struct gm_picture *picture, const struct gm_lane *const *l
             }
         }
         gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.2), points, made, false);
-        const int row = ghia_row(own->reynolds);
+        const int row = ghia_row(flows->reynolds);
         for (int i = 0; row >= 0 && i < STATIONS; i++) {
             points[2 * i] = vertical ? ghia_u[row][i] : ghia_x[i];
             points[2 * i + 1] = vertical ? ghia_y[i] : ghia_v[row][i];
@@ -220,9 +223,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"steady", NULL};
 
-static double courant_time(const void *own)
+static double courant_time(const void *self)
 {
-    return gm_flows_courant_time(setup, own);
+    return gm_flows_courant_time(setup, self);
 }
 
 static const double reynolds_numbers[] = {100, 400, 1000, 3200, 10000};

@@ -32,10 +32,10 @@ static const struct gm_parameter parameters[] = {
 };
 
 /* Rows and columns agree. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = length, .height = 1, .transposed = true}, keys,
+    gm_flows_follow(self, (struct gm_rectangle){.width = length, .height = 1, .transposed = true}, keys,
                     count);
     return true;
 }
@@ -62,21 +62,21 @@ static unsigned char side_at(const double middle[2])
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_flows *own = parameters_of;
+    const struct gm_flows *flows = parameters_of;
     enum gm_vertex_kind outlet = GM_VERTEX_OPEN;
     char group[GM_TEXT_SIZE];
-    if (!gm_flows_outlet(own->outlet, GM_VERTEX_OPEN, &outlet, group, sentence)) {
+    if (!gm_flows_outlet(flows->outlet, GM_VERTEX_OPEN, &outlet, group, sentence)) {
         return false;
     }
     if (strcmp(group, "outlet") != 0) {
-        return gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", own->outlet);
+        return gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", flows->outlet);
     }
     struct gm_rectangle rectangle = {.width = length,
                                      .height = 1,
-                                     .edges = own->rows,
-                                     .strips = own->columns,
+                                     .edges = flows->rows,
+                                     .strips = flows->columns,
                                      .transposed = true,
-                                     .irregular = own->irregular};
+                                     .irregular = flows->irregular};
     struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     unsigned char *sides = flow ? gm_flows_sides(flow, side_at, sentence) : NULL;
     const bool good = sides && gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, 0), sentence);
@@ -90,12 +90,12 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         const int v = complex->boundary_vertex[b];
         flow->theta[v] = flow->theta_fixed[v] && complex->point[2 * v + 1] == 1 ? hot : 0;
     }
-    flow->viscosity = own->viscosity;
-    flow->diffusivity = own->viscosity / own->schmidt;
-    flow->reynolds = 1 / own->viscosity;
-    flow->time_unit = 1 / own->viscosity;
+    flow->viscosity = flows->viscosity;
+    flow->diffusivity = flows->viscosity / flows->schmidt;
+    flow->reynolds = 1 / flows->viscosity;
+    flow->time_unit = 1 / flows->viscosity;
     flow->scalar = true;
-    flow->tracers = (size_t)own->tracers;
+    flow->tracers = (size_t)flows->tracers;
     return gm_flows_problem(problem, flow, "channel", sentence);
 }
 

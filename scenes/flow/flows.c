@@ -108,10 +108,10 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     }
 }
 
-void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *const *keys, size_t count)
+void gm_flows_follow(struct gm_flows *flows, struct gm_rectangle r, const char *const *keys, size_t count)
 {
-    long *edges = r.transposed ? &own->rows : &own->columns;
-    long *strips = r.transposed ? &own->columns : &own->rows;
+    long *edges = r.transposed ? &flows->rows : &flows->columns;
+    long *strips = r.transposed ? &flows->columns : &flows->rows;
     const bool rows = gm_is_given("rows", keys, count), columns = gm_is_given("columns", keys, count);
     r.strips = *strips;
     if (rows != columns && rows == r.transposed && r.strips > 0) { /* 0: the best of every resolution */
@@ -121,17 +121,17 @@ void gm_flows_follow(struct gm_flows *own, struct gm_rectangle r, const char *co
     }
 }
 
-bool gm_flows_settle_columns(void *own, const char *const *keys, size_t count, char *sentence)
+bool gm_flows_settle_columns(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
+    gm_flows_follow(self, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
     return true;
 }
 
-bool gm_flows_settle_rows(void *own, const char *const *keys, size_t count, char *sentence)
+bool gm_flows_settle_rows(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
+    gm_flows_follow(self, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
     return true;
 }
 
@@ -209,12 +209,12 @@ bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_
 
 bool gm_flows_readable(const void *parameters, char *sentence)
 {
-    const struct gm_flows *own = parameters;
+    const struct gm_flows *flows = parameters;
     struct gm_triangulation mesh;
-    if (strcmp(own->mesh, "none") == 0) {
+    if (strcmp(flows->mesh, "none") == 0) {
         return true;
     }
-    const bool good = gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence);
+    const bool good = gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence);
     if (good) {
         gm_triangulation_close(&mesh);
     }
@@ -223,9 +223,9 @@ bool gm_flows_readable(const void *parameters, char *sentence)
 
 void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
 {
-    struct gm_flows *own = parameters;
-    const bool square = strcmp(own->mesh, "none") == 0;
-    own->star = square ? own->star : (int)gm_flow_of(problem)->complex->star;
+    struct gm_flows *flows = parameters;
+    const bool square = strcmp(flows->mesh, "none") == 0;
+    flows->star = square ? flows->star : (int)gm_flow_of(problem)->complex->star;
 }
 
 long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)

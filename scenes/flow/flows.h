@@ -7,7 +7,7 @@
 #include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* What the scenes of flows on complexes have in common: room, channel, couette, poiseuille, cavity,
    taylor-green. All solve, in the plane,
@@ -36,7 +36,7 @@ struct gm_flows {
     long rows, columns, tracers, refine;
     char mesh[GM_TEXT_SIZE], inlet[GM_TEXT_SIZE], outlet[GM_TEXT_SIZE], lid[GM_TEXT_SIZE];
     int show, streamlines, arrows, grid, domain, star, smoke;
-    const struct gm_own_room *room; /* of a file's (scenes/flow/own_room.h) */
+    const struct gm_user_room *room; /* of a file's (scenes/flow/user_room.h) */
 };
 
 /* Rows that several of them have. */
@@ -68,11 +68,11 @@ extern const char *const gm_flows_shows[], *const gm_flows_warm_shows[], *const 
 
 /* For settle: of rows and columns the one that is not among the keys follows from the one that is. Transposed, the
    rows are edges, and the columns strips; else the other way round. */
-void gm_flows_follow(struct gm_flows *own, struct gm_rectangle rectangle, const char *const *keys,
+void gm_flows_follow(struct gm_flows *flows, struct gm_rectangle rectangle, const char *const *keys,
                      size_t count);
 /* settle of a unit square with the edges along x, so that the columns are edges; and with the edges along y. */
-bool gm_flows_settle_columns(void *own, const char *const *keys, size_t count, char *sentence);
-bool gm_flows_settle_rows(void *own, const char *const *keys, size_t count, char *sentence);
+bool gm_flows_settle_columns(void *self, const char *const *keys, size_t count, char *sentence);
+bool gm_flows_settle_rows(void *self, const char *const *keys, size_t count, char *sentence);
 /* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 

@@ -21,8 +21,8 @@ bool gm_flow_is_signed(int show)
 void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                               const struct gm_flow_sheet *sheet, const struct gm_look *look)
 {
-    const struct gm_flows *own = lane->parameters;
-    const bool over = own->show != GM_SHOW_NONE && !gm_flow_is_signed(own->show);
+    const struct gm_flows *flows = lane->parameters;
+    const bool over = flows->show != GM_SHOW_NONE && !gm_flow_is_signed(flows->show);
     const struct gm_style passing = {over ? GM_OVER : GM_INK, over ? 0.6 : 0.5, 1.1, GM_SOLID};
     const struct gm_style turning = {over ? GM_OVER : GM_INK, over ? 0.38 : 0.5, 1.0, GM_SOLID};
     const struct gm_flow *flow = flow_of(lane);

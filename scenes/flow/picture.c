@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/common/graph.h"
 #include "scenes/flow/marks.h"
-#include "scenes/frame/graph.h"
 
 enum { SMOOTH = 4000 /* triangles */, MOST_BESIDE_GRAPHS = 4 };
 
@@ -18,18 +18,18 @@ static const struct gm_flow *flow_of(const struct gm_lane *lane)
 /* The field that is shown, at the vertices; NULL for none. */
 static const double *field_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const struct gm_flows *own = lane->parameters;
+    const struct gm_flows *flows = lane->parameters;
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
     const double *y = gm_run_state(lane->run);
     const size_t n = complex->vertices;
-    if (own->show == GM_SHOW_SCALAR) {
+    if (flows->show == GM_SHOW_SCALAR) {
         return gm_flow_block(flow, y, GM_FLOW_THETA);
     }
-    if (own->show == GM_SHOW_VORTICITY) {
+    if (flows->show == GM_SHOW_VORTICITY) {
         return gm_flow_block(flow, y, GM_FLOW_OMEGA);
     }
-    if (own->show == GM_SHOW_TEMPERATURE) {
+    if (flows->show == GM_SHOW_TEMPERATURE) {
         return flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL;
     }
     double *values = gm_picture_memory(picture, 3 * n * sizeof *values);
@@ -37,7 +37,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     if (!values || !scratch) {
         return NULL;
     }
-    if (own->show == GM_SHOW_SPEED) {
+    if (flows->show == GM_SHOW_SPEED) {
         gm_flow_vertex_velocities(complex, y, scratch);
         for (size_t v = 0; v < n; v++) {
             values[v] = hypot(scratch[2 * v], scratch[2 * v + 1]);
@@ -45,7 +45,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
         return values;
     }
     double *pressure = gm_picture_memory(picture, complex->triangles * sizeof *pressure);
-    if (own->show != GM_SHOW_PRESSURE || !pressure || !gm_flow_pressure(flow, y, pressure)) {
+    if (flows->show != GM_SHOW_PRESSURE || !pressure || !gm_flow_pressure(flow, y, pressure)) {
         return NULL;
     }
     memset(values, 0, n * sizeof *values);
@@ -64,25 +64,25 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
 static void colour_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                          const struct gm_look *look, double *low, double *high)
 {
-    const struct gm_flows *own = lanes[0]->parameters;
+    const struct gm_flows *flows = lanes[0]->parameters;
     *low = 0;
-    *high = own->show == GM_SHOW_SPEED ? look->speed_high : look->scalar_high;
-    if (own->show == GM_SHOW_SCALAR && look->scalar_high == 0) {
+    *high = flows->show == GM_SHOW_SPEED ? look->speed_high : look->scalar_high;
+    if (flows->show == GM_SHOW_SCALAR && look->scalar_high == 0) {
         *high = 0;
         for (size_t i = 0; i < count; i++) {
             *high = fmax(*high, ((const struct gm_flows *)lanes[i]->parameters)->inlet_scalar);
         }
         *high = *high > 0 ? *high : 1;
     }
-    if (own->show == GM_SHOW_TEMPERATURE) {
+    if (flows->show == GM_SHOW_TEMPERATURE) {
         *low = look->temperature[0];
         *high = look->temperature[1];
     }
-    if (own->show == GM_SHOW_VORTICITY) {
+    if (flows->show == GM_SHOW_VORTICITY) {
         *high = look->vorticity_range;
         *low = -*high;
     }
-    if (own->show == GM_SHOW_PRESSURE) {
+    if (flows->show == GM_SHOW_PRESSURE) {
         double lowest = 1, highest = 0;
         for (size_t i = 0; i < count; i++) {
             const double *values = field_of(picture, lanes[i]);
@@ -112,7 +112,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                                    const struct gm_look *look, double low, double high, bool titled,
                                    bool named)
 {
-    const struct gm_flows *own = lane->parameters;
+    const struct gm_flows *flows = lane->parameters;
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, titled ? title_of(picture, lane) : "");
@@ -157,8 +157,8 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
         panel->y.label = look->axes[1];
     }
     panel->note = gm_lane_failure(picture, lane);
-    const bool coloured = own->show <= GM_SHOW_PRESSURE || own->show == GM_SHOW_TEMPERATURE,
-               over = coloured && !gm_flow_is_signed(own->show);
+    const bool coloured = flows->show <= GM_SHOW_PRESSURE || flows->show == GM_SHOW_TEMPERATURE,
+               over = coloured && !gm_flow_is_signed(flows->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
     /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the
        time */
@@ -168,20 +168,21 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
         return panel;
     }
     if (field) {
-        gm_mark_mesh(picture, panel, gm_flow_is_signed(own->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low,
-                     high, plain ? complex->point : sheet.points, plain ? field : sheet.field,
+        gm_mark_mesh(picture, panel, gm_flow_is_signed(flows->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
+                     low, high, plain ? complex->point : sheet.points, plain ? field : sheet.field,
                      plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
                      plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
-        panel->colour_bar_label = look->names[own->show] ? look->names[own->show] : bar_labels[own->show];
+        panel->colour_bar_label =
+            look->names[flows->show] ? look->names[flows->show] : bar_labels[flows->show];
     }
-    if (own->grid) {
+    if (flows->grid) {
         gm_flow_draw_grid(picture, panel, complex, over);
     }
-    if (own->streamlines) {
+    if (flows->streamlines) {
         gm_flow_draw_streamlines(picture, panel, lane, &sheet, look);
     }
-    if (own->arrows) {
+    if (flows->arrows) {
         gm_flow_draw_arrows(picture, panel, lane, over, look->speed_high);
     }
     gm_flow_draw_tracers(picture, panel, lane, over, size);
@@ -206,8 +207,8 @@ static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t o
 static const char *told_star(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_complex *complex = flow_of(lane)->complex;
-    const struct gm_flows *own = lane->parameters;
-    if (own->mesh[0] == '\0' || strcmp(own->mesh, "none") == 0) {
+    const struct gm_flows *flows = lane->parameters;
+    if (flows->mesh[0] == '\0' || strcmp(flows->mesh, "none") == 0) {
         return "";
     }
     const char *star = gm_flows_stars[complex->star];
@@ -412,20 +413,20 @@ static void draw_clock(struct gm_picture *picture, const struct gm_lane *const *
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look)
 {
-    const struct gm_flows *own = lanes[0]->parameters;
+    const struct gm_flows *flows = lanes[0]->parameters;
     picture->title = look->title;
     picture->subtitle = subtitle(picture, lanes, count, look);
     picture->graphs_below = true;
     draw_clock(picture, lanes, count, look);
-    if (own->show == GM_SHOW_CONVERGENCE && look->errors) {
+    if (flows->show == GM_SHOW_CONVERGENCE && look->errors) {
         draw_convergence(picture, lanes, count, look);
         return;
     }
-    if (own->show == GM_SHOW_PROFILES && look->profiles) {
+    if (flows->show == GM_SHOW_PROFILES && look->profiles) {
         look->profiles(lanes, count, picture, GM_PLACE_STATE);
         return;
     }
-    if (own->show == GM_SHOW_DIVERGENCE) {
+    if (flows->show == GM_SHOW_DIVERGENCE) {
         const struct gm_graph graph = {.observable = "divergence",
                                        .scale = GM_LOG,
                                        .calm_low = 1e-18,
@@ -436,7 +437,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     }
     double low = 0, high = 1;
     colour_range(picture, lanes, count, look, &low, &high);
-    const bool graphs = count <= MOST_BESIDE_GRAPHS && own->show != GM_SHOW_NONE;
+    const bool graphs = count <= MOST_BESIDE_GRAPHS && flows->show != GM_SHOW_NONE;
     for (size_t i = 0; i < count; i++) {
         struct gm_panel *panel = draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
         panel->title_role = graphs ? gm_lane_role(lanes[i]->shown.colour) : GM_INK;

@@ -47,12 +47,12 @@ static const struct gm_parameter parameters[] = {
 };
 
 /* Rows and columns agree. */
-static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    gm_flows_follow(own, (struct gm_rectangle){.width = side, .height = side, .transposed = true}, keys,
+    gm_flows_follow(self, (struct gm_rectangle){.width = side, .height = side, .transposed = true}, keys,
                     count);
-    struct gm_flows *flows = own;
+    struct gm_flows *flows = self;
     if (!gm_is_given("rows", keys, count)) { /* the lips are vertices, and two edges long at least */
         flows->rows = (long)fmax(10, (double)(5 * ((flows->rows + 2) / 5)));
     }
@@ -66,22 +66,22 @@ static unsigned char side_at(const double middle[2])
                                                   : GM_EDGE_WALL;
 }
 
-static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
+static struct gm_flow *open_square(const struct gm_flows *flows, unsigned char **sides, char *sentence)
 {
-    if (own->rows % 5 != 0) {
+    if (flows->rows % 5 != 0) {
         gm_refuse(
             sentence,
             "rows=%ld: the lips of inlet and outlet are vertices only if rows is a multiple of 5; the nearest is %ld",
-            own->rows, 5 * ((own->rows + 2) / 5));
+            flows->rows, 5 * ((flows->rows + 2) / 5));
         return NULL;
     }
     const double lips[] = {0, side - 1, side, 1};
     struct gm_rectangle rectangle = {.width = side,
                                      .height = side,
-                                     .edges = own->rows,
-                                     .strips = own->columns,
+                                     .edges = flows->rows,
+                                     .strips = flows->columns,
                                      .transposed = true,
-                                     .irregular = own->irregular,
+                                     .irregular = flows->irregular,
                                      .fixed = lips,
                                      .fixed_count = 2};
     struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
@@ -112,19 +112,19 @@ static bool name_sides(const struct gm_triangulation *mesh, const char *key, con
     return true;
 }
 
-static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet, unsigned char **sides,
+static struct gm_flow *open_file(const struct gm_flows *flows, const char *outlet, unsigned char **sides,
                                  char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence) ||
-        !gm_flows_refine(own->mesh, (enum gm_star)own->star, own->refine, &mesh, sentence)) {
+    if (!gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence) ||
+        !gm_flows_refine(flows->mesh, (enum gm_star)flows->star, flows->refine, &mesh, sentence)) {
         return NULL;
     }
     struct gm_flow *flow = NULL;
     *sides = calloc(mesh.complex->boundary + 1, 1);
     if (!*sides) {
         gm_refuse(sentence, "not enough memory");
-    } else if (name_sides(&mesh, "inlet", own->inlet, GM_EDGE_INLET, *sides, sentence) &&
+    } else if (name_sides(&mesh, "inlet", flows->inlet, GM_EDGE_INLET, *sides, sentence) &&
                name_sides(&mesh, "outlet", outlet, GM_EDGE_OUTLET, *sides, sentence)) {
         flow = gm_flow_open(mesh.complex);
         mesh.complex = NULL;
@@ -135,24 +135,24 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_flows *own = parameters_of;
-    const bool from_file = strcmp(own->mesh, "none") != 0;
+    const struct gm_flows *flows = parameters_of;
+    const bool from_file = strcmp(flows->mesh, "none") != 0;
     enum gm_vertex_kind outlet = GM_VERTEX_SOFT;
     char group[GM_TEXT_SIZE];
     unsigned char *sides = NULL;
-    if (!gm_flows_outlet(own->outlet, GM_VERTEX_SOFT, &outlet, group, sentence)) {
+    if (!gm_flows_outlet(flows->outlet, GM_VERTEX_SOFT, &outlet, group, sentence)) {
         return false;
     }
-    if (!from_file && (strcmp(group, "outlet") != 0 || strcmp(own->inlet, "inlet") != 0)) {
+    if (!from_file && (strcmp(group, "outlet") != 0 || strcmp(flows->inlet, "inlet") != 0)) {
         return gm_refuse(
             sentence,
             "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
     }
     struct gm_flow *flow =
-        from_file ? open_file(own, group, &sides, sentence) : open_square(own, &sides, sentence);
+        from_file ? open_file(flows, group, &sides, sentence) : open_square(flows, &sides, sentence);
     bool good = flow && sides;
     if (good) {
-        good = gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, own->inlet_scalar), sentence);
+        good = gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, flows->inlet_scalar), sentence);
     }
     free(sides);
     if (!good) {
@@ -164,12 +164,12 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     for (size_t b = 0; b < complex->boundary; b++) {
         perimeter += complex->length[complex->boundary_edge[b]];
     }
-    flow->viscosity = flow->inlet_length / own->reynolds;
-    flow->diffusivity = flow->viscosity / own->schmidt;
-    flow->reynolds = own->reynolds;
+    flow->viscosity = flow->inlet_length / flows->reynolds;
+    flow->diffusivity = flow->viscosity / flows->schmidt;
+    flow->reynolds = flows->reynolds;
     flow->time_unit = perimeter;
     flow->scalar = true;
-    flow->tracers = (size_t)own->tracers;
+    flow->tracers = (size_t)flows->tracers;
     return gm_flows_problem(problem, flow, "room", sentence);
 }
 
@@ -197,16 +197,16 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct gm_flows *own = lanes[0]->parameters;
+    const struct gm_flows *flows = lanes[0]->parameters;
     /* about half of the room fills, and what enters at the mean of a parabola leaves again; a short run fills
        it with no more than enters */
     const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
-    const double scalar = fmax(own->inlet_scalar, 0), inlet = flow->viscosity * flow->reynolds;
+    const double scalar = fmax(flows->inlet_scalar, 0), inlet = flow->viscosity * flow->reynolds;
     double area = 0;
     for (size_t k = 0; k < flow->complex->triangles; k++) {
         area += flow->complex->area[k];
     }
-    const double entering = inlet * scalar * own->timing.until * flow->time_unit;
+    const double entering = inlet * scalar * flows->timing.until * flow->time_unit;
     const struct gm_look look = {
         .title = "A polluted room",
         .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds), NULL},
@@ -242,9 +242,9 @@ static const struct gm_figure figures[] = {
     },
 };
 
-static double courant_time(const void *own)
+static double courant_time(const void *self)
 {
-    return gm_flows_courant_time(setup, own);
+    return gm_flows_courant_time(setup, self);
 }
 
 static const double reynolds_numbers[] = {10, 30, 100, 300, 1000};

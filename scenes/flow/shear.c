@@ -78,11 +78,14 @@ static const struct gm_parameter parameters[] = {
 };
 
 /* A mesh of the square with psi and theta given all round. */
-static bool make(const struct gm_flows *own, const struct shear *shear, struct gm_problem *problem,
+static bool make(const struct gm_flows *flows, const struct shear *shear, struct gm_problem *problem,
                  char *sentence)
 {
-    struct gm_rectangle rectangle = {
-        .width = 1, .height = 1, .edges = own->rows, .strips = own->columns, .irregular = own->irregular};
+    struct gm_rectangle rectangle = {.width = 1,
+                                     .height = 1,
+                                     .edges = flows->rows,
+                                     .strips = flows->columns,
+                                     .irregular = flows->irregular};
     struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     if (!flow) {
         return false;
@@ -104,23 +107,23 @@ static bool make(const struct gm_flows *own, const struct shear *shear, struct g
                 drag * complex->length[complex->boundary_edge[b]] / 2;
         }
     }
-    flow->viscosity = flow->diffusivity = 1 / own->reynolds;
-    flow->reynolds = own->reynolds;
-    flow->time_unit = own->reynolds;
+    flow->viscosity = flow->diffusivity = 1 / flows->reynolds;
+    flow->reynolds = flows->reynolds;
+    flow->time_unit = flows->reynolds;
     flow->speed = 1;
     flow->scalar = true;
-    flow->tracers = (size_t)own->tracers;
+    flow->tracers = (size_t)flows->tracers;
     return gm_flows_problem(problem, flow, shear->name, sentence);
 }
 
-static bool setup_couette(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup_couette(const void *self, struct gm_problem *problem, char *sentence)
 {
-    return make(own, &couette, problem, sentence);
+    return make(self, &couette, problem, sentence);
 }
 
-static bool setup_poiseuille(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup_poiseuille(const void *self, struct gm_problem *problem, char *sentence)
 {
-    return make(own, &poiseuille, problem, sentence);
+    return make(self, &poiseuille, problem, sentence);
 }
 
 static double solution_error(const struct gm_view *view)

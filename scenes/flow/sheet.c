@@ -55,9 +55,9 @@ static bool unfold(struct gm_picture *picture, const struct gm_complex *complex,
     const size_t n = complex->vertices;
     double *points = gm_picture_memory(picture, 2 * COPIES * n * sizeof *points);
     double *own_psi = gm_picture_memory(picture, COPIES * n * sizeof *own_psi);
-    double *own_field = gm_picture_memory(picture, COPIES * n * sizeof *own_field);
+    double *user_field = gm_picture_memory(picture, COPIES * n * sizeof *user_field);
     int *triangles = gm_picture_memory(picture, 3 * 4 * complex->triangles * sizeof *triangles);
-    if (!points || !own_psi || !own_field || !triangles) {
+    if (!points || !own_psi || !user_field || !triangles) {
         return false;
     }
     for (size_t i = 0; i < COPIES * n; i++) {
@@ -65,7 +65,7 @@ static bool unfold(struct gm_picture *picture, const struct gm_complex *complex,
         points[2 * i] = complex->point[2 * v] + complex->period[0] * ((double)(copy % 3) - 1);
         points[2 * i + 1] = complex->point[2 * v + 1] + complex->period[1] * ((double)(copy / 3) - 1);
         own_psi[i] = psi[v];
-        own_field[i] = field ? field[v] : 0;
+        user_field[i] = field ? field[v] : 0;
     }
     size_t count = 0;
     for (size_t t = 0; t < complex->triangles; t++) {
@@ -94,7 +94,7 @@ static bool unfold(struct gm_picture *picture, const struct gm_complex *complex,
             }
         }
     }
-    *sheet = (struct gm_flow_sheet){points, own_psi, field ? own_field : NULL, triangles, COPIES * n, count};
+    *sheet = (struct gm_flow_sheet){points, own_psi, field ? user_field : NULL, triangles, COPIES * n, count};
     return true;
 }
 

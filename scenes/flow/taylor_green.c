@@ -32,13 +32,13 @@ static const struct gm_parameter parameters[] = {
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_flows *own = parameters_of;
+    const struct gm_flows *flows = parameters_of;
     struct gm_rectangle rectangle = {.width = 1,
                                      .height = 1,
-                                     .edges = own->columns,
-                                     .strips = own->rows,
-                                     .torus = own->domain == GM_DOMAIN_TORUS,
-                                     .irregular = own->irregular};
+                                     .edges = flows->columns,
+                                     .strips = flows->rows,
+                                     .torus = flows->domain == GM_DOMAIN_TORUS,
+                                     .irregular = flows->irregular};
     struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     if (!flow) {
         return false;
@@ -49,30 +49,30 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         flow->kind[v] = GM_VERTEX_SLIP;
         flow->theta_fixed[v] = true;
     }
-    flow->viscosity = own->viscosity;
-    flow->tracers = (size_t)own->tracers;
+    flow->viscosity = flows->viscosity;
+    flow->tracers = (size_t)flows->tracers;
     return gm_flows_problem(problem, flow, "taylor-green", sentence);
 }
 
-static double wave_number(const struct gm_flows *own)
+static double wave_number(const struct gm_flows *flows)
 {
-    return own->domain == GM_DOMAIN_TORUS ? 2 * M_PI : M_PI;
+    return flows->domain == GM_DOMAIN_TORUS ? 2 * M_PI : M_PI;
 }
 
 static void start(const void *parameters_of, const struct gm_problem *problem, double *y)
 {
-    const struct gm_flows *own = parameters_of;
+    const struct gm_flows *flows = parameters_of;
     const struct gm_complex *complex = gm_flow_of(problem)->complex;
-    const double k = wave_number(own);
+    const double k = wave_number(flows);
     double *omega = malloc(complex->vertices * sizeof *omega);
     bool good = omega != NULL;
     for (size_t v = 0; good && v < complex->vertices; v++) {
         const double x = k * complex->point[2 * v], z = k * complex->point[2 * v + 1];
         omega[v] = 2 * k * sin(x) * sin(z);
-        if (own->domain == GM_DOMAIN_TORUS) {
-            omega[v] += own->speed * k * (sin(x - 2 * z + 1.1) + 0.8 * sin(2 * x + z + 0.2));
+        if (flows->domain == GM_DOMAIN_TORUS) {
+            omega[v] += flows->speed * k * (sin(x - 2 * z + 1.1) + 0.8 * sin(2 * x + z + 0.2));
         } else {
-            omega[v] += own->speed * k * (sin(x) * sin(2 * z) + 0.8 * sin(2 * x) * sin(3 * z));
+            omega[v] += flows->speed * k * (sin(x) * sin(2 * z) + 0.8 * sin(2 * x) * sin(3 * z));
         }
     }
     good = good && gm_flow_start_vorticity(gm_flow_of(problem), omega, y);
@@ -85,9 +85,9 @@ static void start(const void *parameters_of, const struct gm_problem *problem, d
 /* The exact psi where no other waves are mixed in. */
 static double exact(const struct gm_view *view, size_t v)
 {
-    const struct gm_flows *own = view->parameters;
-    const double k = wave_number(own), *p = gm_flow_of(view->problem)->complex->point + 2 * v;
-    return sin(k * p[0]) * sin(k * p[1]) / k * exp(-2 * k * k * own->viscosity * (view->t - view->t0));
+    const struct gm_flows *flows = view->parameters;
+    const double k = wave_number(flows), *p = gm_flow_of(view->problem)->complex->point + 2 * v;
+    return sin(k * p[0]) * sin(k * p[1]) / k * exp(-2 * k * k * flows->viscosity * (view->t - view->t0));
 }
 
 static double solution_error(const struct gm_view *view)
@@ -135,15 +135,15 @@ static const struct gm_look_error errors[] = {{"psi_error", "ψ"}, {NULL, NULL}}
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct gm_flows *own = lanes[0]->parameters;
+    const struct gm_flows *flows = lanes[0]->parameters;
     const struct gm_look look = {
-        .title = own->speed == 0      ? "Taylor–Green vortices"
-                 : own->viscosity > 0 ? "Taylor–Green vortices among other waves"
-                                      : "Taylor–Green vortices among other waves, in an ideal fluid",
+        .title = flows->speed == 0      ? "Taylor–Green vortices"
+                 : flows->viscosity > 0 ? "Taylor–Green vortices among other waves"
+                                        : "Taylor–Green vortices among other waves, in an ideal fluid",
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity), NULL}},
-        .remark = own->domain == GM_DOMAIN_TORUS ? ",  torus" : ",  walls without friction",
+        .remark = flows->domain == GM_DOMAIN_TORUS ? ",  torus" : ",  walls without friction",
         .clock_unit = "",
-        .vorticity_range = 2 * wave_number(own) * (1 + own->speed),
+        .vorticity_range = 2 * wave_number(flows) * (1 + flows->speed),
         .speed_high = 1,
         .graphs = {"kinetic_energy", "enstrophy"},
         .graph_high = {1e-3, 1e-3}, /* from zero, so that what is lost is seen for what it is */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "core/larger.h"
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 enum { PATHS = 255 /* most nodes whose paths are recorded */ };
 

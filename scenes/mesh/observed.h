@@ -3,7 +3,7 @@
 #define GM_SCENES_MESH_OBSERVED_H
 
 #include "core/mesh/moving_mesh.h"
-#include "scenes/frame/scene.h"
+#include "scenes/common/scene.h"
 
 /* What is observed of every field on a moving mesh. */
 

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/formula/number.h"
-#include "scenes/frame/graph.h"
+#include "core/expression/number.h"
+#include "scenes/common/graph.h"
 #include "scenes/mesh/observed.h"
 
 enum { EXACT_POINTS = 1500 };
@@ -15,12 +15,12 @@ const char *const gm_mesh_densities[] = {"arclength", "curvature", "mix", "limit
 
 static void field_axes(struct gm_panel *panel, const struct gm_mesh *mesh, const struct gm_mesh_look *look)
 {
-    const double room = 0.16 * (look->high - look->low);
+    const double scratch = 0.16 * (look->high - look->low);
     panel->axes = true;
     panel->x = (struct gm_axis){
         .label = "X", .scale = GM_LINEAR, .low = mesh->first, .high = mesh->first + mesh->length};
     panel->y = (struct gm_axis){
-        .label = look->name, .scale = look->scale, .low = look->low - room, .high = look->high + room};
+        .label = look->name, .scale = look->scale, .low = look->low - scratch, .high = look->high + scratch};
 }
 
 static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,

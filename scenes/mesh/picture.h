@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_MESH_PICTURE_H
 #define GM_SCENES_MESH_PICTURE_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* The pictures of fields on moving meshes: the field with its nodes over the exact solution, the paths of the nodes,
    the energy; or the error over the number of nodes. */

@@ -21,7 +21,7 @@
 
 struct parameters {
     struct gm_mesh_parameters shown;
-    struct gm_soliton own;
+    struct gm_soliton model;
 };
 
 static const char *const fields[] = {"sine-gordon", "phi4", NULL};
@@ -29,22 +29,22 @@ static const char *const fields[] = {"sine-gordon", "phi4", NULL};
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-6, 10),
     GM_UNTIL("50"),
-    GM_INTEGER_ROW(struct parameters, own.solitons, "solitons", "1", 1, 2,
+    GM_INTEGER_ROW(struct parameters, model.solitons, "solitons", "1", 1, 2,
                    "one soliton, or two that bounce off each other"),
-    GM_INTEGER_ROW(struct parameters, own.points, "points", "31", 1, 1e5, "nodes between the ends",
+    GM_INTEGER_ROW(struct parameters, model.points, "points", "31", 1, 1e5, "nodes between the ends",
                    .logarithmic = true),
-    GM_REAL_ROW(struct parameters, own.velocity, "velocity", "0.9", 0.01, 0.999999,
+    GM_REAL_ROW(struct parameters, model.velocity, "velocity", "0.9", 0.01, 0.999999,
                 "of the solitons; 1 is that of light"),
-    GM_REAL_ROW(struct parameters, own.alpha, "alpha", "auto", 0, 1000,
+    GM_REAL_ROW(struct parameters, model.alpha, "alpha", "auto", 0, 1000,
                 "weight of the field's slope in the mesh density; auto: 2.5 for one soliton, 1.5 for two",
                 .automatic = true),
     GM_CHOICE_ROW(
-        struct parameters, own.density, "density", "arclength", gm_mesh_densities,
+        struct parameters, model.density, "density", "arclength", gm_mesh_densities,
         "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
         "tempered where the field is steeper than a soliton"),
-    GM_CHOICE_ROW(struct parameters, own.field, "potential", "sine-gordon", fields,
+    GM_CHOICE_ROW(struct parameters, model.field, "potential", "sine-gordon", fields,
                   "W(φ) = 1 − cos φ or (φ² − 1)²/4"),
-    GM_REAL_ROW(struct parameters, own.length, "length", "25", 1, 1e4, "distance of the walls",
+    GM_REAL_ROW(struct parameters, model.length, "length", "25", 1, 1e4, "distance of the walls",
                 .logarithmic = true),
     GM_CHOICE_ROW(
         struct parameters, shown.show, "show", "all", gm_mesh_views,
@@ -52,44 +52,44 @@ static const struct gm_parameter parameters[] = {
         .live = true),
 };
 
-static void resolve(void *own)
+static void resolve(void *model)
 {
-    struct parameters *soliton = own;
-    soliton->own.alpha = gm_soliton_alpha(&soliton->own);
+    struct parameters *soliton = model;
+    soliton->model.alpha = gm_soliton_alpha(&soliton->model);
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *model, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct parameters *soliton = own;
-    gm_soliton_problem(&soliton->own, problem);
+    const struct parameters *soliton = model;
+    gm_soliton_problem(&soliton->model, problem);
     return true;
 }
 
-static bool start_with(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
+static bool start_with(const void *model, const struct gm_problem *problem, const struct gm_scheme *scheme,
                        double *y, char *sentence)
 {
-    const struct parameters *soliton = own;
+    const struct parameters *soliton = model;
     struct gm_mesh mesh;
     gm_moving_mesh_of(problem)->describe(problem, &mesh);
-    if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton->own, y)) {
+    if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton->model, y)) {
         return true;
     }
     double wall, slope, rate;
-    gm_soliton_profile(&soliton->own, 0, &wall, &slope, &rate);
+    gm_soliton_profile(&soliton->model, 0, &wall, &slope, &rate);
     if (fabs(wall - mesh.left) > 0.01) {
         /* a jump at the wall, which no cell can be small enough for */
         gm_refuse(
             sentence,
             "no mesh was found: a box of length %g cuts the soliton off, which at velocity = %g is wider",
-            soliton->own.length, soliton->own.velocity);
+            soliton->model.length, soliton->model.velocity);
         return false;
     }
     return gm_refuse(
         sentence,
         "no mesh of %ld nodes was found for alpha = %g and velocity = %g: the homotopy from the uniform "
         "mesh fails; a smaller alpha helps",
-        soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
+        soliton->model.points, gm_soliton_alpha(&soliton->model), soliton->model.velocity);
 }
 
 /* Where the first soliton is: where the field, linear between the nodes, is half of its height, π. NaN where
@@ -97,9 +97,9 @@ static bool start_with(const void *own, const struct gm_problem *problem, const 
 static double position(const struct gm_view *view)
 {
     const struct parameters *soliton = view->parameters;
-    const size_t points = (size_t)soliton->own.points;
+    const size_t points = (size_t)soliton->model.points;
     const double *field = view->state, *place = field + points;
-    for (size_t k = 1; k < points && soliton->own.field == GM_SINE_GORDON; k++) {
+    for (size_t k = 1; k < points && soliton->model.field == GM_SINE_GORDON; k++) {
         const double before = field[k - 1] - M_PI, after = field[k] - M_PI;
         if (before * after <= 0 && before != after) {
             return place[k - 1] + (place[k] - place[k - 1]) * before / (before - after);
@@ -111,7 +111,7 @@ static double position(const struct gm_view *view)
 static double energy_continuum_error(const struct gm_view *view)
 {
     const struct parameters *soliton = view->parameters;
-    const double continuum = gm_soliton_energy(&soliton->own);
+    const double continuum = gm_soliton_energy(&soliton->model);
     return fabs(gm_view_mesh_energy(view) - continuum) / continuum;
 }
 
@@ -129,7 +129,7 @@ static const struct gm_track tracks[] = {GM_MESH_PATHS_TRACK};
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct parameters *soliton = lanes[0]->parameters;
-    const char *who = soliton->own.solitons == 2 ? "two solitons" : "a soliton";
+    const char *who = soliton->model.solitons == 2 ? "two solitons" : "a soliton";
     static const char *const titles[] = {
         [GM_MESH_ALL] = "Mesh points that follow %s",
         [GM_MESH_FIELD] = "Mesh points that follow %s",
@@ -140,10 +140,10 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = gm_picture_text(picture, titles[soliton->shown.show], who);
     const struct gm_view view = gm_lane_view(lanes[0]);
     const struct gm_mesh mesh = gm_mesh_of(&view);
-    const bool phi4 = soliton->own.field == GM_PHI4;
+    const bool phi4 = soliton->model.field == GM_PHI4;
     const struct gm_mesh_look look = {
-        .front =
-            gm_picture_text(picture, "%s,  velocity %g", phi4 ? "φ⁴" : "sine-Gordon", soliton->own.velocity),
+        .front = gm_picture_text(picture, "%s,  velocity %g", phi4 ? "φ⁴" : "sine-Gordon",
+                                 soliton->model.velocity),
         .name = "φ",
         .scale = phi4 ? GM_LINEAR : GM_PI,
         .low = fmin(mesh.left, mesh.right),
@@ -271,9 +271,9 @@ static const struct gm_work work = {
     .errors = compared,
 };
 
-static double one(const void *own)
+static double one(const void *model)
 {
-    (void)own;
+    (void)model;
     return 1;
 }
 

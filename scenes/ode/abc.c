@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 
 enum { ABC, LINEAR };
@@ -59,19 +59,19 @@ static const struct gm_parameter parameters[] = {
 /* Its trace is zero. */
 static const double matrix[9] = {0.2, 1, -0.1, -0.9, -0.3, 0.4, 0.3, 0.2, 0.1};
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct abc *abc = own;
+    const struct abc *abc = self;
     *problem = abc->system == ABC ? gm_problem_abc : gm_problem_linear;
     problem->parameters = abc->system == ABC ? abc->abc : matrix;
     problem->m = MEMBERS;
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    const double *at = ((const struct abc *)own)->start;
+    const double *at = ((const struct abc *)self)->start;
     const size_t m = problem->m;
     for (size_t c = 0; c < DIMENSION; c++) {
         for (size_t i = 0; i < m; i++) {
@@ -111,8 +111,8 @@ static const struct gm_observable observables[] = {
 static double level_z(const struct gm_view *view)
 {
     const double z = view->state[Z * view->problem->m];
-    const struct abc *own = view->parameters;
-    return own->system == ABC && cos(z) > 0 ? sin(z) : NAN;
+    const struct abc *self = view->parameters;
+    return self->system == ABC && cos(z) > 0 ? sin(z) : NAN;
 }
 
 static double wrapped(double angle)
@@ -157,20 +157,20 @@ static void trail_range(const struct gm_lane *const *lanes, size_t count, struct
 }
 
 /* The section is that of z = 0. */
-static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+static size_t point(const void *self, double x, double y, struct gm_choice *choices)
 {
     gm_choose(&choices[0], "x", x);
     gm_choose(&choices[1], "y", y);
     gm_choose(&choices[2], "z", 0);
-    return ((const struct abc *)own)->system == ABC ? 3 : 2;
+    return ((const struct abc *)self)->system == ABC ? 3 : 2;
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct abc *own = lanes[0]->parameters;
+    const struct abc *self = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     const bool one_step = gm_one_step(lanes, count);
-    const bool flow = own->system == ABC;
+    const bool flow = self->system == ABC;
     picture->title = gm_picture_text(
         picture, flow ? "The ABC flow: section and volume, by %s" : "A linear flow of zero trace, by %s",
         gm_counted_schemes(lanes, count));

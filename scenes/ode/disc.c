@@ -20,7 +20,7 @@
 
 #include "core/linear/curve.h"
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 
 enum { Q, XI_1, XI_2, P, ETA_1, ETA_2, COMPONENTS };
@@ -60,10 +60,10 @@ static const struct gm_parameter parameters[] = {
                   .live = true),
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct disc *disc = own;
+    const struct disc *disc = self;
     *problem = disc->system == PENDULUM ? gm_problem_pendulum_tangent : gm_problem_oscillator_tangent;
     problem->m = (size_t)disc->points + 1;
     return true;
@@ -74,9 +74,9 @@ static double angle(const struct disc *disc, size_t point)
     return 2 * M_PI * (double)point / (double)disc->points;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    const struct disc *disc = own;
+    const struct disc *disc = self;
     const size_t m = problem->m;
     for (size_t i = 0; i < m; i++) {
         const double radius = i + 1 < m ? disc->radius : 0;
@@ -130,9 +130,9 @@ static double energy(const struct gm_view *view)
 }
 
 /* The pendulum's energy passes zero; the oscillator's is the square of its amplitude. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    return ((const struct disc *)own)->system == PENDULUM ? 1 : 0;
+    return ((const struct disc *)self)->system == PENDULUM ? 1 : 0;
 }
 
 static const struct gm_observable observables[] = {
@@ -424,9 +424,9 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
 }
 
 /* The centre of the disc is put there. */
-static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+static size_t point(const void *self, double x, double y, struct gm_choice *choices)
 {
-    (void)own;
+    (void)self;
     gm_choose(&choices[0], "q0", x);
     gm_choose(&choices[1], "p0", y);
     return 2;

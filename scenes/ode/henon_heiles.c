@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
@@ -37,9 +37,9 @@ static double potential(double q1, double q2)
     return (q1 * q1 + q2 * q2) / 2 + q1 * q1 * q2 - q2 * q2 * q2 / 3;
 }
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
-    const struct henon_heiles *orbit = own;
+    const struct henon_heiles *orbit = self;
     if (!(orbit->energy - potential(0, orbit->q2) - orbit->p2 * orbit->p2 / 2 >= 0)) {
         return gm_refuse(sentence, "with the energy %.4g there is no orbit through q2=%.4g, p2=%.4g",
                          orbit->energy, orbit->q2, orbit->p2);
@@ -48,10 +48,10 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
     (void)problem;
-    const struct henon_heiles *orbit = own;
+    const struct henon_heiles *orbit = self;
     y[Q1] = 0;
     y[Q2] = orbit->q2;
     y[P2] = orbit->p2;
@@ -111,9 +111,9 @@ static void draw_border(struct gm_picture *picture, struct gm_panel *panel, doub
 }
 
 /* The orbit through that point of the section; there is none where the energy does not reach. */
-static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+static size_t point(const void *self, double x, double y, struct gm_choice *choices)
 {
-    const struct henon_heiles *orbit = own;
+    const struct henon_heiles *orbit = self;
     if (!(y * y / 2 + potential(0, x) < orbit->energy) || fabs(x) > 1) {
         return 0;
     }
@@ -151,7 +151,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     ends_of(widest, ends);
     struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        const struct henon_heiles *own = walk.lane->parameters;
+        const struct henon_heiles *self = walk.lane->parameters;
         if (walk.first) {
             panel = gm_walk_panel(picture, &walk, "");
             if (one_scheme && gm_panel_count(lanes, count) == 1) {
@@ -161,7 +161,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             panel->y = (struct gm_axis){.label = "p₂", .low = -tall, .high = tall};
             panel->axes = true;
             panel->equal = true;
-            draw_border(picture, panel, own->energy);
+            draw_border(picture, panel, self->energy);
         }
         const struct gm_entries *section = &walk.lane->entries[0];
         const enum gm_role role = gm_lane_role(walk.lane->shown.colour);
@@ -180,9 +180,9 @@ static const struct gm_work work = {
     .arguments = "until=100", .coarsest = 0.5, .halvings = 8, .reference = "gauss8"};
 
 /* Small oscillations turn by a radian in it. */
-static double radian_time(const void *own)
+static double radian_time(const void *self)
 {
-    return (void)own, 1;
+    return (void)self, 1;
 }
 
 static const double energies[] = {1. / 24, 1. / 12, 1. / 8, 0.16};

@@ -9,7 +9,7 @@
 
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* ---- growth ---- */
 

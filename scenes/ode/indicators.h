@@ -4,7 +4,7 @@
 #ifndef GM_SCENES_ODE_INDICATORS_H
 #define GM_SCENES_ODE_INDICATORS_H
 
-#include "scenes/frame/scene.h"
+#include "scenes/common/scene.h"
 
 /* Of core/ode/indicators/growth.h; NaN where the run has left or failed. */
 double gm_lyapunov(const struct gm_view *view);

@@ -12,9 +12,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
@@ -36,19 +36,19 @@ static const struct gm_parameter parameters[] = {
     GM_SHOW_ROW(struct kepler),
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct kepler *kepler = own;
+    const struct kepler *kepler = self;
     *problem = kepler->perturbation == 0 ? gm_problem_kepler : gm_problem_kepler_perturbed;
     problem->parameters = &kepler->perturbation;
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
     (void)problem;
-    const double e = ((const struct kepler *)own)->eccentricity;
+    const double e = ((const struct kepler *)self)->eccentricity;
     y[Q1] = 1 - e;
     y[Q2] = 0;
     y[P1] = 0;
@@ -82,9 +82,9 @@ static double position_error(const struct gm_view *view)
 }
 
 /* That of the unperturbed orbit, to whatever the perturbation adds. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    return (void)own, 0.5;
+    return (void)self, 0.5;
 }
 
 static const struct gm_observable observables[] = {
@@ -210,9 +210,9 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
 }
 
 /* The orbit that has its pericentre or its apocentre as far from the centre as that. */
-static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+static size_t point(const void *self, double x, double y, struct gm_choice *choices)
 {
-    (void)own;
+    (void)self;
     gm_choose(&choices[0], "eccentricity", fmin(fabs(1 - hypot(x, y)), 0.99));
     return 1;
 }
@@ -296,9 +296,9 @@ static const struct gm_work work = {.arguments = "until=40*pi",
                                     .halvings = 10,
                                     .is_exact = "wisdom-holman2"};
 
-static double period(const void *own)
+static double period(const void *self)
 {
-    (void)own;
+    (void)self;
     return 2 * M_PI;
 }
 

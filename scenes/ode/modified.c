@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/ode/backward/modified_energy.h"
-#include "scenes/frame/graph.h"
-#include "scenes/frame/scene.h"
+#include "scenes/common/graph.h"
+#include "scenes/common/scene.h"
 
 /* What is remembered of a state: the start is asked for again and again. */
 struct state {

@@ -3,7 +3,7 @@
 #ifndef GM_SCENES_ODE_MODIFIED_H
 #define GM_SCENES_ODE_MODIFIED_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* Of H + dt H_1 + ... up to dt^2, dt^4, dt^6. They are errors of the last member, divided by what the scene's
    energy error is divided by; NaN where there are none, and why. */

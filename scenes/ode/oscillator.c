@@ -11,11 +11,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "core/formula/number.h"
+#include "core/expression/number.h"
+#include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/own_time/variational_time.h"
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
@@ -54,20 +54,20 @@ static void turn(const struct gm_problem *problem, double t, const double *y0, d
 
 static const struct gm_exact harmonic = {.solution = turn};
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct oscillator *oscillator = own;
+    const struct oscillator *oscillator = self;
     *problem = oscillator->system == PENDULUM ? gm_problem_pendulum : gm_problem_oscillator;
     problem->exact = oscillator->system == PENDULUM ? NULL : &harmonic;
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
     (void)problem;
-    y[Q] = ((const struct oscillator *)own)->q0;
-    y[P] = ((const struct oscillator *)own)->p0;
+    y[Q] = ((const struct oscillator *)self)->q0;
+    y[P] = ((const struct oscillator *)self)->p0;
 }
 
 static bool varies_time(const struct gm_view *view)
@@ -89,8 +89,8 @@ static double restarts(const struct gm_view *view)
 /* How far the harmonic oscillator is ahead in its turn of where it ought to be. */
 static double phase_error(const struct gm_view *view)
 {
-    const struct oscillator *own = view->parameters;
-    if (own->system == PENDULUM) {
+    const struct oscillator *self = view->parameters;
+    if (self->system == PENDULUM) {
         return NAN;
     }
     const double now = atan2(view->state[Q], view->state[P]), then = atan2(view->start[Q], view->start[P]);
@@ -98,9 +98,9 @@ static double phase_error(const struct gm_view *view)
 }
 
 /* The pendulum's energy passes zero; the oscillator's is the square of its amplitude. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    return ((const struct oscillator *)own)->system == PENDULUM ? 1 : 0;
+    return ((const struct oscillator *)self)->system == PENDULUM ? 1 : 0;
 }
 
 static const struct gm_observable observables[] = {
@@ -141,7 +141,7 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
     struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         const struct gm_lane *lane = walk.lane;
-        const struct oscillator *own = lane->parameters;
+        const struct oscillator *self = lane->parameters;
         const enum gm_role role = gm_lane_role(lane->shown.colour);
         if (walk.first) {
             const double again = gm_lane_observe(lane, RESTARTS);
@@ -152,12 +152,12 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
             panel->x = time;
             panel->y = (struct gm_axis){.label = "q", .low = -1.15 * reach, .high = 1.15 * reach};
         }
-        if (walk.first && own->system == HARMONIC) {
+        if (walk.first && self->system == HARMONIC) {
             double exact[2 * EXACT];
             for (size_t k = 0; k < EXACT; k++) {
                 const double t = time.low + (time.high - time.low) * (double)k / (EXACT - 1);
                 exact[2 * k] = t;
-                exact[2 * k + 1] = own->q0 * cos(t - lane->t0) + own->p0 * sin(t - lane->t0);
+                exact[2 * k + 1] = self->q0 * cos(t - lane->t0) + self->p0 * sin(t - lane->t0);
             }
             gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, exact, EXACT, false);
         }
@@ -173,9 +173,9 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
 }
 
 /* The curve begins as high as the point is. */
-static size_t point(const void *own, double t, double q, struct gm_choice *choices)
+static size_t point(const void *self, double t, double q, struct gm_choice *choices)
 {
-    (void)own;
+    (void)self;
     (void)t;
     gm_choose(&choices[0], "q0", q);
     return 1;
@@ -183,7 +183,7 @@ static size_t point(const void *own, double t, double q, struct gm_choice *choic
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct oscillator *own = lanes[0]->parameters;
+    const struct oscillator *self = lanes[0]->parameters;
     bool collapsed = false;
     for (size_t i = 0; i < count; i++) {
         collapsed |= lanes[i]->run->status == GM_STEP_COLLAPSE;
@@ -191,8 +191,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = gm_picture_text(picture, "Integrators that choose their step so that energy is kept");
     picture->subtitle =
         gm_picture_text(picture, "%s,  first step τ₀ = %.4g;  dots: the steps%s",
-                        own->system == PENDULUM ? "pendulum" : "harmonic oscillator", lanes[0]->settings.tau0,
-                        own->system == HARMONIC ? ",  grey: the exact motion" : "");
+                        self->system == PENDULUM ? "pendulum" : "harmonic oscillator",
+                        lanes[0]->settings.tau0, self->system == HARMONIC ? ",  grey: the exact motion" : "");
     picture->caption =
         collapsed
             ? "The printed rectangle rule finds no real step at the first turning point; the published motion over "

@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
@@ -44,18 +44,18 @@ static const struct gm_parameter parameters[] = {
     GM_SHOW_ROW(struct stiff),
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+static bool setup(const void *self, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
-    const struct stiff *stiff = own;
+    const struct stiff *stiff = self;
     *problem = stiff->system == FPU ? gm_problem_fpu_of[stiff->springs - 1] : gm_problem_spring_pendulum;
     problem->parameters = stiff->system == FPU ? &stiff->omega : &stiff->stiffness;
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y)
+static void start(const void *self, const struct gm_problem *problem, double *y)
 {
-    const struct stiff *stiff = own;
+    const struct stiff *stiff = self;
     for (size_t c = 0; c < problem->n; c++) {
         y[c] = 0;
     }
@@ -110,9 +110,9 @@ static double stiff_energy(const struct gm_view *view)
 }
 
 /* Of the pendulum, which is let go level with its pivot: its weight times its length. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    return ((const struct stiff *)own)->system == SPRING_PENDULUM ? 1 : 0;
+    return ((const struct stiff *)self)->system == SPRING_PENDULUM ? 1 : 0;
 }
 
 static const char fewer[] = "there are fewer stiff springs";
@@ -323,9 +323,9 @@ static const char *const schemes[] = {"verlet",     "rk4",       "midpoint",    
 static const struct gm_work work = {
     .arguments = "until=10", .coarsest = 0.04, .halvings = 10, .reference = "gauss8"};
 
-static double spring_time(const void *own)
+static double spring_time(const void *self)
 {
-    const struct stiff *stiff = own;
+    const struct stiff *stiff = self;
     return stiff->system == FPU ? 1 / stiff->omega : 1 / sqrt(stiff->stiffness);
 }
 

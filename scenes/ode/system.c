@@ -14,12 +14,12 @@
 #include <string.h>
 
 #include "core/linear/eigenvalues.h"
+#include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
-#include "scenes/frame/written.h"
+#include "scenes/common/written.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/system/aim.h"
 #include "scenes/ode/system/draw.h"
@@ -41,7 +41,7 @@ enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS 
 /* Whether each row was given, bytes behind the values. */
 static char *given_of(struct gm_system_lane *lane)
 {
-    return (char *)(lane->values + (lane->own->row_count - GM_SYSTEM_ROWS));
+    return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
 /* ---- what is remembered ---- */
@@ -76,7 +76,7 @@ static double step_of(const void *parameters)
 static double shape_interval(const void *parameters)
 {
     const struct gm_system_lane *lane = parameters;
-    return fmax(lane->own->radian * M_PI / 6, step_of(parameters));
+    return fmax(lane->owner->radian * M_PI / 6, step_of(parameters));
 }
 
 static size_t shape_stride(size_t members)
@@ -92,32 +92,32 @@ static size_t shape_width(const struct gm_view *view)
 
 static void record_shape(const struct gm_view *view, double *entry)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     const size_t m = view->problem->m, members = m > 1 ? m - 1 : 1;
     for (size_t i = 0; i < members; i += shape_stride(members), entry += 2) {
-        entry[0] = view->state[own->disc[0] * m + i];
-        entry[1] = view->state[own->disc[1] * m + i];
+        entry[0] = view->state[system_scene->disc[0] * m + i];
+        entry[1] = view->state[system_scene->disc[1] * m + i];
     }
 }
 
 static double section(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
-    gm_system_values(&own->where, view, view->member, values);
-    if (own->stroboscopic) {
+    gm_system_values(&system_scene->where, view, view->member, values);
+    if (system_scene->stroboscopic) {
         return sin(2 * M_PI * (view->t - view->t0) / values[0]);
     }
-    return own->turns ? sin(values[0] / 2) : values[0];
+    return system_scene->turns ? sin(values[0] / 2) : values[0];
 }
 
 static bool is_admitted(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
-    gm_system_values(&own->where, view, view->member, values);
-    bool holds = !own->stroboscopic || cos(2 * M_PI * (view->t - view->t0) / values[0]) > 0;
-    for (size_t i = 0; i < own->conditions; i++) {
+    gm_system_values(&system_scene->where, view, view->member, values);
+    bool holds = !system_scene->stroboscopic || cos(2 * M_PI * (view->t - view->t0) / values[0]) > 0;
+    for (size_t i = 0; i < system_scene->conditions; i++) {
         holds = holds && values[1 + i] > 0;
     }
     return holds;
@@ -134,13 +134,13 @@ static void record_crossing(const struct gm_view *view, double *entry)
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
     struct gm_system_lane *lane = parameters;
-    const struct gm_system_scene *own = lane->own;
+    const struct gm_system_scene *system_scene = lane->owner;
     char *given = given_of(lane);
     bool by_steps = false;
     for (size_t i = 0; i < count; i++) {
         by_steps |= strcmp(keys[i], "steps") == 0;
-        for (size_t row = 0; row < own->row_count; row++) {
-            given[row] |= strcmp(keys[i], own->rows[row].key) == 0;
+        for (size_t row = 0; row < system_scene->row_count; row++) {
+            given[row] |= strcmp(keys[i], system_scene->rows[row].key) == 0;
         }
     }
     double *values = gm_system_start_values(lane, given);
@@ -148,20 +148,20 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
         return gm_refuse(sentence, "not enough memory");
     }
     bool good = true;
-    for (size_t row = GM_SYSTEM_ROWS; row < own->row_count && good; row++) {
-        const double value = values[own->variables[row]];
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
+        const double value = values[system_scene->variables[row]];
         lane->values[row - GM_SYSTEM_ROWS] = value;
-        const struct gm_parameter *bounds = &own->rows[row];
+        const struct gm_parameter *bounds = &system_scene->rows[row];
         good = isfinite(value) || gm_refuse(sentence, "%s is not finite with these values", bounds->key);
         good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
                         gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g",
                                   bounds->key, value, bounds->lowest, bounds->highest));
     }
-    for (size_t i = 0; i < GM_COUNT(own->timing) && good; i++) {
+    for (size_t i = 0; i < GM_COUNT(system_scene->timing) && good; i++) {
         double number = NAN;
         const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
-        if (gm_system_item_of(&own->system, word, 0)) {
-            gm_tape_values(&own->timing[i], values, &number, 1);
+        if (gm_system_item_of(&system_scene->system, word, 0)) {
+            gm_tape_values(&system_scene->timing[i], values, &number, 1);
         }
         if (word == GM_WORD_DT && !given[DT] && number > 0) {
             lane->timing.dt = number;
@@ -195,7 +195,7 @@ static bool has_velocities(const struct gm_system_lane *lane, char *sentence)
 {
     double *values = gm_system_start_values(lane, NULL);
     struct gm_fault fault = {.sentence = "not enough memory"};
-    const bool good = values && gm_equations_check_legendre(&lane->own->system, values, &fault);
+    const bool good = values && gm_equations_check_legendre(&lane->owner->system, values, &fault);
     free(values);
     return good || gm_refuse(sentence, "%s", fault.sentence);
 }
@@ -207,9 +207,9 @@ static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
     if (!values) {
         return gm_refuse(sentence, "not enough memory");
     }
-    gm_tape_values(&lane->own->surfaces, values, sizes, 1);
+    gm_tape_values(&lane->owner->surfaces, values, sizes, 1);
     free(values);
-    for (size_t i = 0; i < lane->own->surfaces.outputs; i++) {
+    for (size_t i = 0; i < lane->owner->surfaces.outputs; i++) {
         if (!(sizes[i] > 0 && isfinite(sizes[i]))) {
             return gm_refuse(sentence, "the size of a surface is %g, and has to be above 0", sizes[i]);
         }
@@ -220,22 +220,22 @@ static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     const struct gm_system_lane *lane = parameters;
-    const struct gm_system_scene *own = lane->own;
-    if (own->surfaces.outputs > 0 && !has_surfaces(lane, sentence)) {
+    const struct gm_system_scene *system_scene = lane->owner;
+    if (system_scene->surfaces.outputs > 0 && !has_surfaces(lane, sentence)) {
         return false;
     }
-    if (own->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
+    if (system_scene->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
         return false;
     }
     double *values = gm_system_start_values(lane, NULL);
-    const bool good = values && gm_own_problem_open(problem, &own->model, values);
+    const bool good = values && gm_user_problem_open(problem, &system_scene->model, values);
     free(values);
     if (!good) {
         return gm_refuse(sentence, "not enough memory");
     }
-    problem->name = own->scene.name;
+    problem->name = system_scene->scene.name;
     if (gm_action_constraints(problem) > 0 && !starts_on_manifold(lane, problem, sentence)) {
-        gm_own_problem_close(problem);
+        gm_user_problem_close(problem);
         return false;
     }
     problem->m = (size_t)lane->members;
@@ -281,8 +281,8 @@ static void put_on_manifold(const struct gm_problem *problem, double *y, size_t 
 static void start(const void *parameters, const struct gm_problem *problem, double *y)
 {
     const struct gm_system_lane *lane = parameters;
-    const struct gm_system_scene *own = lane->own;
-    const size_t n = own->system.n, m = problem->m;
+    const struct gm_system_scene *system_scene = lane->owner;
+    const size_t n = system_scene->system.n, m = problem->m;
     double *centre = malloc(n * sizeof *centre);
     if (!centre) {
         return; /* noted: the lane says that memory was short */
@@ -298,8 +298,9 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
         for (size_t c = 0; c < problem->n; c++) {
             y[c * m + i] = c < n ? centre[c] : 0;
         }
-        y[own->disc[0] * m + i] += from_centre[0];
-        y[own->disc[1] * m + i] += own->disc[1] != own->disc[0] ? from_centre[1] : 0;
+        y[system_scene->disc[0] * m + i] += from_centre[0];
+        y[system_scene->disc[1] * m + i] +=
+            system_scene->disc[1] != system_scene->disc[0] ? from_centre[1] : 0;
         if (gm_action_constraints(problem) > 0 && i + 1 < m) {
             put_on_manifold(problem, y, m, i);
         }
@@ -309,7 +310,7 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
 
 static void close_problem(struct gm_problem *problem)
 {
-    gm_own_problem_close(problem);
+    gm_user_problem_close(problem);
 }
 
 /* ---- how fast the system is ---- */
@@ -350,12 +351,12 @@ static double shortest_radian(const struct gm_system_lane *lane, int looks)
 {
     struct gm_problem problem;
     char sentence[GM_MESSAGE];
-    if (lane->own->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
+    if (lane->owner->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
         return 1;
     }
     double *y = calloc(problem.n, sizeof *y), *values = gm_system_start_values(lane, NULL), radian = 1;
     if (y && values) {
-        memcpy(y, values, lane->own->system.n * sizeof *y);
+        memcpy(y, values, lane->owner->system.n * sizeof *y);
         problem.m = 1;
         radian = radian_at(&problem, y);
     }
@@ -369,7 +370,7 @@ static double shortest_radian(const struct gm_system_lane *lane, int looks)
     gm_run_close(run);
     free(values);
     free(y);
-    gm_own_problem_close(&problem);
+    gm_user_problem_close(&problem);
     return radian;
 }
 
@@ -391,16 +392,16 @@ static const char *idle(const void *parameters, const char *key)
 static size_t on_section(const struct gm_system_lane *lane, const struct gm_sight *sight,
                          struct gm_choice *choice)
 {
-    const struct gm_system_scene *own = lane->own;
-    if (sight != &own->section || own->stroboscopic) {
+    const struct gm_system_scene *system_scene = lane->owner;
+    if (sight != &system_scene->section || system_scene->stroboscopic) {
         return 0;
     }
-    const struct gm_system_item *item = gm_system_item_of(&own->system, GM_WORD_SECTION, 0);
-    const struct gm_node *node = &own->system.graph.nodes[item->nodes[0]];
-    for (size_t row = own->first_start; row < own->row_count; row++) {
-        if (node->operation == GM_VARIABLE && own->variables[row] == node->a &&
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0);
+    const struct gm_node *node = &system_scene->system.graph.nodes[item->nodes[0]];
+    for (size_t row = system_scene->first_start; row < system_scene->row_count; row++) {
+        if (node->operation == GM_VARIABLE && system_scene->variables[row] == node->a &&
             sight->components[0] != (long)node->a && sight->components[1] != (long)node->a) {
-            gm_choose(choice, own->rows[row].key, 0);
+            gm_choose(choice, system_scene->rows[row].key, 0);
             return 1;
         }
     }
@@ -413,9 +414,9 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
     const struct gm_sight *sight = gm_system_sight(lane);
     size_t count = 0;
     for (size_t k = 0; k < 2; k++) {
-        for (size_t row = lane->own->first_start; row < lane->own->row_count; row++) {
-            if (sight->components[k] >= 0 && lane->own->variables[row] == (size_t)sight->components[k]) {
-                gm_choose(&choices[count++], lane->own->rows[row].key, k ? y : x);
+        for (size_t row = lane->owner->first_start; row < lane->owner->row_count; row++) {
+            if (sight->components[k] >= 0 && lane->owner->variables[row] == (size_t)sight->components[k]) {
+                gm_choose(&choices[count++], lane->owner->rows[row].key, k ? y : x);
             }
         }
     }
@@ -430,23 +431,24 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-static const char *number_text(struct gm_system_scene *own, double value)
+static const char *number_text(struct gm_system_scene *system_scene, double value)
 {
     char text[64];
-    return gm_system_kept_text(own, "%s", gm_number_format(value, text, sizeof text));
+    return gm_system_kept_text(system_scene, "%s", gm_number_format(value, text, sizeof text));
 }
 
-static bool make_rows(struct gm_system_scene *own, bool typed)
+static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    own->row_count = GM_SYSTEM_ROWS + parameters + n;
-    own->first_start = GM_SYSTEM_ROWS + parameters;
-    own->rows = calloc(own->row_count + GM_CAMERA_KEYS, sizeof *own->rows);
-    own->variables = calloc(own->row_count, sizeof *own->variables);
-    own->initial = calloc(1, sizeof *own->initial + (own->row_count) * (sizeof(double) + 1));
+    system_scene->row_count = GM_SYSTEM_ROWS + parameters + n;
+    system_scene->first_start = GM_SYSTEM_ROWS + parameters;
+    system_scene->rows = calloc(system_scene->row_count + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->variables = calloc(system_scene->row_count, sizeof *system_scene->variables);
+    system_scene->initial =
+        calloc(1, sizeof *system_scene->initial + (system_scene->row_count) * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
-    bool good = own->rows && own->variables && own->initial && start;
+    bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
     static const struct gm_parameter common[GM_SYSTEM_ROWS] = {
         [DT] = GM_DT("", 1e-30, 1e30),
@@ -463,13 +465,14 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     if (good) {
-        memcpy(own->rows, common, sizeof common);
-        memcpy(own->rows + own->row_count, camera, sizeof camera);
-        own->initial->own = own;
+        memcpy(system_scene->rows, common, sizeof common);
+        memcpy(system_scene->rows + system_scene->row_count, camera, sizeof camera);
+        system_scene->initial->owner = system_scene;
     }
-    for (size_t row = GM_SYSTEM_ROWS; good && row < own->row_count; row++) {
-        const bool is_start = row >= own->first_start;
-        size_t number = is_start ? row - own->first_start : system->parameters + row - GM_SYSTEM_ROWS;
+    for (size_t row = GM_SYSTEM_ROWS; good && row < system_scene->row_count; row++) {
+        const bool is_start = row >= system_scene->first_start;
+        size_t number =
+            is_start ? row - system_scene->first_start : system->parameters + row - GM_SYSTEM_ROWS;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
@@ -477,8 +480,8 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
         const char *unit = variable->unit, *help = variable->meaning;
         const double value = start[number], reach = 1e300; /* sliders find their usual size themselves */
         const bool ranged = !isnan(variable->low);
-        own->variables[row] = number;
-        own->rows[row] = (struct gm_parameter){
+        system_scene->variables[row] = number;
+        system_scene->rows[row] = (struct gm_parameter){
             .key = variable->name,
             .unit = unit ? unit : "",
             .help = help && help[0] ? help
@@ -486,7 +489,7 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
                                     : "a parameter",
             .type = GM_REAL,
             .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = number_text(own, value),
+            .standard = number_text(system_scene, value),
             .lowest = variable->fixed ? value
                       : ranged        ? variable->low
                                       : -reach,
@@ -495,27 +498,27 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
                                        : reach,
             .required = typed,
         };
-        good = own->rows[row].standard != NULL;
+        good = system_scene->rows[row].standard != NULL;
     }
     free(start);
     return good;
 }
 
 /* dt and until: as the file says, or by how fast the system is. */
-static bool make_timing(struct gm_system_scene *own, char *sentence)
+static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
 {
-    const struct gm_own_system *system = &own->system;
-    gm_parameters_reset(own->rows + GM_SYSTEM_ROWS, own->row_count + GM_CAMERA_KEYS - GM_SYSTEM_ROWS,
-                        own->initial);
-    own->initial->members = 1;
-    own->radian = radian_time(own->initial);
-    double *values = gm_system_start_values(own->initial, NULL);
+    const struct gm_user_system *system = &system_scene->system;
+    gm_parameters_reset(system_scene->rows + GM_SYSTEM_ROWS,
+                        system_scene->row_count + GM_CAMERA_KEYS - GM_SYSTEM_ROWS, system_scene->initial);
+    system_scene->initial->members = 1;
+    system_scene->radian = radian_time(system_scene->initial);
+    double *values = gm_system_start_values(system_scene->initial, NULL);
     double numbers[3] = {NAN, NAN, NAN};
     for (size_t i = 0; values && i < 3; i++) {
         const struct gm_system_item *item =
             gm_system_item_of(system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
-        if (item && gm_system_open_tape(own, &own->timing[i], item->nodes, 1)) {
-            gm_tape_values(&own->timing[i], values, &numbers[i], 1);
+        if (item && gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
+            gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
         }
     }
     free(values);
@@ -524,108 +527,110 @@ static bool make_timing(struct gm_system_scene *own, char *sentence)
     }
     const int looks = system->n <= MOST_FOLLOWED ? 10 : 0;
     const double dt =
-        numbers[0] > 0 ? numbers[0] : gm_written_rounded(0.1 * shortest_radian(own->initial, looks));
+        numbers[0] > 0 ? numbers[0] : gm_written_rounded(0.1 * shortest_radian(system_scene->initial, looks));
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
-                                           : gm_written_rounded(100 * own->radian);
-    own->rows[DT].standard = number_text(own, dt);
-    own->rows[UNTIL].standard = number_text(own, until);
-    return values && own->rows[DT].standard && own->rows[UNTIL].standard;
+                                           : gm_written_rounded(100 * system_scene->radian);
+    system_scene->rows[DT].standard = number_text(system_scene, dt);
+    system_scene->rows[UNTIL].standard = number_text(system_scene, until);
+    return values && system_scene->rows[DT].standard && system_scene->rows[UNTIL].standard;
 }
 
 /* The ways to look at the state, and those at what the scheme does to the energy. */
-static bool make_shows(struct gm_system_scene *own)
+static bool make_shows(struct gm_system_scene *system_scene)
 {
-    if (!gm_system_make_sights(own)) {
+    if (!gm_system_make_sights(system_scene)) {
         return false;
     }
     size_t shows = 0;
-    while (own->shows[shows]) {
+    while (system_scene->shows[shows]) {
         shows++;
     }
-    own->shows[shows] = own->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
-    own->rows[SHOW].choices = own->shows;
+    system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
+    system_scene->rows[SHOW].choices = system_scene->shows;
     return true;
 }
 
-static void make_tracks(struct gm_system_scene *own)
+static void make_tracks(struct gm_system_scene *system_scene)
 {
-    own->tracks[GM_TRACK_PAST] = (struct gm_track){
+    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){
         .key = "past", .width = sight_width, .interval = step_of, .bound = 8192, .record = record_sight};
-    own->tracks[GM_TRACK_TRAIL] = (struct gm_track){
+    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){
         .key = "trail", .width = sight_width, .bound = 2048, .recent = true, .record = record_sight};
-    own->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
-                                                     .width = shape_width,
-                                                     .interval = shape_interval,
-                                                     .bound = 96,
-                                                     .record = record_shape};
-    own->tracks[GM_TRACK_SECTION] = (struct gm_track){.key = "section",
-                                                      .numbers = 2,
-                                                      .section = section,
-                                                      .admits = is_admitted,
-                                                      .again = true,
-                                                      .each = true,
-                                                      .bound = CROSSINGS,
-                                                      .record = record_crossing};
-    own->scene.tracks = own->tracks;
-    own->scene.track_count = own->has_section ? GM_SYSTEM_TRACKS : GM_TRACK_SECTION;
-    own->scene.follow = own->has_section ? 1 : 0;
+    system_scene->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
+                                                              .width = shape_width,
+                                                              .interval = shape_interval,
+                                                              .bound = 96,
+                                                              .record = record_shape};
+    system_scene->tracks[GM_TRACK_SECTION] = (struct gm_track){.key = "section",
+                                                               .numbers = 2,
+                                                               .section = section,
+                                                               .admits = is_admitted,
+                                                               .again = true,
+                                                               .each = true,
+                                                               .bound = CROSSINGS,
+                                                               .record = record_crossing};
+    system_scene->scene.tracks = system_scene->tracks;
+    system_scene->scene.track_count = system_scene->has_section ? GM_SYSTEM_TRACKS : GM_TRACK_SECTION;
+    system_scene->scene.follow = system_scene->has_section ? 1 : 0;
 }
 
 /* Those that the file names, or of the best known the ones that fit. */
-static bool make_schemes(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                         char *sentence)
 {
     static const char *const usual[] = {"rattle2", "verlet",           "midpoint", "rk4",
                                         "gauss4",  "symplectic-euler", "yoshida4"};
-    const char *lacks = gm_own_model_lacks(&own->model);
+    const char *lacks = gm_user_model_lacks(&system_scene->model);
     if (lacks[0]) {
         return gm_refuse(sentence, "%s", lacks);
     }
     size_t count;
-    if (!gm_written_schemes(own->system.texts[GM_WORD_SCHEMES], problem, own->schemes, GM_MOST_PREFERRED,
-                            &count, sentence)) {
+    if (!gm_written_schemes(system_scene->system.texts[GM_WORD_SCHEMES], problem, system_scene->schemes,
+                            GM_MOST_PREFERRED, &count, sentence)) {
         return false;
     }
     const bool named = count > 0;
     for (size_t i = 0; i < GM_COUNT(usual) && !named; i++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(usual[i], problem);
         if (gm_scheme_fits(scheme, problem)) {
-            own->schemes[count++] = scheme->name;
+            system_scene->schemes[count++] = scheme->name;
         }
     }
     if (count == 0) {
         return gm_refuse(sentence, "no scheme fits this system");
     }
-    own->scene.schemes = own->schemes;
-    own->scene.lanes = own->system.texts[GM_WORD_LANES];
+    system_scene->scene.schemes = system_scene->schemes;
+    system_scene->scene.lanes = system_scene->system.texts[GM_WORD_LANES];
     return true;
 }
 
 /* The map of stability: over the first parameter that can change, or over where the first component
    starts. */
-static bool make_studies(struct gm_system_scene *own)
+static bool make_studies(struct gm_system_scene *system_scene)
 {
     static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
     static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
     size_t row = GM_SYSTEM_ROWS;
-    while (row < own->first_start && own->rows[row].lowest == own->rows[row].highest) {
+    while (row < system_scene->first_start &&
+           system_scene->rows[row].lowest == system_scene->rows[row].highest) {
         row++;
     }
-    const struct gm_parameter *parameter = &own->rows[row];
-    const double usual = gm_parameter_get(parameter, own->initial);
+    const struct gm_parameter *parameter = &system_scene->rows[row];
+    const double usual = gm_parameter_get(parameter, system_scene->initial);
     size_t count = 0;
     for (size_t i = 0; i < GM_COUNT(factors); i++) {
         const double value = usual != 0 ? usual * factors[usual > 0 ? i : GM_COUNT(factors) - 1 - i]
                                         : fmin(1, parameter->highest) * (double)i / GM_COUNT(factors);
         if (value >= parameter->lowest && value <= parameter->highest) {
-            own->values[count++] = value;
+            system_scene->values[count++] = value;
         }
     }
-    const double until = gm_written_rounded(200 * own->radian);
-    own->stability = (struct gm_stability){
-        .arguments = gm_system_kept_text(own, "until=%.17g", until),
+    const double until = gm_written_rounded(200 * system_scene->radian);
+    system_scene->stability = (struct gm_stability){
+        .arguments = gm_system_kept_text(system_scene, "until=%.17g", until),
         .parameter = parameter->key,
-        .values = own->values,
+        .values = system_scene->values,
         .value_count = count,
         .label = "h ω",
         .unit = radian_time,
@@ -635,23 +640,28 @@ static bool make_studies(struct gm_system_scene *own)
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,
-        .kept = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
-        .error = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
+        .kept = system_scene->observable_count > 0 && system_scene->observables[0].kept
+                    ? system_scene->observables[0].key
+                    : NULL,
+        .error = system_scene->observable_count > 0 && system_scene->observables[0].kept
+                     ? system_scene->observables[0].key
+                     : NULL,
     };
-    own->work.arguments = gm_system_kept_text(
-        own, "until=%.17g", fmin(atof(own->rows[UNTIL].standard), gm_written_rounded(20 * own->radian)));
-    own->work.coarsest = own->radian;
-    own->work.halvings = 8;
-    own->scene.work = &own->work;
-    own->scene.stability = &own->stability;
-    return own->stability.arguments && own->work.arguments;
+    system_scene->work.arguments = gm_system_kept_text(
+        system_scene, "until=%.17g",
+        fmin(atof(system_scene->rows[UNTIL].standard), gm_written_rounded(20 * system_scene->radian)));
+    system_scene->work.coarsest = system_scene->radian;
+    system_scene->work.halvings = 8;
+    system_scene->scene.work = &system_scene->work;
+    system_scene->scene.stability = &system_scene->stability;
+    return system_scene->stability.arguments && system_scene->work.arguments;
 }
 
 /* What the file calls it, or its formula where that is short. */
-static const char *title_of(struct gm_system_scene *own)
+static const char *title_of(struct gm_system_scene *system_scene)
 {
     enum { SHORT = 48 };
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const bool rates = system->kind == GM_RATES;
     const struct gm_naming naming = gm_system_naming(system);
     if (system->texts[GM_WORD_TITLE]) {
@@ -670,32 +680,32 @@ static const char *title_of(struct gm_system_scene *own)
         whole = formula != NULL; /* too long a one is not written */
         free(formula);
     }
-    const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(own, "%s", text) : NULL;
+    const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(system_scene, "%s", text) : NULL;
     return kept ? kept : "A system of one’s own";
 }
 
-static bool make(struct gm_system_scene *own, const char *name, const char *const *words, bool typed,
+static bool make(struct gm_system_scene *system_scene, const char *name, const char *const *words, bool typed,
                  char *sentence)
 {
-    struct gm_own_system *system = &own->system;
+    struct gm_user_system *system = &system_scene->system;
     gm_refuse(sentence, "not enough memory");
-    if (!gm_own_model_open(&own->model, system) || !make_rows(own, typed)) {
+    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed)) {
         return false;
     }
-    own->scene = (struct gm_scene){
+    system_scene->scene = (struct gm_scene){
         .name = name,
-        .title = title_of(own),
+        .title = title_of(system_scene),
         .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A system of one’s own.",
         .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
         .time = "that of its equations",
-        .size = sizeof *own->initial + own->row_count * (sizeof(double) + 1),
-        .initial = own->initial,
+        .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
+        .initial = system_scene->initial,
         .words = words,
         .source = typed ? NULL : system->source,
         .text = system->source,
-        .mark = gm_kept_texts_add(&own->texts, gm_written_mark(name, system->source)),
-        .parameters = own->rows,
-        .parameter_count = own->row_count,
+        .mark = gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)),
+        .parameters = system_scene->rows,
+        .parameter_count = system_scene->row_count,
         .idle = idle,
         .settle = settle,
         .setup = setup,
@@ -708,86 +718,90 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
     const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
-    if (members && gm_parameter_set(&own->rows[MEMBERS], own->initial, members) != GM_PARSED) {
+    if (members &&
+        gm_parameter_set(&system_scene->rows[MEMBERS], system_scene->initial, members) != GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
-    own->rows[MEMBERS].standard = members ? members : "1";
-    if (!make_timing(own, sentence) || (end && !gm_system_open_tape(own, &own->stop, end->nodes, 1)) ||
-        !make_shows(own) || !gm_system_open_surfaces(own, sentence) ||
-        !setup(own->initial, &problem, sentence)) {
+    system_scene->rows[MEMBERS].standard = members ? members : "1";
+    if (!make_timing(system_scene, sentence) ||
+        (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
+        !make_shows(system_scene) || !gm_system_open_surfaces(system_scene, sentence) ||
+        !setup(system_scene->initial, &problem, sentence)) {
         return false;
     }
-    make_tracks(own);
-    own->scene.parameter_count += own->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
+    make_tracks(system_scene);
+    system_scene->scene.parameter_count += system_scene->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
     if (end) {
-        own->scene.stop = gm_system_stop;
-        own->scene.stops = gm_system_stops;
-        own->scene.follow = 1;
+        system_scene->scene.stop = gm_system_stop;
+        system_scene->scene.stops = gm_system_stops;
+        system_scene->scene.follow = 1;
     }
-    const bool good = gm_system_make_observables(own, &problem, sentence) &&
-                      gm_system_check_exact(own, &problem, sentence) &&
-                      make_schemes(own, &problem, sentence) && make_studies(own);
-    gm_own_problem_close(&problem);
-    own->scene.observables = own->observables;
-    own->scene.observable_count = own->observable_count;
+    const bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
+                      gm_system_check_exact(system_scene, &problem, sentence) &&
+                      make_schemes(system_scene, &problem, sentence) && make_studies(system_scene);
+    gm_user_problem_close(&problem);
+    system_scene->scene.observables = system_scene->observables;
+    system_scene->scene.observable_count = system_scene->observable_count;
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
-    own->scene.asked = gm_ode_asked + skipped;
-    own->scene.asked_count = GM_ODE_ASKED - skipped;
-    own->scene.asked_shown = skipped ? NULL : gm_modified_shown;
-    own->scene.draw_asked = gm_draw_modified;
-    if (good && own->observable_count > MOST_OBSERVED) {
+    system_scene->scene.asked = gm_ode_asked + skipped;
+    system_scene->scene.asked_count = GM_ODE_ASKED - skipped;
+    system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
+    system_scene->scene.draw_asked = gm_draw_modified;
+    if (good && system_scene->observable_count > MOST_OBSERVED) {
         return gm_refuse(sentence, "a system has at most %d observables and invariants; this has %zu",
-                         MOST_OBSERVED, own->observable_count);
+                         MOST_OBSERVED, system_scene->observable_count);
     }
     return good;
 }
 
-const struct gm_scene *gm_system_scene_open(struct gm_own_system *system, const char *name,
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
                                             const char *const *words, bool typed, char *sentence)
 {
-    struct gm_system_scene *own = calloc(1, sizeof *own);
-    if (!own) {
+    struct gm_system_scene *system_scene = calloc(1, sizeof *system_scene);
+    if (!system_scene) {
         gm_system_close(system);
         gm_refuse(sentence, "not enough memory");
         return NULL;
     }
-    own->system = *system;
-    if (!make(own, name, words, typed, sentence)) {
-        gm_system_scene_close(&own->scene);
+    system_scene->system = *system;
+    if (!make(system_scene, name, words, typed, sentence)) {
+        gm_system_scene_close(&system_scene->scene);
         return NULL;
     }
-    return &own->scene;
+    return &system_scene->scene;
 }
 
 void gm_system_scene_close(const struct gm_scene *scene)
 {
-    struct gm_system_scene *own = (struct gm_system_scene *)scene; /* which it is the first member of */
-    for (size_t i = 0; i < own->sight_count; i++) {
-        gm_system_close_sight(&own->sights[i]);
+    struct gm_system_scene *system_scene =
+        (struct gm_system_scene *)scene; /* which it is the first member of */
+    for (size_t i = 0; i < system_scene->sight_count; i++) {
+        gm_system_close_sight(&system_scene->sights[i]);
     }
-    gm_system_close_sight(&own->section);
-    gm_tape_close(&own->surfaces);
-    for (size_t i = 0; own->formulas && i < own->observable_count; i++) {
-        gm_tape_close(&own->formulas[i]);
+    gm_system_close_sight(&system_scene->section);
+    gm_tape_close(&system_scene->surfaces);
+    for (size_t i = 0; system_scene->formulas && i < system_scene->observable_count; i++) {
+        gm_tape_close(&system_scene->formulas[i]);
     }
-    for (size_t i = 0; own->terms && i < own->observable_count; i++) {
-        gm_tape_close(&own->terms[i]);
+    for (size_t i = 0; system_scene->terms && i < system_scene->observable_count; i++) {
+        gm_tape_close(&system_scene->terms[i]);
     }
-    struct gm_tape *const others[] = {&own->where,     &own->stop,      &own->exact,
-                                      &own->timing[0], &own->timing[1], &own->timing[2]};
+    struct gm_tape *const others[] = {&system_scene->where,     &system_scene->stop,
+                                      &system_scene->exact,     &system_scene->timing[0],
+                                      &system_scene->timing[1], &system_scene->timing[2]};
     for (size_t i = 0; i < GM_COUNT(others); i++) {
         gm_tape_close(others[i]);
     }
-    gm_kept_texts_close(&own->texts);
-    gm_own_model_close(&own->model);
-    gm_system_close(&own->system);
-    free(own->sights);
-    free(own->shows);
-    free(own->observables);
-    free(own->formulas);
-    free(own->terms);
-    free(own->variables);
-    free(own->rows);
-    free(own->initial);
-    free(own);
+    gm_kept_texts_close(&system_scene->texts);
+    gm_user_model_close(&system_scene->model);
+    gm_system_close(&system_scene->system);
+    free(system_scene->sights);
+    free(system_scene->shows);
+    free(system_scene->observables);
+    free(system_scene->formulas);
+    free(system_scene->terms);
+    free(system_scene->variables);
+    free(system_scene->rows);
+    free(system_scene->initial);
+    free(system_scene);
 }

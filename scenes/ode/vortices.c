@@ -16,7 +16,7 @@
 #include <string.h>
 
 #include "core/ode/problems/problems.h"
-#include "scenes/frame/entries.h"
+#include "scenes/common/entries.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
@@ -84,17 +84,17 @@ static const struct gm_exact polygon = {.solution = turn_polygon};
 static bool settle(void *parameters_, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
-    struct gm_vortices *own = parameters_;
+    struct gm_vortices *vortices = parameters_;
     static const struct {
         const char *key, *in_collision, *in_patches; /* NULL: as everywhere */
     } follow[] = {{"strength", "2*pi", "0.003"}, {"dt", ".5/800", "0.02"}, {"count", NULL, "3000"}};
     for (size_t i = 0; i < GM_COUNT(follow) && gm_is_given("configuration", keys, count); i++) {
         const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
-        const char *its = own->configuration == GM_VORTEX_COLLISION ? follow[i].in_collision
-                          : own->configuration == GM_PATCHES        ? follow[i].in_patches
-                                                                    : NULL;
+        const char *its = vortices->configuration == GM_VORTEX_COLLISION ? follow[i].in_collision
+                          : vortices->configuration == GM_PATCHES        ? follow[i].in_patches
+                                                                         : NULL;
         if (!gm_is_given(row->key, keys, count)) {
-            gm_parameter_set(row, own, its ? its : row->standard);
+            gm_parameter_set(row, vortices, its ? its : row->standard);
         }
     }
     return true;
@@ -106,61 +106,61 @@ static const double least_multipole = 1e-15; /* nothing less is kept to by doubl
 
 static bool setup(const void *parameters_, struct gm_problem *problem, char *sentence)
 {
-    const struct gm_vortices *own = parameters_;
-    const bool any_count = own->configuration == GM_SQUARE || own->configuration == GM_RANDOM ||
-                           own->configuration == GM_PATCHES;
-    const size_t carried = gm_vortices_carried(own), tracers = (size_t)own->tracers;
-    if (own->strength == 0) {
+    const struct gm_vortices *vortices = parameters_;
+    const bool any_count = vortices->configuration == GM_SQUARE || vortices->configuration == GM_RANDOM ||
+                           vortices->configuration == GM_PATCHES;
+    const size_t carried = gm_vortices_carried(vortices), tracers = (size_t)vortices->tracers;
+    if (vortices->strength == 0) {
         return gm_refuse(sentence, "strength=0: vortices without strength do not move");
     }
-    if (!any_count && own->count != 4) {
+    if (!any_count && vortices->count != 4) {
         return gm_refuse(sentence,
                          "configuration=%s has four vortices; count goes with square, random and patches",
-                         configurations[own->configuration]);
+                         configurations[vortices->configuration]);
     }
-    if (!any_count && own->multipole > 0) {
+    if (!any_count && vortices->multipole > 0) {
         return gm_refuse(sentence,
                          "configuration=%s has four vortices; multipole goes with square, random and patches",
-                         configurations[own->configuration]);
+                         configurations[vortices->configuration]);
     }
-    if (own->multipole > 0 && own->multipole < least_multipole) {
+    if (vortices->multipole > 0 && vortices->multipole < least_multipole) {
         return gm_refuse(sentence,
                          "multipole=%g is less than round-off: it is at least %g, or 0 for pair by pair",
-                         own->multipole, least_multipole);
+                         vortices->multipole, least_multipole);
     }
-    if (own->multipole == 0 && own->count > BY_PAIRS) {
+    if (vortices->multipole == 0 && vortices->count > BY_PAIRS) {
         return gm_refuse(sentence, "count=%ld without multipole: more than %d are for multipole=1e-9",
-                         own->count, BY_PAIRS);
+                         vortices->count, BY_PAIRS);
     }
-    if (gm_vortices_coincide(own)) {
+    if (gm_vortices_coincide(vortices)) {
         return gm_refuse(sentence, "two vortices coincide at the start: another %s is needed",
-                         own->configuration == GM_VORTEX_COLLISION ? "distance" : "angle");
+                         vortices->configuration == GM_VORTEX_COLLISION ? "distance" : "angle");
     }
-    if (own->configuration == GM_REDUCED) {
+    if (vortices->configuration == GM_REDUCED) {
         *problem = tracers == 0 ? gm_problem_vortices_reduced : gm_problem_vortices_reduced_carrying;
-    } else if (own->multipole > 0) {
+    } else if (vortices->multipole > 0) {
         *problem = gm_problem_vortices_multipole;
     } else {
         *problem = tracers == 0 && carried == 4 ? gm_problem_vortices_four : gm_problem_vortices;
     }
     problem->n = 2 * carried + 2 * tracers;
     problem->passive = tracers;
-    problem->parameters = &own->strength;
-    problem->exact = own->configuration == GM_SQUARE && tracers == 0 ? &polygon : NULL;
+    problem->parameters = &vortices->strength;
+    problem->exact = vortices->configuration == GM_SQUARE && tracers == 0 ? &polygon : NULL;
     return true;
 }
 
 /* Sums over the vortices, images included; of the reduced system each stands for two. */
 static double mean_of(const struct gm_view *view, bool squares, size_t side)
 {
-    const struct gm_vortices *own = view->parameters;
-    const size_t count = gm_vortices_carried(own);
+    const struct gm_vortices *vortices = view->parameters;
+    const size_t count = gm_vortices_carried(vortices);
     const double *x = view->state, *y = x + count;
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
         sum += squares ? x[i] * x[i] + y[i] * y[i] : view->state[side * count + i];
     }
-    return !squares && own->configuration == GM_REDUCED ? 0 : sum / (double)count;
+    return !squares && vortices->configuration == GM_REDUCED ? 0 : sum / (double)count;
 }
 
 /* Impulses are divided by the sum of the strengths: their natural scale, times the radius 1. */
@@ -179,21 +179,22 @@ static double angular_impulse(const struct gm_view *view)
 
 static double symmetry_defect(const struct gm_view *view)
 {
-    const struct gm_vortices *own = view->parameters;
+    const struct gm_vortices *vortices = view->parameters;
     const double *s = view->state;
-    if (own->count != 4 || own->configuration == GM_RANDOM || own->configuration == GM_PATCHES) {
+    if (vortices->count != 4 || vortices->configuration == GM_RANDOM ||
+        vortices->configuration == GM_PATCHES) {
         return NAN;
     }
-    return own->configuration == GM_REDUCED
+    return vortices->configuration == GM_REDUCED
                ? 0
                : fmax(hypot(s[0] + s[2], s[4] + s[6]), hypot(s[1] + s[3], s[5] + s[7]));
 }
 
 static double pair_distance(const struct gm_view *view)
 {
-    const struct gm_vortices *own = view->parameters;
-    const size_t count = gm_vortices_carried(own);
-    if (own->configuration != GM_VORTEX_COLLISION) {
+    const struct gm_vortices *vortices = view->parameters;
+    const size_t count = gm_vortices_carried(vortices);
+    if (vortices->configuration != GM_VORTEX_COLLISION) {
         return NAN;
     }
     return hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
@@ -257,9 +258,9 @@ static double section_shift(const struct gm_view *view)
    drawn as far apart. */
 static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
 {
-    const struct gm_vortices *own = parameters_of;
+    const struct gm_vortices *vortices = parameters_of;
     const double turned = atan2(y, x) - M_PI / 2; /* the first one that is stands at pi/2 in the square */
-    switch (own->configuration) {
+    switch (vortices->configuration) {
     case GM_REDUCED:
     case GM_TWO_TURNED: /* and its mirror image is as near */
         gm_choose(&choices[0], "angle", remainder(turned, M_PI));
@@ -276,15 +277,15 @@ static size_t point(const void *parameters_of, double x, double y, struct gm_cho
 }
 
 /* Of a pair, where a distance grows by the factor e. */
-static double natural_energy(const void *own)
+static double natural_energy(const void *self)
 {
-    const double strength = ((const struct gm_vortices *)own)->strength;
+    const double strength = ((const struct gm_vortices *)self)->strength;
     return strength * strength / (4 * M_PI);
 }
 
-static double radius(const void *own)
+static double radius(const void *self)
 {
-    return (void)own, 1;
+    return (void)self, 1;
 }
 
 static const struct gm_observable observables[] = {
@@ -309,9 +310,9 @@ static const struct gm_observable observables[] = {
 /* The time in which the regular polygon of these vortices turns once. */
 static double turning_time(const void *parameters_)
 {
-    const struct gm_vortices *own = parameters_;
-    const double count = own->configuration == GM_REDUCED ? 4 : (double)own->count;
-    return 8 * M_PI * M_PI / (fabs(own->strength) * (count - 1));
+    const struct gm_vortices *vortices = parameters_;
+    const double count = vortices->configuration == GM_REDUCED ? 4 : (double)vortices->count;
+    return 8 * M_PI * M_PI / (fabs(vortices->strength) * (count - 1));
 }
 
 /* Of so many vortices the past is kept. */
@@ -332,14 +333,14 @@ static void record_positions(const struct gm_view *view, double *entry)
     }
 }
 
-static double short_interval(const void *own)
+static double short_interval(const void *self)
 {
-    return turning_time(own) / 60;
+    return turning_time(self) / 60;
 }
 /* no fraction of the turn that would show a pattern of its own */
-static double long_interval(const void *own)
+static double long_interval(const void *self)
 {
-    return turning_time(own) / 7.310;
+    return turning_time(self) / 7.310;
 }
 
 static const struct gm_track tracks[] = {
@@ -396,8 +397,8 @@ static const struct gm_work work = {.arguments = "configuration=reduced strength
 /* the time in which the close pair turns by a radian: 1/omega, omega = g / (pi d^2) */
 static double pair_time(const void *parameters_)
 {
-    const struct gm_vortices *own = parameters_;
-    return M_PI * own->distance * own->distance / fabs(own->strength);
+    const struct gm_vortices *vortices = parameters_;
+    return M_PI * vortices->distance * vortices->distance / fabs(vortices->strength);
 }
 
 static const double distances[] = {0.02, 0.05, 0.1, 0.2, 0.5};

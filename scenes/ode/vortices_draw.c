@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/vortices_draw.h"
 
 /* The greatest distance from the middle that is drawn; so many vortices are shown by a dye; and so many places that
@@ -15,13 +15,13 @@ static double reach_of(const struct gm_lane *const *lanes, size_t count)
 {
     double reach = 1.15;
     for (size_t i = 0; i < count; i++) {
-        const struct gm_vortices *own = lanes[i]->parameters;
+        const struct gm_vortices *vortices = lanes[i]->parameters;
         const struct gm_entries *past = &lanes[i]->entries[GM_PAST];
         for (size_t k = 0; k < past->count * past->width; k++) {
             const double away = fabs(past->values[k]);
             reach = away < farthest ? fmax(reach, 1.08 * away) : reach;
         }
-        reach = own->tracers > 0 || own->configuration == GM_PATCHES ? fmax(reach, 1.75) : reach;
+        reach = vortices->tracers > 0 || vortices->configuration == GM_PATCHES ? fmax(reach, 1.75) : reach;
     }
     /* in rare steps, so that a movie is calm */
     return 0.25 * ceil(reach / 0.25 - 1e-9);
@@ -76,11 +76,11 @@ static void draw_dye(struct gm_picture *picture, struct gm_panel *panel, const s
 
 static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
 {
-    const struct gm_vortices *own = lane->parameters;
+    const struct gm_vortices *vortices = lane->parameters;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const struct gm_entries *trail = &lane->entries[GM_TRAIL], *past = &lane->entries[GM_PAST];
-    const size_t followed = trail->width / 2, carried = gm_vortices_carried(own);
-    const bool images = own->configuration == GM_REDUCED;
+    const size_t followed = trail->width / 2, carried = gm_vortices_carried(vortices);
+    const bool images = vortices->configuration == GM_REDUCED;
     const size_t most = past->count > trail->count ? past->count : trail->count;
     const double *state = gm_run_state(lane->run);
     double *points = gm_picture_memory(picture, 2 * (most + carried + 1) * sizeof *points);
@@ -88,7 +88,7 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
         return;
     }
     for (int sign = 1; sign >= (images ? -1 : 1); sign -= 2) {
-        for (size_t i = 0; i < followed && own->tracers == 0; i++) {
+        for (size_t i = 0; i < followed && vortices->tracers == 0; i++) {
             for (size_t k = 0; k < past->count && followed <= 8; k++) {
                 points[2 * k] = sign * past->values[k * past->width + 2 * i];
                 points[2 * k + 1] = sign * past->values[k * past->width + 2 * i + 1];
@@ -201,13 +201,13 @@ static void draw_log(struct gm_picture *picture, const struct gm_lane *const *la
 /* 35.12 degrees: beyond, the centrally symmetric motion of two-turned vortices is unstable */
 static const double threshold = 0.61296;
 
-static const char *caption_of(const struct gm_vortices *own)
+static const char *caption_of(const struct gm_vortices *vortices)
 {
-    switch (own->configuration) {
+    switch (vortices->configuration) {
     case GM_REDUCED:
         return "With the symmetry built in the motion has one curve to stay on: a symplectic method stays, RK4 leaves it.";
     case GM_TWO_TURNED:
-        return fabs(own->angle) > threshold
+        return fabs(vortices->angle) > threshold
                    ? "Turned by more than 35.12° this motion is unstable: rounding breaks its symmetry under every scheme, "
                      "at about the same time. The published contrast of two schemes is not reproduced here."
                    : "The symmetric motion is stable at this angle; what sets schemes apart is the angular impulse.";
@@ -232,46 +232,47 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
                                          "a random disc",
                                          "a close pair and two more",
                                          "two round patches"};
-    const struct gm_vortices *own = lanes[0]->parameters;
+    const struct gm_vortices *self = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     const bool one_step = gm_one_step(lanes, count);
     bool one_start = true, one_strength = true;
     for (size_t i = 1; i < count; i++) {
         const struct gm_vortices *other = lanes[i]->parameters;
-        one_start &= other->configuration == own->configuration && other->angle == own->angle;
-        one_strength &= other->strength == own->strength;
+        one_start &= other->configuration == self->configuration && other->angle == self->angle;
+        one_strength &= other->strength == self->strength;
     }
-    const long vortices = own->configuration == GM_REDUCED ? 4 : own->count;
+    const long vortices = self->configuration == GM_REDUCED ? 4 : self->count;
     const char *number = vortices == 4 ? "Four" : gm_picture_text(picture, "%ld", vortices);
-    picture->title = own->tracers > 0 ? gm_picture_text(picture, "%s vortices stir a dye, by %s", number,
-                                                        gm_counted_schemes(lanes, count))
-                                      : gm_picture_text(picture, "%s vortices, followed by %s", number,
-                                                        gm_counted_schemes(lanes, count));
-    const bool turned = own->configuration == GM_REDUCED || own->configuration == GM_TWO_TURNED ||
-                        own->configuration == GM_ONE_TURNED;
+    picture->title = self->tracers > 0 ? gm_picture_text(picture, "%s vortices stir a dye, by %s", number,
+                                                         gm_counted_schemes(lanes, count))
+                                       : gm_picture_text(picture, "%s vortices, followed by %s", number,
+                                                         gm_counted_schemes(lanes, count));
+    const bool turned = self->configuration == GM_REDUCED || self->configuration == GM_TWO_TURNED ||
+                        self->configuration == GM_ONE_TURNED;
     picture->subtitle = gm_picture_text(
-        picture, "%s%s%s%s%s%s", one_start ? starts[own->configuration] : "", one_start ? ",  " : "",
-        one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", own->angle * 180 / M_PI) : "",
-        one_strength ? gm_picture_text(picture, "strength %.6g%s", own->strength, one_step ? ",  " : "") : "",
+        picture, "%s%s%s%s%s%s", one_start ? starts[self->configuration] : "", one_start ? ",  " : "",
+        one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", self->angle * 180 / M_PI) : "",
+        one_strength ? gm_picture_text(picture, "strength %.6g%s", self->strength, one_step ? ",  " : "")
+                     : "",
         one_step ? "Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
-    picture->caption = one_start ? caption_of(own) : "";
+    picture->caption = one_start ? caption_of(self) : "";
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_plane(picture, lanes, count);
-    if (one_start && own->configuration == GM_REDUCED) {
+    if (one_start && self->configuration == GM_REDUCED) {
         draw_section(picture, lanes, count);
     }
-    if (own->configuration == GM_TWO_TURNED) {
+    if (self->configuration == GM_TWO_TURNED) {
         draw_log(picture, lanes, count, "symmetry_defect");
     }
-    if (own->configuration == GM_VORTEX_COLLISION) {
+    if (self->configuration == GM_VORTEX_COLLISION) {
         draw_log(picture, lanes, count, "pair_distance_error");
     }
-    if (own->configuration == GM_SQUARE && own->tracers == 0) {
+    if (self->configuration == GM_SQUARE && self->tracers == 0) {
         draw_log(picture, lanes, count, "position_error");
     }
-    if (own->configuration == GM_RANDOM || own->configuration == GM_PATCHES ||
-        own->configuration == GM_ONE_TURNED) {
+    if (self->configuration == GM_RANDOM || self->configuration == GM_PATCHES ||
+        self->configuration == GM_ONE_TURNED) {
         draw_log(picture, lanes, count, "energy_error");
     }
     draw_log(picture, lanes, count, "angular_impulse_error");

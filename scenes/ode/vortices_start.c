@@ -17,22 +17,22 @@ static double next_random(uint64_t *state)
 
 static const double golden_angle = 2.3999632297286533; /* fills a disc evenly */
 
-static void place(const struct gm_vortices *own, size_t count, double *x, double *y)
+static void place(const struct gm_vortices *vortices, size_t count, double *x, double *y)
 {
-    uint64_t random = (uint64_t)own->seed;
+    uint64_t random = (uint64_t)vortices->seed;
     const double patch = 0.4; /* radius; the pair within 1, 3 radii apart, where two become one below 3.2 */
     static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
     for (size_t i = 0; i < count; i++) {
         double turn = 2 * M_PI * (double)i / (double)count, radius = 1;
-        switch (own->configuration) {
+        switch (vortices->configuration) {
         case GM_REDUCED:
-            turn = i == 0 ? 0 : M_PI / 2 + own->angle;
+            turn = i == 0 ? 0 : M_PI / 2 + vortices->angle;
             break;
         case GM_TWO_TURNED:
-            turn += i % 2 == 1 ? own->angle : 0;
+            turn += i % 2 == 1 ? vortices->angle : 0;
             break;
         case GM_ONE_TURNED:
-            turn += i == 1 ? own->angle : 0;
+            turn += i == 1 ? vortices->angle : 0;
             break;
         case GM_RANDOM:
             radius = sqrt(next_random(&random));
@@ -47,33 +47,33 @@ static void place(const struct gm_vortices *own, size_t count, double *x, double
         }
         x[i] = radius * cos(turn);
         y[i] = radius * sin(turn);
-        if (own->configuration == GM_PATCHES) { /* the one turned into the other */
+        if (vortices->configuration == GM_PATCHES) { /* the one turned into the other */
             x[i] *= i % 2 == 0 ? 1 : -1;
             y[i] = (i % 2 == 0 ? 1 : -1) * (y[i] + 1 - patch);
         }
-        if (own->configuration == GM_VORTEX_COLLISION) {
-            x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
+        if (vortices->configuration == GM_VORTEX_COLLISION) {
+            x[i] = i < 2 ? vortices->distance * pair_x[i] : pair_x[i];
             y[i] = pair_y[i];
         }
     }
 }
 
-size_t gm_vortices_carried(const struct gm_vortices *own)
+size_t gm_vortices_carried(const struct gm_vortices *vortices)
 {
-    return own->configuration == GM_REDUCED ? 2 : (size_t)own->count;
+    return vortices->configuration == GM_REDUCED ? 2 : (size_t)vortices->count;
 }
 
 /* Random ones are never so close. */
-bool gm_vortices_coincide(const struct gm_vortices *own)
+bool gm_vortices_coincide(const struct gm_vortices *vortices)
 {
     double x[4], y[4];
-    if (own->configuration == GM_RANDOM || own->configuration == GM_PATCHES ||
-        own->configuration == GM_SQUARE) {
+    if (vortices->configuration == GM_RANDOM || vortices->configuration == GM_PATCHES ||
+        vortices->configuration == GM_SQUARE) {
         return false;
     }
-    const size_t carried = gm_vortices_carried(own);
-    place(own, carried, x, y);
-    if (own->configuration == GM_REDUCED) {
+    const size_t carried = gm_vortices_carried(vortices);
+    place(vortices, carried, x, y);
+    if (vortices->configuration == GM_REDUCED) {
         for (size_t i = 0; i < 2; i++) {
             x[2 + i] = -x[i];
             y[2 + i] = -y[i];
@@ -91,9 +91,9 @@ bool gm_vortices_coincide(const struct gm_vortices *own)
 /* Tracers fill a disc evenly. */
 void gm_vortices_start(const void *parameters_, const struct gm_problem *problem, double *y)
 {
-    const struct gm_vortices *own = parameters_;
-    const size_t carried = gm_vortices_carried(own), tracers = problem->passive;
-    place(own, carried, y, y + carried);
+    const struct gm_vortices *vortices = parameters_;
+    const size_t carried = gm_vortices_carried(vortices), tracers = problem->passive;
+    place(vortices, carried, y, y + carried);
     for (size_t k = 0; k < tracers; k++) {
         const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
                      turn = golden_angle * (double)k;

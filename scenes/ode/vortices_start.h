@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_ODE_VORTICES_START_H
 #define GM_SCENES_ODE_VORTICES_START_H
 
-#include "scenes/frame/scene.h"
+#include "scenes/common/scene.h"
 
 /* Point vortices as the parameters of scenes/ode/vortices.c arrange them. */
 
@@ -17,10 +17,10 @@ struct gm_vortices {
 };
 
 /* How many vortices the state holds: of the reduced system two, and their images are z -> -z. */
-size_t gm_vortices_carried(const struct gm_vortices *own);
+size_t gm_vortices_carried(const struct gm_vortices *vortices);
 
 /* Whether two vortices start in one place, where they would have no velocity. */
-bool gm_vortices_coincide(const struct gm_vortices *own);
+bool gm_vortices_coincide(const struct gm_vortices *vortices);
 
 /* The start of struct gm_scene: vortices as configured, tracers spread over a disc. */
 void gm_vortices_start(const void *parameters, const struct gm_problem *problem, double *y);

@@ -9,14 +9,14 @@
 
 #include "core/count.h"
 #include "core/field/families/burgers.h"
-#include "core/field/own/form.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
+#include "core/field/user/form.h"
+#include "core/model/equations.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 #include "tests/bench/timing.h"
 
 enum { REPEATS = 7 };
@@ -77,7 +77,7 @@ static void waves(size_t points, double half_length, double dt, long steps, doub
     static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
     struct gm_problem problem = gm_problem_sine_gordon;
     problem.parameters = &breather;
-    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, 0, false};
+    problem.line = (struct gm_grid1){points, 2 * half_length / (double)points, -half_length, 0, false};
     problem.n = gm_wave_size(points);
     double *y = malloc(problem.n * sizeof *y);
     gm_sine_gordon_levels(&problem, 0, dt, y);
@@ -119,7 +119,7 @@ static void nls_levels(const struct gm_problem *problem, double dt, double *y)
     (void)dt;
     const size_t points = problem->line.points;
     for (size_t i = 0; i < points; i++) {
-        gm_nls_exact(gm_nls_of(problem), &problem->line, gm_line_node(&problem->line, i), 0, &y[i],
+        gm_nls_exact(gm_nls_of(problem), &problem->line, gm_grid1_node(&problem->line, i), 0, &y[i],
                      &y[points + i]);
     }
 }
@@ -131,7 +131,7 @@ static void boxes(size_t points, double half_length, long steps)
     static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
     static const double ratios[] = {0.5, 2, 10, 20, 40};
     enum { COUNT = GM_COUNT(ratios) };
-    const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0, false};
+    const struct gm_grid1 line = {points, 2 * half_length / (double)points, -half_length, 0, false};
     struct gm_problem problem = gm_problem_sine_gordon;
     problem.parameters = &breather;
     problem.line = line;
@@ -158,11 +158,11 @@ static void burgers(size_t points, long steps, double sine)
     const struct gm_burgers front = {.viscosity = dx / 2};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &front;
-    problem.line = (struct gm_line){.points = points, .dx = dx, .first = -2};
+    problem.line = (struct gm_grid1){.points = points, .dx = dx, .first = -2};
     problem.n = gm_burgers_size(&front, points);
     double *y = malloc(problem.n * sizeof *y);
     for (size_t j = 0; j < points; j++) {
-        y[j] = gm_burgers_exact(&front, true, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_burgers_exact(&front, true, gm_grid1_node(&problem.line, j), 0);
     }
     printf("Burgers, %zu points\n", points);
     for (size_t s = 0; s < 6; s++) {
@@ -198,20 +198,20 @@ static void typed(size_t points)
     struct gm_problem built_in[] = {gm_problem_sine_gordon, gm_problem_kdv, gm_problem_nls};
     built_in[1].parameters = &soliton;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        struct gm_own_system system;
-        struct gm_own_form form;
+        struct gm_user_system system;
+        struct gm_user_form form;
         struct gm_problem problem;
         struct gm_fault fault;
-        const struct gm_line line = {points, 40 / (double)points, -20, 0, false};
+        const struct gm_grid1 line = {points, 40 / (double)points, -20, 0, false};
         if (!gm_equations_open(&system, rows[i].text, strlen(rows[i].text), NULL, 0, &fault) ||
-            !gm_own_form_derive(&form, &system)) {
+            !gm_user_form_derive(&form, &system)) {
             printf("%s\n", fault.sentence);
             continue;
         }
         double *values = gm_equations_start(&system, NULL);
-        gm_own_form_open(&problem, &form, values, &line);
+        gm_user_form_open(&problem, &form, values, &line);
         double *y = calloc(problem.n + 2 * points + 1, sizeof *y);
-        gm_own_form_start(&problem, y);
+        gm_user_form_start(&problem, y);
         const double general = time_of(&problem, "box", rows[i].dt, 200, y);
         built_in[i].line = line;
         built_in[i].n = i == 2 ? 2 * points : gm_wave_size(points);
@@ -226,7 +226,7 @@ static void typed(size_t points)
                built_in[i].name, points, general, general / special);
         free(y);
         free(values);
-        gm_own_form_close(&problem);
+        gm_user_form_close(&problem);
         gm_system_close(&system);
     }
 }

@@ -12,7 +12,7 @@
 
 #include "app/data/rows.h"
 #include "app/data/save.h"
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 #include "tests/bench/timing.h"
 
 enum { ROUNDS = 11 };

@@ -17,7 +17,7 @@ static inline struct gm_problem kdv_problem(size_t points)
 {
     struct gm_problem problem = gm_problem_kdv;
     problem.parameters = &soliton;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0, false};
+    problem.line = (struct gm_grid1){points, 40.0 / (double)points, -20, 0, false};
     problem.n = gm_wave_size(points);
     return problem;
 }
@@ -26,7 +26,7 @@ static inline struct gm_problem nls_problem(size_t points)
 {
     struct gm_problem problem = gm_problem_nls;
     problem.parameters = &bright;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0, false};
+    problem.line = (struct gm_grid1){points, 40.0 / (double)points, -20, 0, false};
     problem.n = 2 * points;
     return problem;
 }

@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_COMMON_LABORATORY_H
 #define GM_TESTS_COMMON_LABORATORY_H
 
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 
 /* A lane run to its end as `geomint run` does it: words such as "kepler", "scheme=rk4", "dt=pi/100". */
 struct gm_trial {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 static void end_test(const char *what, const char *why)
 {

@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_COMMON_LANE_H
 #define GM_TESTS_COMMON_LANE_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* Lanes for tests, as the command line would make them. */
 

@@ -21,15 +21,15 @@ void type(struct typed *typed, const char *text)
     }
     typed->start = gm_equations_start(&typed->system, NULL);
     assert_non_null(typed->start);
-    assert_true(gm_own_model_open(&typed->model, &typed->system));
-    assert_string_equal(gm_own_model_lacks(&typed->model), "");
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
+    assert_true(gm_user_model_open(&typed->model, &typed->system));
+    assert_string_equal(gm_user_model_lacks(&typed->model), "");
+    assert_true(gm_user_problem_open(&typed->problem, &typed->model, typed->start));
 }
 
 void untype(struct typed *typed)
 {
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
+    gm_user_problem_close(&typed->problem);
+    gm_user_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
 }

@@ -2,14 +2,14 @@
 #ifndef GM_TESTS_COMMON_TYPED_H
 #define GM_TESTS_COMMON_TYPED_H
 
-#include "core/ode/own/own.h"
+#include "core/model/equations.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
-#include "core/system/equations.h"
 
 /* A system that is typed, with its problem and its start. */
 struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
+    struct gm_user_system system;
+    struct gm_user_model model;
     struct gm_problem problem;
     double *start;
 };

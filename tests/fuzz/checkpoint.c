@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "app/output/checkpoint.h"
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 #include "render/picture/picture.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

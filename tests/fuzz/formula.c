@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/system/equations.h"
-#include "core/system/facts.h"
+#include "core/model/equations.h"
+#include "core/model/facts.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -18,7 +18,7 @@ static void require(bool holds)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     struct gm_finding findings[GM_FACTS];
     char *text = malloc(size + 1);

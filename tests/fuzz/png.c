@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
 #include "app/output/provenance.h"
 #include "render/cells/text.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parameter parser against any words: it reads them or gives a sentence; what it has read is written so
    that it reads the same again. */
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 #include <stdint.h>
 #include <stdlib.h>

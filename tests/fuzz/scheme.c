@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/certify.h"
-#include "core/ode/own/scheme.h"
+#include "core/ode/user/scheme.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -32,17 +32,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memcpy(text, data, size);
     text[size] = '\0';
     struct gm_fault fault;
-    struct gm_own_scheme_source source = {
+    struct gm_user_scheme_source source = {
         .text = text, .length = size, .name = "own", .title = "own", .bring = no_file};
-    const struct gm_scheme *scheme = gm_own_scheme_open(&source, &fault);
+    const struct gm_scheme *scheme = gm_user_scheme_open(&source, &fault);
     if (scheme) {
         source.text = scheme->word;
         source.length = strlen(scheme->word);
-        const struct gm_scheme *again = gm_own_scheme_open(&source, &fault);
+        const struct gm_scheme *again = gm_user_scheme_open(&source, &fault);
         require(again && strcmp(again->word, scheme->word) == 0 && again->family == scheme->family &&
                 again->order == scheme->order && again->claims == scheme->claims);
-        gm_own_scheme_close(again);
-        gm_own_scheme_close(scheme);
+        gm_user_scheme_close(again);
+        gm_user_scheme_close(scheme);
     } else {
         require(fault.sentence[0] && strlen(fault.sentence) < GM_FAULT_SENTENCE && fault.offset <= size);
     }

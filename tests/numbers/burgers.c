@@ -132,7 +132,7 @@ static void no_solution_to_be_found(void **unused)
     for (size_t i = 0; i < GM_COUNT(runs); i++) {
         struct field_run run = field_run_make(runs[i].words, -1);
         assert_int_equal(run.lane->run->status, GM_NO_CONVERGENCE);
-        const struct gm_line *line = &run.lane->problem.line;
+        const struct gm_grid1 *line = &run.lane->problem.line;
         const double *u = gm_run_state(run.lane->run), whole = run.lane->run->dt;
         double branch[MOST], trial[MOST], reached = 0;
         assert_true(line->points < MOST);
@@ -185,12 +185,12 @@ static double begin(struct trial trial, bool fixed, struct gm_burgers *burgers, 
     *problem = gm_problem_burgers;
     problem->parameters = burgers;
     problem->bound = INFINITY;
-    problem->line = (struct gm_line){.points = (size_t)(round(2 * half / h) + travel) + 1,
-                                     .dx = h,
-                                     .first = -half + (trial.shock ? h / 2 : 0)};
+    problem->line = (struct gm_grid1){.points = (size_t)(round(2 * half / h) + travel) + 1,
+                                      .dx = h,
+                                      .first = -half + (trial.shock ? h / 2 : 0)};
     problem->n = gm_burgers_size(burgers, problem->line.points);
     for (size_t j = 0; j < problem->line.points; j++) {
-        y[j] = gm_burgers_exact(burgers, true, gm_line_node(&problem->line, j), gm_burgers_t0(burgers)) +
+        y[j] = gm_burgers_exact(burgers, true, gm_grid1_node(&problem->line, j), gm_burgers_t0(burgers)) +
                next_noise(&trial);
     }
     return trial.shock ? h : h / 2;
@@ -202,7 +202,7 @@ static double error_at_end(const struct gm_problem *problem, bool fixed, const d
     const double t = gm_burgers_t0(gm_burgers_of(problem)) + 1;
     for (size_t j = 0; j < problem->line.points; j++) {
         const double exact =
-            gm_burgers_exact(gm_burgers_of(problem), fixed, gm_line_node(&problem->line, j), t);
+            gm_burgers_exact(gm_burgers_of(problem), fixed, gm_grid1_node(&problem->line, j), t);
         largest = fmax(largest, fabs(u[j] - exact));
     }
     return largest;
@@ -222,9 +222,9 @@ static double believe_newton(struct trial trial, double *unsolved)
     *unsolved = 0;
     for (int step = 1; step <= (int)round(1 / k); step++) {
         memcpy(v, u, points * sizeof *v);
-        v[0] = gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, 0), t0 + step * k);
+        v[0] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, 0), t0 + step * k);
         v[points - 1] =
-            gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, points - 1), t0 + step * k);
+            gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, points - 1), t0 + step * k);
         solve_printed(u, v, points, h, k, nu, 30);
         for (size_t j = 1; j + 1 < points; j++) {
             const double convection = (v[j] * (v[j + 1] - v[j - 1]) + u[j] * (u[j + 1] - u[j - 1])) / (4 * h);

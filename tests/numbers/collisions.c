@@ -57,12 +57,12 @@ static double three_solitons(double x, double t)
 
 /* Where a positive field is highest within `reach` of a place: of the parabola through three logarithms, of
    five with the fourth differences. */
-static double crest(const struct gm_line *line, const double *u, double place, double reach)
+static double crest(const struct gm_grid1 *line, const double *u, double place, double reach)
 {
     size_t top = 0;
     double highest = -INFINITY;
     for (size_t i = 2; i + 2 < line->points; i++) {
-        if (fabs(gm_line_node(line, i) - place) < reach && u[i] > highest) {
+        if (fabs(gm_grid1_node(line, i) - place) < reach && u[i] > highest) {
             highest = u[i];
             top = i;
         }
@@ -82,7 +82,7 @@ static double crest(const struct gm_line *line, const double *u, double place, d
         bend = d2 + at * (d3 + at * d4 / 2);
         at -= slope / bend;
     }
-    return gm_line_node(line, top) + at * line->dx;
+    return gm_grid1_node(line, top) + at * line->dx;
 }
 
 /* What the solitons have gained over their free paths k^2 t when all have met: each is moved forwards by
@@ -98,12 +98,12 @@ static void three_korteweg_de_vries_solitons(void **unused)
         const size_t points = 1000u << k;
         const double dt = ldexp(0.1, -k);
         problem.parameters = &kdv;
-        problem.line = (struct gm_line){.points = points, .dx = 240 / (double)points, .first = -120};
+        problem.line = (struct gm_grid1){.points = points, .dx = 240 / (double)points, .first = -120};
         problem.n = gm_wave_size(points);
         double *y = malloc(problem.n * sizeof *y);
         for (size_t i = 0; i < points; i++) {
-            y[i] = three_solitons(gm_line_node(&problem.line, i), 0);
-            y[points + i] = three_solitons(gm_line_node(&problem.line, i), dt);
+            y[i] = three_solitons(gm_grid1_node(&problem.line, i), 0);
+            y[points + i] = three_solitons(gm_grid1_node(&problem.line, i), dt);
         }
         y[2 * points] = dt;
         double before[SOLITONS];
@@ -153,7 +153,7 @@ static void two_schroedinger_solitons(void **unused)
         snprintf(text, sizeof text, words[k], "box");
         struct field_run run = field_run_make(text, -1);
         assert_int_equal(run.lane->run->status, GM_OK);
-        const struct gm_line *line = &run.lane->problem.line;
+        const struct gm_grid1 *line = &run.lane->problem.line;
         const double *psi = gm_run_state(run.lane->run);
         double *modulus = malloc(line->points * sizeof *modulus);
         for (size_t i = 0; i < line->points; i++) {

@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_NUMBERS_FIELD_RUNS_H
 #define GM_TESTS_NUMBERS_FIELD_RUNS_H
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 /* One run as a user asks for it, "burgers scheme=ftcs lambda=1": made up to its end or failure. */
 struct field_run {

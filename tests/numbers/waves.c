@@ -270,7 +270,7 @@ static void the_cosine_of_zabusky_and_kruskal(void **unused)
         assert_int_equal(run.lane->run->status, GM_OK);
         double error = 0;
         for (size_t i = 0; i < run.lane->problem.line.points; i++) {
-            const double x = gm_line_node(&run.lane->problem.line, i);
+            const double x = gm_grid1_node(&run.lane->problem.line, i);
             error = fmax(error, fabs(gm_run_state(run.lane->run)[i] - spectral_value(modes, x)));
         }
         expect_within(cases[c].words, error, cases[c].error, cases[c].part);
@@ -281,7 +281,7 @@ static void the_cosine_of_zabusky_and_kruskal(void **unused)
         field_run_make("kdv scheme=fourier-rk4 initial=cosine points=512 dt=3.6/pi/10000 until=3.6/pi", -1);
     double apart = 0;
     for (size_t i = 0; i < MODES; i++) {
-        const double x = gm_line_node(&run.lane->problem.line, i);
+        const double x = gm_grid1_node(&run.lane->problem.line, i);
         apart = fmax(apart, fabs(gm_run_state(run.lane->run)[i] - spectral_value(coarse, x)));
     }
     print_message("fourier-rk4 with the step of the coarser spectral run: %.1g from it\n", apart);

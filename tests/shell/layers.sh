@@ -27,11 +27,11 @@ forbid library '(app/(commands|explorer)|tests)/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
 floors="tours
-lanes studies figures data
+runs grid figures data
 output
-request cores
-own native
-ground"
+words
+native
+base"
 known=" commands explorer completion $(echo $floors) "
 for room in app/*/; do
     room=$(basename "$room")
@@ -57,10 +57,10 @@ forbid app/explorer 'app/commands/'
 wings=$(sed -n 's/^GM_KIND(\(.*\))$/\1/p' core/kinds.def)
 [ -n "$wings" ] || { echo "core/kinds.def names no kind"; exit 1; }
 of_a_wing="${include}\"core/($(echo $wings | tr ' ' '|'))/"
-found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch] core/formula/*.[ch] core/system/*.[ch])
+found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch] core/expression/*.[ch] core/model/*.[ch])
 # formula serves the hall, and knows nothing of it; system stands on formula alone
-found="$found$(grep -nE "${include}\"core/" core/formula/*.[ch] | grep -v '"core/formula/')"
-found="$found$(grep -nE "${include}\"core/" core/system/*.[ch] | grep -vE '"core/(formula|system)/')"
+found="$found$(grep -nE "${include}\"core/" core/expression/*.[ch] | grep -v '"core/expression/')"
+found="$found$(grep -nE "${include}\"core/" core/model/*.[ch] | grep -vE '"core/(expression|model)/')"
 for wing in $wings; do
     found="$found$(grep -rnE --include='*.[ch]' --include='*.def' "$of_a_wing" core/$wing |
         grep -vE "\"core/$wing/")"

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 
 static char path[] = "/tmp/aim-XXXXXX.system";
 

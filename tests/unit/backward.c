@@ -14,13 +14,13 @@
 #include <cmocka.h>
 
 #include "core/count.h"
+#include "core/model/equations.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/splitting/splitting.h"
-#include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 #include "core/theory/modified.h"
 #include "core/theory/theory.h"
 
@@ -148,8 +148,8 @@ static void find_terms(const int *letters, const double *fractions, int count)
 /* ---- systems and schemes ---- */
 
 struct system {
-    struct gm_own_system read;
-    struct gm_own_model model;
+    struct gm_user_system read;
+    struct gm_user_model model;
     struct gm_problem problem;
 };
 
@@ -157,17 +157,17 @@ static void open_system(struct system *system, const char *text)
 {
     struct gm_fault fault;
     assert_true(gm_equations_open(&system->read, text, strlen(text), NULL, 0, &fault));
-    assert_true(gm_own_model_open(&system->model, &system->read));
+    assert_true(gm_user_model_open(&system->model, &system->read));
     double *values = gm_equations_start(&system->read, NULL);
     assert_non_null(values);
-    assert_true(gm_own_problem_open(&system->problem, &system->model, values));
+    assert_true(gm_user_problem_open(&system->problem, &system->model, values));
     free(values);
 }
 
 static void close_system(struct system *system)
 {
-    gm_own_problem_close(&system->problem);
-    gm_own_model_close(&system->model);
+    gm_user_problem_close(&system->problem);
+    gm_user_model_close(&system->model);
     gm_system_close(&system->read);
 }
 

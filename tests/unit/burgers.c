@@ -38,7 +38,7 @@ static void values_agree(void **unused)
         };
         struct gm_problem problem = gm_problem_burgers;
         problem.parameters = &burgers;
-        problem.line = (struct gm_line){.points = points, .dx = 0.04, .first = shock ? -1 : -2};
+        problem.line = (struct gm_grid1){.points = points, .dx = 0.04, .first = shock ? -1 : -2};
         problem.n = gm_burgers_size(&burgers, points);
         double y[2 * MOST + 1];
         memcpy(y, start, points * sizeof *y);
@@ -56,7 +56,7 @@ static void values_agree(void **unused)
         for (size_t j = 0; j < points; j++) {
             largest = fmax(largest, fabs(end[j]));
             error = fmax(error, fabs(u[j] - end[j]));
-            const double exact = gm_burgers_exact(&burgers, fixed, gm_line_node(&problem.line, j), run->t);
+            const double exact = gm_burgers_exact(&burgers, fixed, gm_grid1_node(&problem.line, j), run->t);
             sup = fmax(sup, fabs(u[j] - exact));
             sum += 0.04 * fabs(u[j] - exact);
         }
@@ -137,7 +137,7 @@ static void every_frame_of_the_family_commutes(void **unused)
             .frame = GM_FRAME_MOVING, .viscosity = 0.005, .lambda = 0.7, .a = a, .d = d};
         struct gm_problem problem = gm_problem_burgers;
         problem.parameters = &moving;
-        problem.line = (struct gm_line){.points = 3, .dx = h, .first = -h};
+        problem.line = (struct gm_grid1){.points = 3, .dx = h, .first = -h};
         problem.n = gm_burgers_size(&moving, 3);
         const double y[7] = {u[0], u[1], u[2]};
         struct gm_run *run = gm_run_open(&problem, gm_scheme_find("ftcs-family"), &no_settings, 0, k, y);
@@ -153,17 +153,17 @@ static double front_error(const char *scheme, double a, double d, size_t pieces)
     const struct gm_burgers burgers = {.viscosity = 0.1, .a = a, .d = d};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &burgers;
-    problem.line = (struct gm_line){.points = pieces + 1, .dx = 4.0 / (double)pieces, .first = -2};
+    problem.line = (struct gm_grid1){.points = pieces + 1, .dx = 4.0 / (double)pieces, .first = -2};
     problem.n = pieces + 1;
     double y[321], largest = 0;
     for (size_t j = 0; j <= pieces; j++) {
-        y[j] = gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0);
     }
     struct gm_run *run =
         gm_run_open(&problem, gm_scheme_find(scheme), &no_settings, 0, 1.28 / (double)(pieces * pieces), y);
     assert_int_equal(gm_run_until(run, 0.5), GM_OK);
     for (size_t j = 0; j <= pieces; j++) {
-        const double exact = gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, j), 0.5);
+        const double exact = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0.5);
         largest = fmax(largest, fabs(gm_run_state(run)[j] - exact));
     }
     gm_run_close(run);
@@ -196,11 +196,11 @@ static void bits_do_not_depend_on_bursts(void **unused)
     const struct gm_burgers burgers = {.frame = GM_FRAME_FIXED, .viscosity = 0.005, .lambda = 0.7};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &burgers;
-    problem.line = (struct gm_line){.points = 161, .dx = 0.025, .first = -2};
+    problem.line = (struct gm_grid1){.points = 161, .dx = 0.025, .first = -2};
     problem.n = gm_burgers_size(&burgers, problem.line.points);
     double *y = malloc(problem.n * sizeof *y);
     for (size_t j = 0; j < 161; j++) {
-        y[j] = gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0);
         y[161 + j] = y[j] - 0.7;
     }
     y[322] = 1;

@@ -16,10 +16,10 @@
 
 #include <cmocka.h>
 
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 #include "core/count.h"
 #include "render/picture/picture.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 #include "tests/common/folder.h"
 
 enum { LANES = 1, FRAMES = 4, FRAME = 1 };

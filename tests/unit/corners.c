@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "core/count.h"
 #include "core/schemes.h"
 

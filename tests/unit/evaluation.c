@@ -13,8 +13,8 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/derivative.h"
-#include "core/formula/reader.h"
+#include "core/expression/derivative.h"
+#include "core/expression/reader.h"
 #include "core/tape.h"
 #include "tests/common/random_formula.h"
 

@@ -14,11 +14,11 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/formula/derivative.h"
-#include "core/formula/identity.h"
-#include "core/formula/reader.h"
-#include "core/formula/tidied.h"
-#include "core/formula/writer.h"
+#include "core/expression/derivative.h"
+#include "core/expression/identity.h"
+#include "core/expression/reader.h"
+#include "core/expression/tidied.h"
+#include "core/expression/writer.h"
 #include "tests/common/random_formula.h"
 #include "tests/common/reference.h"
 

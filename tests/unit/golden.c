@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/drive.h"
+#include "app/words/drive.h"
 
 static char *draw(int count, char *words[])
 {

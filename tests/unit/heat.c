@@ -119,7 +119,7 @@ static void steps_are_made_in_the_moving_frame(void **unused)
                 .frame = GM_FRAME_MOVING, .diffusivity = nu, .lambda = moving * 0.02 / k, .age = 1};
             struct gm_problem problem = gm_problem_heat;
             problem.parameters = &heat;
-            problem.line = (struct gm_line){.points = 3, .dx = h, .first = -h};
+            problem.line = (struct gm_grid1){.points = 3, .dx = h, .first = -h};
             problem.n = 3;
             struct gm_run *run = gm_run_open(&problem, gm_scheme_find(schemes[s]), &no_settings, 0, k, u);
             assert_int_equal(gm_run_advance(run, 1), GM_OK);
@@ -140,11 +140,11 @@ static double run_to(const char *scheme, const struct gm_heat *heat, double half
 {
     struct gm_problem problem = gm_problem_heat;
     problem.parameters = heat;
-    problem.line = (struct gm_line){.points = points, .dx = 2 * half / (double)(points - 1), .first = -half};
+    problem.line = (struct gm_grid1){.points = points, .dx = 2 * half / (double)(points - 1), .first = -half};
     problem.n = points;
     double y[MOST], largest = 0;
     for (size_t j = 0; j < points; j++) {
-        y[j] = gm_heat_exact(heat, true, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_heat_exact(heat, true, gm_grid1_node(&problem.line, j), 0);
     }
     const struct gm_scheme *found = gm_scheme_find(scheme);
     struct gm_run *run = gm_run_open(&problem, found, &no_settings, 0, dt, y);
@@ -152,7 +152,7 @@ static double run_to(const char *scheme, const struct gm_heat *heat, double half
     assert_int_equal(gm_run_until(run, until), GM_OK);
     const bool fixed = gm_heat_fixed(heat, found);
     for (size_t j = 0; j < points; j++) {
-        const double x = gm_line_node(&problem.line, j), factor = gm_heat_factor(heat, fixed, x, until);
+        const double x = gm_grid1_node(&problem.line, j), factor = gm_heat_factor(heat, fixed, x, until);
         u[j] = gm_run_state(run)[j] / factor;
         largest = fmax(largest, fabs(u[j] - gm_heat_exact(heat, fixed, x, until) / factor));
     }
@@ -219,10 +219,10 @@ static void groups_are_kept_or_not(void **unused)
     const struct gm_heat heat = {.start = GM_HEAT_TWO, .diffusivity = 1, .age = 0.25};
     struct gm_problem problem = gm_problem_heat;
     problem.parameters = &heat;
-    problem.line = (struct gm_line){.points = 81, .dx = 0.1, .first = -4};
+    problem.line = (struct gm_grid1){.points = 81, .dx = 0.1, .first = -4};
     double u[81];
     for (size_t j = 0; j < 81; j++) {
-        u[j] = gm_heat_exact(&heat, true, gm_line_node(&problem.line, j), 0.1);
+        u[j] = gm_heat_exact(&heat, true, gm_grid1_node(&problem.line, j), 0.1);
     }
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
         const struct gm_scheme *scheme = gm_scheme_find(schemes[s]);

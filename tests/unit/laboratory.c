@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "app/studies/stability.h"
-#include "app/studies/work.h"
+#include "app/grid/stability.h"
+#include "app/grid/work.h"
 #include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"

@@ -14,11 +14,11 @@
 
 #include "core/count.h"
 #include "core/kind.h"
+#include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/own/own.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 enum { MOST = 7 }; /* components */

@@ -12,13 +12,13 @@
 
 #include <cmocka.h>
 
-#include "app/own/system.h"
-#include "app/request/request.h"
+#include "app/words/request.h"
+#include "app/words/system.h"
 #include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/schemes.h"
-#include "scenes/frame/lane_pack.h"
+#include "scenes/common/lane_pack.h"
 
 enum { BEFORE = 7, AFTER = 6 };
 

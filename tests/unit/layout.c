@@ -55,7 +55,7 @@ static void check_layout(struct gm_picture *picture, struct gm_metrics *metrics)
     metrics->self = metrics;
     const struct gm_layout *layout = gm_layout_make(picture, metrics);
     for (size_t i = 0; i < layout->frame_count; i++) {
-        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_axes *frame = &layout->frames[i];
         assert_true(frame->x_tick_count <= 6 && frame->y_tick_count <= 6);
         if (frame->panel->equal) {
             assert_true(fabs(frame->x_factor + frame->y_factor) <= 1e-9 * fabs(frame->x_factor));
@@ -116,7 +116,7 @@ static void a_usual_picture_has_all_its_texts(void **state)
     assert_non_null(find_label(layout, "10⁻¹²"));
 
     /* Two by two states of one size on the left, graphs in line on the right. */
-    const struct gm_frame *frames = layout->frames;
+    const struct gm_axes *frames = layout->frames;
     assert_true(frames[1].box.x > frames[0].box.x && frames[2].box.x == frames[0].box.x);
     assert_true(frames[2].box.y > frames[0].box.y && frames[0].box.width == frames[3].box.width);
     assert_true(frames[0].x_factor == frames[3].x_factor);
@@ -165,13 +165,13 @@ static void coordinates_follow_the_axes(void **state)
     struct gm_picture *picture = picture_of(1, 1, true, false);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     assert_non_null(layout);
-    const struct gm_frame *state_frame = &layout->frames[0], *graph = &layout->frames[1];
-    assert_float_equal(gm_frame_x(state_frame, -2), state_frame->box.x, 1e-6);
-    assert_float_equal(gm_frame_y(state_frame, -1.5), state_frame->box.y + state_frame->box.height, 1e-6);
-    assert_float_equal(gm_frame_y(graph, 10), graph->box.y, 1e-6);
-    assert_float_equal(gm_frame_y(graph, 1e-16), graph->box.y + graph->box.height, 1e-6);
+    const struct gm_axes *state_frame = &layout->frames[0], *graph = &layout->frames[1];
+    assert_float_equal(gm_axes_x(state_frame, -2), state_frame->box.x, 1e-6);
+    assert_float_equal(gm_axes_y(state_frame, -1.5), state_frame->box.y + state_frame->box.height, 1e-6);
+    assert_float_equal(gm_axes_y(graph, 10), graph->box.y, 1e-6);
+    assert_float_equal(gm_axes_y(graph, 1e-16), graph->box.y + graph->box.height, 1e-6);
     for (size_t i = 0; i < graph->y_tick_count; i++) {
-        assert_float_equal(gm_frame_y(graph, graph->y_ticks[i].value), graph->y_ticks[i].position, 1e-6);
+        assert_float_equal(gm_axes_y(graph, graph->y_ticks[i].value), graph->y_ticks[i].position, 1e-6);
     }
     gm_picture_close(picture);
 }
@@ -188,7 +188,7 @@ static void three_states_stand_in_a_row(void **state)
     picture->first->note = "";
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     assert_non_null(layout);
-    const struct gm_frame *frames = layout->frames;
+    const struct gm_axes *frames = layout->frames;
     assert_true(frames[0].box.y == frames[1].box.y && frames[1].box.y == frames[2].box.y);
     assert_true(frames[3].box.y > frames[2].box.y + frames[2].box.height);
     assert_true(frames[3].box.y == frames[4].box.y);
@@ -605,7 +605,7 @@ static void bars_point_at_what_is_beyond(void **state)
                       (const double[]){0, 0.5, 1, beyond ? 1.2 : 1.001}, 2, 2);
         const struct gm_layout *layout = gm_layout_make(picture, &metrics);
         assert_non_null(layout);
-        const struct gm_frame *frame = &layout->frames[0];
+        const struct gm_axes *frame = &layout->frames[0];
         assert_true((frame->bar_tip[1] > 0) == (beyond == 1) && frame->bar_tip[0] == 0);
         assert_float_equal(frame->colour_bar.y - frame->bar_tip[1], frame->box.y, 1e-9);
         gm_picture_close(picture);

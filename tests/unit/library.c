@@ -271,7 +271,7 @@ static void test_failure(void **state)
 }
 
 /* A scheme that chooses its steps. */
-static void test_own_time(void **state)
+static void test_adaptive(void **state)
 {
     (void)state;
     geomint *run = OPEN("oscillator", "scheme=variational-rectangle-restart", "until=3");
@@ -428,7 +428,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_null),    cmocka_unit_test(test_time),
-        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_failure), cmocka_unit_test(test_own_time),
+        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_failure), cmocka_unit_test(test_adaptive),
         cmocka_unit_test(test_threads),  cmocka_unit_test(test_host),    cmocka_unit_test(test_claims),
         cmocka_unit_test(test_fork),     cmocka_unit_test(test_painter),
     };

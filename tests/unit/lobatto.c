@@ -31,7 +31,7 @@ static struct gm_run *open_run(struct gm_problem *problem, const char *scheme, s
 {
     static double y[2 * 1000 + 1];
     *problem = gm_problem_sine_gordon;
-    problem->line = (struct gm_line){.points = points, .dx = DX, .first = 0};
+    problem->line = (struct gm_grid1){.points = points, .dx = DX, .first = 0};
     problem->n = gm_wave_size(points);
     for (size_t i = 0; i < points; i++) {
         const double x = 2 * M_PI * (double)i / (double)points;
@@ -205,7 +205,7 @@ static void steps_are_bound_as_told(void **unused)
         const struct gm_scheme *scheme = gm_scheme_find(names[s]);
         for (int above = 0; above < 2; above++) {
             struct gm_problem problem = gm_problem_wave;
-            problem.line = (struct gm_line){.points = POINTS, .dx = DX};
+            problem.line = (struct gm_grid1){.points = POINTS, .dx = DX};
             problem.n = gm_wave_size(POINTS);
             double y[2 * POINTS + 1];
             unsigned noise = 7;

@@ -180,7 +180,7 @@ static void kdv_tells_its_laws(void **unused)
     double y[2 * POINTS + 1];
     struct gm_problem problem = gm_problem_kdv;
     problem.parameters = &soliton;
-    problem.line = (struct gm_line){POINTS, 40.0 / POINTS, -20, 0, false};
+    problem.line = (struct gm_grid1){POINTS, 40.0 / POINTS, -20, 0, false};
     problem.n = gm_wave_size(POINTS);
     gm_kdv_levels(&problem, 0.1, y);
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.1, y);
@@ -199,10 +199,10 @@ static void nls_tells_its_laws(void **unused)
     double y[2 * POINTS];
     struct gm_problem problem = gm_problem_nls;
     problem.parameters = &bright;
-    problem.line = (struct gm_line){POINTS, 30.0 / POINTS, -15, 0, false};
+    problem.line = (struct gm_grid1){POINTS, 30.0 / POINTS, -15, 0, false};
     problem.n = 2 * POINTS;
     for (size_t i = 0; i < POINTS; i++) {
-        gm_nls_exact(&bright, &problem.line, gm_line_node(&problem.line, i), 0, &y[i], &y[POINTS + i]);
+        gm_nls_exact(&bright, &problem.line, gm_grid1_node(&problem.line, i), 0, &y[i], &y[POINTS + i]);
     }
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.02, y);
     assert_non_null(run);

@@ -24,11 +24,11 @@
 #include "app/native/cache.h"
 #include "app/native/compiler.h"
 #include "app/native/engine.h"
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "core/count.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/own/own.h"
+#include "core/ode/user/problem.h"
 #include "core/schemes.h"
 #include "tests/common/folder.h"
 #include "tests/common/random_formula.h"
@@ -235,7 +235,7 @@ static int compare_families(const char *system)
         lacks = "no ordinary differential equation";
     }
     for (int over = GM_OVER_NONE + 1; gm_engine_of(lane) && over < GM_OVER_COUNT; over++) {
-        char *text = gm_own_problem_kernel(&lane->problem, over, &lacks);
+        char *text = gm_user_problem_kernel(&lane->problem, over, &lacks);
         const bool has_loop = text && (over != GM_OVER_SPLITTING || strstr(text, "GM_SEPARABLE"));
         free(text);
         for (size_t k = 0; has_loop && !first[over][0] && k < gm_scheme_count(); k++) {
@@ -524,7 +524,7 @@ static void entries_are_libraries(void **state)
         const char *source, *into, *says;
     } lacking[] = {
         {"int nothing;", "cc -shared -fPIC -x c - -o", "it holds no loops"},
-        {"int gone(void); int gm_loops_own_native(void) { return gone(); }", "cc -shared -fPIC -x c - -o",
+        {"int gone(void); int gm_loops_user_native(void) { return gone(); }", "cc -shared -fPIC -x c - -o",
          "undefined symbol: gone"},
         {"rubbish", "cat >", "could not be loaded"},
     };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The operations that a kernel may use (core/ode/kernel/lane.h): a lane does what a double does, bit for bit,
+/* The operations that a kernel may use (core/ode/kernel/simd.h): a lane does what a double does, bit for bit,
    and both are the function that the name says, against long double. */
 #include <float.h>
 #include <math.h>
@@ -15,13 +15,13 @@
 #include "core/ode/kernel/loops.h"
 
 #define GM_PASS_SCALAR
-#include "core/ode/kernel/lane.h"
+#include "core/ode/kernel/simd.h"
 #undef GM_PASS_SCALAR
 #undef real
 #undef mask
 #undef GM_LANES
 #undef K
-#include "core/ode/kernel/lane.h"
+#include "core/ode/kernel/simd.h"
 
 static const struct operation {
     double (*of_double)(double x);

@@ -12,10 +12,10 @@
 
 #include <cmocka.h>
 
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "core/count.h"
+#include "scenes/common/graph.h"
 #include "scenes/flow/flows.h"
-#include "scenes/frame/graph.h"
 #include "tests/common/layout_faults.h"
 
 enum { MOST_LANES = 24, SCHEMES = 3 /* without a list, as render shows them */ };

@@ -16,14 +16,14 @@
 
 #include "core/certify.h"
 #include "core/count.h"
-#include "core/formula/derivative.h"
+#include "core/expression/derivative.h"
 #include "core/kind.h"
+#include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 
 enum { MOST = 12 };
 
@@ -61,8 +61,8 @@ static const struct {
 enum { SYSTEMS = GM_COUNT(systems) };
 
 struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
+    struct gm_user_system system;
+    struct gm_user_model model;
     struct gm_problem problem;
     double *start, *values;
     gm_node_id gradient[MOST + 8];
@@ -72,13 +72,13 @@ static void type_words(struct typed *typed, const char *name, const char *text)
 {
     struct gm_fault fault;
     bool marked[MOST + 8] = {0};
-    struct gm_own_system *system = &typed->system;
+    struct gm_user_system *system = &typed->system;
     if (!gm_equations_open(system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", name, fault.sentence);
     }
     typed->start = gm_equations_start(system, NULL);
-    assert_true(gm_own_model_open(&typed->model, system));
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
+    assert_true(gm_user_model_open(&typed->model, system));
+    assert_true(gm_user_problem_open(&typed->problem, &typed->model, typed->start));
     for (size_t i = 0; i < system->n; i++) {
         marked[i] = true;
     }
@@ -95,8 +95,8 @@ static void type(struct typed *typed, int which)
 
 static void untype(struct typed *typed)
 {
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
+    gm_user_problem_close(&typed->problem);
+    gm_user_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
     free(typed->values);
@@ -115,7 +115,7 @@ static void nodes_make_the_field(void **unused)
     for (int k = 0; k < SYSTEMS; k++) {
         struct typed typed;
         type(&typed, k);
-        const struct gm_own_system *system = &typed.system;
+        const struct gm_user_system *system = &typed.system;
         const size_t n = system->n;
         for (int trial = 0; trial < 20; trial++) {
             double y[MOST], f[MOST], size = 0;
@@ -151,7 +151,7 @@ static void schemes_advance_them(void **unused)
     for (int k = 0; k < SYSTEMS; k++) {
         struct typed typed;
         type(&typed, k);
-        const struct gm_own_system *system = &typed.system;
+        const struct gm_user_system *system = &typed.system;
         double reference[MOST];
         int count = 0;
         for (size_t s = 0; s < gm_scheme_count(); s++) {
@@ -210,13 +210,13 @@ static void bodies_turn(void **unused)
     static const char backwards[] =
         "components: x y z\nbracket: x y = z\nbracket: y z = x\nbracket: z x = y\n"
         "H: (x^2/2 + y^2 + 1.5*z^2)/2\nstart: x = 0.9, y = 0.5, z = -0.7\n";
-    struct gm_own_system system;
-    struct gm_own_model model;
+    struct gm_user_system system;
+    struct gm_user_model model;
     struct gm_problem back;
     struct gm_fault fault;
     assert_true(gm_equations_open(&system, backwards, strlen(backwards), NULL, 0, &fault));
     double *start = gm_equations_start(&system, NULL);
-    assert_true(start && gm_own_model_open(&model, &system) && gm_own_problem_open(&back, &model, start));
+    assert_true(start && gm_user_model_open(&model, &system) && gm_user_problem_open(&back, &model, start));
     const double casimir = start[0] * start[0] + start[1] * start[1] + start[2] * start[2];
     for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_problem *forth = &gm_problem_rigid_body;
@@ -243,8 +243,8 @@ static void bodies_turn(void **unused)
         gm_run_close(b);
     }
     free(start);
-    gm_own_problem_close(&back);
-    gm_own_model_close(&model);
+    gm_user_problem_close(&back);
+    gm_user_model_close(&model);
     gm_system_close(&system);
 }
 

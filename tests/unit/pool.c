@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "app/cores/pool.h"
+#include "app/base/pool.h"
 
 enum { PIECES = 2000, WINDOW = 7 };
 

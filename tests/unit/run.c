@@ -122,7 +122,7 @@ static void cut_in_pieces(const struct gm_problem *problem, const struct gm_sche
     }
     assert_int_equal(pieces->steps, 100);
     expect_same_state(whole, pieces);
-    assert_true(whole->t == pieces->t && (scheme->family->own_time || whole->t == 100 * 0.05));
+    assert_true(whole->t == pieces->t && (scheme->family->adaptive || whole->t == 100 * 0.05));
     assert_true(whole->evaluations == pieces->evaluations);
     gm_run_close(whole);
     gm_run_close(pieces);

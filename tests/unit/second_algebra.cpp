@@ -9,8 +9,8 @@
 #include <ginac/ginac.h>
 
 extern "C" {
-#include "core/formula/derivative.h"
-#include "core/formula/reader.h"
+#include "core/expression/derivative.h"
+#include "core/expression/reader.h"
 }
 
 static const char *const formulas[] = {

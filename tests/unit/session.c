@@ -17,13 +17,13 @@
 
 #include <cmocka.h>
 
+#include "app/base/arguments.h"
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/prompt.h"
 #include "app/explorer/view/studies.h"
-#include "app/ground/arguments.h"
-#include "app/lanes/session.h"
-#include "app/lanes/slider.h"
-#include "app/request/drive.h"
+#include "app/runs/session.h"
+#include "app/runs/slider.h"
+#include "app/words/drive.h"
 #include "core/count.h"
 #include "core/schemes.h"
 #include "tests/common/folder.h"

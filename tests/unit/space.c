@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "scenes/frame/space.h"
+#include "scenes/common/space.h"
 
 static void assert_near(double have, double want)
 {

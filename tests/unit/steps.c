@@ -13,11 +13,11 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/ode/own/own.h"
+#include "core/model/equations.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 static const struct gm_settings settings = {0};

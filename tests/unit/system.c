@@ -13,11 +13,11 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/system/equations.h"
-#include "core/system/facts.h"
+#include "core/model/equations.h"
+#include "core/model/facts.h"
 #include "tests/common/reference.h"
 
-static bool open_text(struct gm_own_system *system, const char *text, struct gm_fault *fault)
+static bool open_text(struct gm_user_system *system, const char *text, struct gm_fault *fault)
 {
     return gm_equations_open(system, text, strlen(text), NULL, 0, fault);
 }
@@ -54,7 +54,7 @@ static char *lines_of(const char *line)
 
 static void expect_facts(const char *line, char *words, const char *term)
 {
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     struct gm_finding findings[GM_FACTS];
     char *text = lines_of(line), *rest = NULL;
@@ -90,7 +90,7 @@ static void expect_facts(const char *line, char *words, const char *term)
 /* The nodes that make a facet, as text. */
 static void expect_nodes(const char *line, const char *word, const char *expected)
 {
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     struct gm_finding findings[GM_FACTS];
     char *text = lines_of(line), *found = NULL;
@@ -261,7 +261,7 @@ static void equations_are_those_by_hand(void **unused)
                  {"lorenz", lorenz, 3, 0},
                  {"driven-pendulum", driven_pendulum, 2, 0}};
     for (size_t k = 0; k < GM_COUNT(eight); k++) {
-        struct gm_own_system system;
+        struct gm_user_system system;
         struct gm_fault fault;
         size_t length = 0, kept = 0;
         char *text = system_text(eight[k].name, &length);
@@ -314,7 +314,7 @@ static void lagrangians_are_transformed(void **unused)
     static const char text[] = "coordinates: a b\nparameter: m = 2\n"
                                "L: m*(v_a^2 + a^2*v_b^2)/2 - a^3\nforce: a = -0.5*v_a\n"
                                "symmetry: b = 1\nstart: a = 2, b = 1, v_a = 3, v_b = 0.25\n";
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     if (!open_text(&system, text, &fault)) {
         fail_msg("%s", fault.sentence);
@@ -363,7 +363,7 @@ static void lagrangians_are_checked(void **unused)
         {"coordinates: q\nL: v_q^2/2\ninvariant: v = v_q\nstart: q = 1, p_q = 5\n", 1, 0, 5},
     };
     for (size_t k = 0; k < GM_COUNT(rows); k++) {
-        struct gm_own_system system;
+        struct gm_user_system system;
         struct gm_fault fault;
         size_t checked = 0, proved = 0;
         if (!open_text(&system, rows[k].text, &fault)) {
@@ -407,7 +407,7 @@ static void lines_are_counted(void **unused)
         "casimir: length3 = x[3]^2 + y[3]^2 + z[3]^2; scale 3\n"
         "rod: x[1], y[1], far[2]; x[2], y[2], z[2]\nrod: x[2], y[2], far[2]; x[3], y[3], z[3]\n"
         "start: x[1] = 1, y[1] = 1, z[1] = 1, x[2] = 2, y[2] = 1, z[2] = 4, x[3] = 3, y[3] = 1, z[3] = 9\n"};
-    struct gm_own_system systems[2];
+    struct gm_user_system systems[2];
     double *values[2];
     for (int k = 0; k < 2; k++) {
         struct gm_fault fault;
@@ -594,7 +594,7 @@ static void first_places_are_told(void **unused)
         {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 3, 6},
         {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 1, 14},
     };
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     (void)unused;
     for (size_t i = 0; i < GM_COUNT(twice); i++) {
@@ -615,7 +615,7 @@ static void observed_names_are_known(void **unused)
 {
     static const char text[] = CANONICAL "H: p_q^2/2 + far\nstop: far - 2\nobserve: far = sqrt(near)\n"
                                          "observe: near = q^2 + 1\n";
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     size_t found = 0;
     (void)unused;
@@ -639,7 +639,7 @@ static void what_is_wrong_is_named(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < GM_COUNT(refused); i++) {
-        struct gm_own_system system;
+        struct gm_user_system system;
         struct gm_fault fault;
         size_t line, column;
         if (open_text(&system, refused[i].text, &fault)) {
@@ -652,7 +652,7 @@ static void what_is_wrong_is_named(void **unused)
         }
         gm_system_close(&system);
     }
-    struct gm_own_system system;
+    struct gm_user_system system;
     struct gm_fault fault;
     assert_false(gm_equations_open(&system, "H: \0", 4, NULL, 0, &fault));
     assert_true(fault.offset == 3 && strstr(fault.sentence, "no text"));

@@ -9,11 +9,11 @@
 
 #include <cmocka.h>
 
-#include "app/own/now.h"
-#include "app/own/replacing.h"
-#include "app/own/system.h"
-#include "app/request/request.h"
-#include "app/request/typed.h"
+#include "app/words/current_values.h"
+#include "app/words/replacing.h"
+#include "app/words/request.h"
+#include "app/words/system.h"
+#include "app/words/typed.h"
 #include "core/count.h"
 #include "core/run.h"
 

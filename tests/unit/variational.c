@@ -14,14 +14,14 @@
 
 #include "core/certify.h"
 #include "core/count.h"
+#include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/own/own.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 #include "tests/common/typed.h"
 
 static const char double_pendulum[] =

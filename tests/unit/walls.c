@@ -15,11 +15,11 @@
 
 #include "core/count.h"
 #include "core/field/families/laws/wave.h"
-#include "core/field/own/potential.h"
-#include "core/ode/own/evolution.h"
+#include "core/field/user/potential.h"
+#include "core/model/equations.h"
+#include "core/ode/user/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
 
 static const struct gm_settings no_settings;
 static const char *const all[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
@@ -33,14 +33,14 @@ static const char *const all[] = {"leapfrog",     "energy-conserving", "box",   
     "exact: u = 4*atan(2*sinh(g*(t - 8)/2)/cosh(g*(x - 10)))\n"
 
 struct walled {
-    struct gm_own_system system;
-    struct gm_own_wave wave;
+    struct gm_user_system system;
+    struct gm_user_wave wave;
     struct gm_problem problem;
 };
 
-static struct gm_line between(double half_length, size_t nodes)
+static struct gm_grid1 between(double half_length, size_t nodes)
 {
-    return (struct gm_line){2 * (nodes - 1), 2 * half_length / (double)(nodes - 1), -half_length, 0, true};
+    return (struct gm_grid1){2 * (nodes - 1), 2 * half_length / (double)(nodes - 1), -half_length, 0, true};
 }
 
 static void open_walled(struct walled *walled, const char *text, size_t nodes)
@@ -50,20 +50,20 @@ static void open_walled(struct walled *walled, const char *text, size_t nodes)
     if (!gm_equations_open(&walled->system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    assert_true(gm_own_wave_derive(&walled->wave, &walled->system));
+    assert_true(gm_user_wave_derive(&walled->wave, &walled->system));
     double *values = gm_equations_start(&walled->system, NULL);
-    assert_true(gm_own_wave_open(&walled->problem, &walled->wave, values));
+    assert_true(gm_user_wave_open(&walled->problem, &walled->wave, values));
     free(values);
     walled->problem.line = between(10, nodes);
     walled->problem.n = gm_wave_size(walled->problem.line.points);
-    if (!gm_own_wave_closes(&walled->problem, "u", sentence, sizeof sentence)) {
+    if (!gm_user_wave_closes(&walled->problem, "u", sentence, sizeof sentence)) {
         fail_msg("%s", sentence);
     }
 }
 
 static void close_walled(struct walled *walled)
 {
-    gm_own_wave_close(&walled->problem);
+    gm_user_wave_close(&walled->problem);
     gm_system_close(&walled->system);
 }
 
@@ -73,9 +73,9 @@ static double error_of(const char *scheme, size_t nodes, double dt, double *ener
 {
     struct walled walled;
     open_walled(&walled, KINK, nodes);
-    const struct gm_line *line = &walled.problem.line;
+    const struct gm_grid1 *line = &walled.problem.line;
     double *y = malloc(walled.problem.n * sizeof *y), error = 0;
-    gm_own_wave_levels(&walled.problem, dt, y);
+    gm_user_wave_levels(&walled.problem, dt, y);
     struct gm_run *run =
         gm_run_open(&walled.problem, gm_scheme_find_for(scheme, &walled.problem), &no_settings, 0, dt, y);
     assert_non_null(run);
@@ -85,12 +85,12 @@ static double error_of(const char *scheme, size_t nodes, double dt, double *ener
         assert_int_equal(gm_run_advance(run, 1), GM_OK);
         *energy = fmax(*energy, fabs(gm_wave_energy(&walled.problem, gm_run_state(run)) / first - 1));
     }
-    for (size_t i = 0; i < gm_line_seen(line); i++) {
+    for (size_t i = 0; i < gm_grid1_seen(line); i++) {
         const double x = -10 + (double)i * line->dx;
-        error = fmax(error, fabs(gm_run_state(run)[i] - gm_own_wave_exact(&walled.problem, x, run->t)));
+        error = fmax(error, fabs(gm_run_state(run)[i] - gm_user_wave_exact(&walled.problem, x, run->t)));
     }
     /* it has left the values that it came with by 2 pi on one side, and not on the other */
-    assert_true(gm_run_state(run)[gm_line_seen(line) - 1] > 6 && y[gm_line_seen(line) - 1] < -6);
+    assert_true(gm_run_state(run)[gm_grid1_seen(line) - 1] > 6 && y[gm_grid1_seen(line) - 1] < -6);
     gm_run_close(run);
     free(y);
     close_walled(&walled);
@@ -121,7 +121,7 @@ static void leapfrog_steps_as_with_ghost_nodes(void **unused)
                 NODES);
     const double dt = 0.05, dx = 0.2;
     double *y = malloc(walled.problem.n * sizeof *y), past[NODES], now[NODES], next[NODES];
-    gm_own_wave_levels(&walled.problem, dt, y);
+    gm_user_wave_levels(&walled.problem, dt, y);
     memcpy(past, y, sizeof past);
     memcpy(now, y + walled.problem.line.points, sizeof now);
     struct gm_run *run =
@@ -148,21 +148,21 @@ static void leapfrog_steps_as_with_ghost_nodes(void **unused)
 static void evolve(const char *text, double *sound, char *sentence)
 {
     enum { NODES = 81 };
-    const struct gm_line line = between(4, NODES);
-    struct gm_own_system system;
-    struct gm_own_evolution evolution;
+    const struct gm_grid1 line = between(4, NODES);
+    struct gm_user_system system;
+    struct gm_user_evolution evolution;
     struct gm_problem problem;
     struct gm_fault fault;
     if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    assert_true(gm_own_evolution_derive(&evolution, &system));
+    assert_true(gm_user_evolution_derive(&evolution, &system));
     double *values = gm_equations_start(&system, NULL);
-    assert_true(gm_own_evolution_open(&problem, &evolution, values, &line, GM_SPACE_FOURIER));
-    const bool good = gm_own_evolution_closes(&problem, sentence, 400);
+    assert_true(gm_user_evolution_open(&problem, &evolution, values, &line, GM_SPACE_FOURIER));
+    const bool good = gm_user_evolution_closes(&problem, sentence, 400);
     double *y = malloc(problem.n * sizeof *y);
     for (size_t k = 0; k < 2 && good; k++) {
-        gm_own_evolution_start(&problem, y);
+        gm_user_evolution_start(&problem, y);
         struct gm_run *run =
             gm_run_open(&problem, gm_scheme_find_for("rk4", &problem), &no_settings, 0, 0.01, y);
         assert_int_equal(gm_run_until(run, k == 0 ? 8 : 16), GM_OK);
@@ -175,8 +175,8 @@ static void evolve(const char *text, double *sound, char *sentence)
     }
     free(y);
     free(values);
-    gm_own_evolution_shut(&problem);
-    gm_own_evolution_close(&evolution);
+    gm_user_evolution_shut(&problem);
+    gm_user_evolution_close(&evolution);
     gm_system_close(&system);
 }
 

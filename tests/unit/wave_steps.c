@@ -93,7 +93,7 @@ static void nls_levels(const struct gm_problem *nls, double *y)
 {
     const size_t points = nls->line.points;
     for (size_t i = 0; i < points; i++) {
-        gm_nls_exact(&bright, &nls->line, gm_line_node(&nls->line, i), 0, &y[i], &y[points + i]);
+        gm_nls_exact(&bright, &nls->line, gm_grid1_node(&nls->line, i), 0, &y[i], &y[points + i]);
     }
 }
 
@@ -167,7 +167,7 @@ static void the_box_takes_large_steps(void **unused)
         const double dt = steps[s];
         struct gm_problem problem = gm_problem_sine_gordon;
         problem.parameters = &breather;
-        problem.line = (struct gm_line){POINTS, 40.0 / POINTS, -20, 0, false};
+        problem.line = (struct gm_grid1){POINTS, 40.0 / POINTS, -20, 0, false};
         problem.n = gm_wave_size(POINTS);
         double y[2 * POINTS + 1], levels[3][POINTS];
         gm_sine_gordon_levels(&problem, 0, dt, y);

@@ -48,7 +48,7 @@ static void expect_level(const double *u, const double *expected, double toleran
 static struct gm_problem wave_problem(size_t points, double half_length, double jump)
 {
     struct gm_problem problem = gm_problem_sine_gordon;
-    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump, false};
+    problem.line = (struct gm_grid1){points, 2 * half_length / (double)points, -half_length, jump, false};
     problem.n = gm_wave_size(points);
     return problem;
 }
@@ -351,7 +351,7 @@ static void the_form_is_kept_or_not(void **unused)
     expect_law(&even, "box", 0.05, y, true);
     even = nls_problem(60);
     for (size_t i = 0; i < 60; i++) {
-        gm_nls_exact(&bright, &even.line, gm_line_node(&even.line, i), 0, &y[i], &y[60 + i]);
+        gm_nls_exact(&bright, &even.line, gm_grid1_node(&even.line, i), 0, &y[i], &y[60 + i]);
     }
     expect_law(&even, "box", 0.02, y, true);
     const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
@@ -364,7 +364,7 @@ static void the_form_is_kept_or_not(void **unused)
     expect_law(&kdv, "euler-box", -0.01, y, true);
     expect_law(&kdv, "midpoint-box", -0.01, y, true);
     for (size_t i = 0; i < POINTS; i++) {
-        gm_nls_exact(&bright, &nls.line, gm_line_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
+        gm_nls_exact(&bright, &nls.line, gm_grid1_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
     }
     expect_law(&nls, "box", 0.02, y, true);
     expect_law(&nls, "euler-box", 0.02, y, true);
@@ -455,7 +455,7 @@ static void slopes_are_those_of_the_scheme(void **unused)
         double value, slope; /* at x = 0, where the sine's are 0 and 1 */
     } rows[] = {{"fourier-rk4", 0, 1}, {"zabusky-kruskal", 0, 0.87103}, {"box", 0.390916, 0.87103}};
     struct gm_problem problem = gm_problem_kdv;
-    problem.line = (struct gm_line){POINTS, 2 * M_PI / POINTS, 0, 0, false};
+    problem.line = (struct gm_grid1){POINTS, 2 * M_PI / POINTS, 0, 0, false};
     double u[POINTS];
     for (size_t i = 0; i < POINTS; i++) {
         u[i] = sin(2 * M_PI * (double)i / POINTS);
@@ -491,7 +491,7 @@ static void dispersive_levels_agree(void **unused)
 
     const struct gm_kdv cosine = {.initial = GM_KDV_COSINE, .eta = 1, .mu = 0.022 * 0.022};
     problem.parameters = &cosine;
-    problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0, false};
+    problem.line = (struct gm_grid1){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0, false};
     gm_kdv_levels(&problem, 1e-3, y);
     expect_level(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), 1e-15, "second level of the cosine");
     memcpy(y, level("kdv_cosine_level_0"), bytes);
@@ -580,7 +580,7 @@ static double derivative(double (*u)(double x, double t), double x, double t, in
 static double two_kdv_solitons(double x, double t)
 {
     static const struct gm_kdv two = {.initial = GM_KDV_TWO, .eta = 1, .mu = 1};
-    static const struct gm_line ring = {1000, 0.1, -50, 0, false};
+    static const struct gm_grid1 ring = {1000, 0.1, -50, 0, false};
     return gm_kdv_exact(&two, &ring, x, t);
 }
 
@@ -642,7 +642,7 @@ static void waves_meet_again_on_the_ring(void **unused)
 static void short_rings_have_no_exact_waves(void **unused)
 {
     (void)unused;
-    const struct gm_line wide = {100, 0.4, -20, 0, false}, narrow = {100, 0.1, -5, 0, false};
+    const struct gm_grid1 wide = {100, 0.4, -20, 0, false}, narrow = {100, 0.1, -5, 0, false};
     const struct gm_kdv one = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
     const struct gm_nls bright_one = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
     assert_true(gm_kdv_is_known(&one, &wide, 1) && !gm_kdv_is_known(&one, &narrow, 1));

@@ -9,7 +9,7 @@
 #include "app/output/csv.h"
 #include "app/output/scheme_json.h"
 #include "core/schemes.h"
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 
 void gm_certificate_print(const struct gm_certificate *certificate)
 {

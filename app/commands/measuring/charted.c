@@ -44,8 +44,8 @@ int gm_command_chart(const struct gm_options *options, const char *command, cons
     const bool good = words && gm_chart_write(&chart, data, draw, write, message);
     free(words);
     if (!good) {
-        return gm_press_fail(options->output, message);
+        return gm_printer_fail(options->output, message);
     }
-    gm_press_tell(&chart.print, write ? chart.csv : "");
+    gm_printer_report(&chart.print, write ? chart.csv : "");
     return GM_EXIT_OK;
 }

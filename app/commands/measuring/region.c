@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/measuring/charted.h"
 #include "app/output/csv.h"
 #include "app/output/json.h"
 #include "app/output/say.h"
-#include "app/own/scheme.h"
-#include "app/request/interrupt.h"
+#include "app/words/scheme.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"

@@ -4,10 +4,10 @@
 
 #include <stdio.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/confirmed.h"
 #include "app/commands/measuring/charted.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
 #include "core/memory.h"
 
 int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,

@@ -3,7 +3,7 @@
 #define GM_APP_COMMANDS_MEASURING_STUDIED_H
 
 #include "app/commands/options.h"
-#include "app/studies/kinds/study.h"
+#include "app/grid/kinds/study.h"
 
 /* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
    exit status. */

@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/interrupt.h"
+#include "app/base/pool.h"
 #include "app/commands/commands.h"
 #include "app/commands/confirmed.h"
 #include "app/commands/measuring/charted.h"
-#include "app/cores/pool.h"
+#include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "app/request/interrupt.h"
-#include "app/studies/sweep.h"
 #include "core/count.h"
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 #include "core/memory.h"
 
 /* More runs than these are made if that is confirmed. */

@@ -2,7 +2,7 @@
 #ifndef GM_APP_COMMANDS_REFERENCE_CATALOGUE_H
 #define GM_APP_COMMANDS_REFERENCE_CATALOGUE_H
 
-#include "scenes/frame/lane.h"
+#include "scenes/common/lane.h"
 
 /* What the tables say, in words: for `list`, the manual and completion. */
 

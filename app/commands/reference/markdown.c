@@ -6,7 +6,7 @@
 
 #include "app/commands/reference/catalogue.h"
 #include "app/commands/reference/theory.h"
-#include "app/request/fitting.h"
+#include "app/words/fitting.h"
 #include "core/certify.h"
 #include "core/schemes.h"
 

@@ -11,20 +11,20 @@
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
-#include "app/own/system.h"
+#include "app/words/system.h"
 #include "core/count.h"
-#include "core/field/own/form.h"
-#include "core/field/own/potential.h"
-#include "core/formula/derivative.h"
-#include "core/formula/number.h"
-#include "core/formula/tidied.h"
+#include "core/expression/derivative.h"
+#include "core/expression/number.h"
+#include "core/expression/tidied.h"
+#include "core/field/user/form.h"
+#include "core/field/user/potential.h"
 #include "core/memory.h"
-#include "core/mesh/own/potential.h"
-#include "core/ode/own/evolution.h"
-#include "core/ode/own/own.h"
+#include "core/mesh/user/potential.h"
+#include "core/model/equations.h"
+#include "core/model/facts.h"
+#include "core/ode/user/evolution.h"
+#include "core/ode/user/problem.h"
 #include "core/schemes.h"
-#include "core/system/equations.h"
-#include "core/system/facts.h"
 #include "render/message.h"
 
 static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian",     "ode", "poisson", "field",
@@ -41,11 +41,11 @@ static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V", ""
 enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
 
 struct report {
-    struct gm_own_system system;
-    struct gm_own_model model;
-    struct gm_own_evolution evolution;
-    struct gm_own_form form;
-    struct gm_own_wave wave;
+    struct gm_user_system system;
+    struct gm_user_model model;
+    struct gm_user_evolution evolution;
+    struct gm_user_form form;
+    struct gm_user_wave wave;
     struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
 };
 
@@ -88,7 +88,7 @@ static char *name_of(const struct report *report, size_t component, bool latex)
 /* "u_t", or with a mass "(u - u_xx)_t" */
 static void name_rate(const struct report *report, size_t i, bool latex, char *left, size_t size)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     char *name = name_of(report, i, latex);
     snprintf(left, size, latex ? "\\partial_t %.60s" : "%.60s_t", name ? name : "");
     free(name);
@@ -105,7 +105,7 @@ static void name_rate(const struct report *report, size_t i, bool latex, char *l
 /* A row of K z_t + L z_x, as its entries are written: "-v_t + w_x" */
 static void name_row(const struct report *report, size_t row, bool latex, char *left, size_t size)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     const size_t n = system->n;
     size_t used = 0;
     left[0] = '\0';
@@ -141,7 +141,7 @@ static void name_row(const struct report *report, size_t row, bool latex, char *
 /* The left side of equation number i, and the node of its right one; GM_NO_NODE: it has none. */
 static gm_node_id equation_of(const struct report *report, size_t i, bool latex, char *left, size_t size)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     const size_t half = system->n / 2;
     const bool momentum = system->kind == GM_LAGRANGIAN && i < half;
     if (system->kind == GM_MATRICES) {
@@ -163,7 +163,7 @@ static gm_node_id equation_of(const struct report *report, size_t i, bool latex,
     return momentum ? system->momenta[i] : system->rates[i];
 }
 
-static size_t first_equation(const struct gm_own_system *system)
+static size_t first_equation(const struct gm_user_system *system)
 {
     return system->kind == GM_FIELD ? 1 : 0;
 }
@@ -183,7 +183,7 @@ static bool is_kept(const struct gm_system_item *item)
 }
 
 /* The name of an invariant; of a momentum map without one its number. */
-static void kept_name(const struct gm_own_system *system, const struct gm_system_item *item, char *name,
+static void kept_name(const struct gm_user_system *system, const struct gm_system_item *item, char *name,
                       size_t size)
 {
     int number = 0;
@@ -198,7 +198,7 @@ static void kept_name(const struct gm_own_system *system, const struct gm_system
 }
 
 /* Its formula; GM_NO_NODE where a symmetry has no momentum map. */
-static gm_node_id kept_node(const struct gm_own_system *system, const struct gm_system_item *item)
+static gm_node_id kept_node(const struct gm_user_system *system, const struct gm_system_item *item)
 {
     return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
            : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
@@ -207,7 +207,7 @@ static gm_node_id kept_node(const struct gm_own_system *system, const struct gm_
 
 static void print_texts(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     static const enum gm_system_word order[] = {GM_WORD_TITLE, GM_WORD_ABOUT, GM_WORD_WATCH,
                                                 GM_WORD_REFERENCE};
     for (size_t i = 0; i < GM_COUNT(order); i++) {
@@ -223,7 +223,7 @@ static void print_texts(const struct report *report)
 
 static void print_parameters(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     double *start = gm_equations_start(system, NULL);
     if (system->parameters < system->velocities) {
         printf("\nparameters\n");
@@ -254,7 +254,7 @@ static void print_parameters(const struct report *report)
 
 static void print_equations(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     printf("\nequations\n");
     if (energies[system->kind][0]) {
         print_equation(report, energies[system->kind], system->energy);
@@ -284,7 +284,7 @@ static void print_equations(const struct report *report)
 
 static void print_kept(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     bool any = false;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
@@ -387,7 +387,7 @@ static void print_names(const struct report *report, const struct gm_kind *other
 
 static void print_schemes(const struct report *report)
 {
-    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_own_model_lacks(&report->model);
+    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_user_model_lacks(&report->model);
     printf("\nschemes that fit\n");
     if (lacks[0]) {
         gm_print_wrapped(lacks, printf("  "), 2);
@@ -396,12 +396,12 @@ static void print_schemes(const struct report *report)
     }
     if (report->system.kind == GM_FIELD) {
         printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
-               gm_own_mesh_order(&report->wave));
+               gm_user_mesh_order(&report->wave));
         print_names(report, &gm_kind_mesh);
     }
 }
 
-static void print_parameters_json(const struct gm_own_system *system)
+static void print_parameters_json(const struct gm_user_system *system)
 {
     printf(",\"parameters\":{");
     const char *comma = "";
@@ -422,7 +422,7 @@ static void print_formula_pair(const struct report *report, const char *name, gm
 
 static void print_start_json(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     double *start = gm_equations_start(system, NULL);
     printf(",\"start\":{");
     const char *comma = "";
@@ -440,7 +440,7 @@ static void print_start_json(const struct report *report)
 
 static void print_equations_json(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     char name[80];
     printf(",\"equations\":{");
     const char *comma = "";
@@ -484,7 +484,7 @@ static void print_fact_json(bool *first, const char *word, const char *of, bool 
 
 static void print_structure_json(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     bool first = true;
     printf(",\"structure\":{");
     if (system->kind == GM_MATRICES) {
@@ -512,7 +512,7 @@ static void print_structure_json(const struct report *report)
 
 static void print_json(const struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     printf("{");
     gm_json_pair("title", system->texts[GM_WORD_TITLE] ? system->texts[GM_WORD_TITLE] : "");
     printf(",");
@@ -549,7 +549,7 @@ static bool tidy(struct report *report, gm_node_id *node)
 /* -lambda_k times the derivative of each constraint over a coordinate: the forces that hold them. */
 static void print_forces(struct report *report, size_t coordinate)
 {
-    struct gm_own_system *system = &report->system;
+    struct gm_user_system *system = &report->system;
     bool *marked = calloc(system->variable_count, sizeof *marked);
     gm_node_id *gradient = calloc(system->variable_count, sizeof *gradient);
     for (size_t i = 0, k = 1; marked && gradient && i < system->item_count; i++) {
@@ -574,7 +574,7 @@ static void print_forces(struct report *report, size_t coordinate)
 
 static void print_latex(struct report *report)
 {
-    const struct gm_own_system *system = &report->system;
+    const struct gm_user_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
     if (energies[system->kind][0]) {
@@ -626,7 +626,7 @@ static bool read_values(const struct gm_arguments *arguments, struct gm_system_v
 }
 
 /* every value was that of a parameter */
-static bool are_known(const struct gm_own_system *system, const struct gm_system_value *values, size_t count)
+static bool are_known(const struct gm_user_system *system, const struct gm_system_value *values, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         bool known = false;
@@ -646,21 +646,21 @@ static bool open_problem(struct report *report)
 {
     double *start = NULL;
     if (gm_system_is_field(&report->system)) {
-        const struct gm_line any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
+        const struct gm_grid1 any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
         const bool waves = report->system.kind == GM_FIELD;
         start = gm_equations_start(&report->system, NULL);
         const bool form = report->system.kind == GM_MATRICES;
         const bool opened =
-            start && (form ? gm_own_form_derive(&report->form, &report->system) &&
-                                 gm_own_form_open(&report->problem, &report->form, start, &any)
-                      : waves ? gm_own_wave_derive(&report->wave, &report->system) &&
-                                    gm_own_wave_open(&report->problem, &report->wave, start)
-                              : gm_own_evolution_derive(&report->evolution, &report->system) &&
-                                    gm_own_evolution_open(&report->problem, &report->evolution, start, &any,
-                                                          GM_SPACE_DIFFERENCES));
+            start && (form ? gm_user_form_derive(&report->form, &report->system) &&
+                                 gm_user_form_open(&report->problem, &report->form, start, &any)
+                      : waves ? gm_user_wave_derive(&report->wave, &report->system) &&
+                                    gm_user_wave_open(&report->problem, &report->wave, start)
+                              : gm_user_evolution_derive(&report->evolution, &report->system) &&
+                                    gm_user_evolution_open(&report->problem, &report->evolution, start, &any,
+                                                           GM_SPACE_DIFFERENCES));
         free(start);
         if (opened && report->system.kind == GM_EVOLUTION) {
-            const struct gm_own_evolution *evolution = &report->evolution;
+            const struct gm_user_evolution *evolution = &report->evolution;
             const bool smooth = evolution->kink == GM_NO_NODE;
             report->model.findings[GM_FACT_SMOOTH] =
                 (struct gm_finding){.asked = true,
@@ -671,10 +671,10 @@ static bool open_problem(struct report *report)
         }
         return opened;
     }
-    bool good = gm_own_model_open(&report->model, &report->system);
-    if (good && !gm_own_model_lacks(&report->model)[0]) {
+    bool good = gm_user_model_open(&report->model, &report->system);
+    if (good && !gm_user_model_lacks(&report->model)[0]) {
         start = gm_equations_start(&report->system, NULL);
-        good = start && gm_own_problem_open(&report->problem, &report->model, start);
+        good = start && gm_user_problem_open(&report->problem, &report->model, start);
     }
     free(start);
     return good;
@@ -683,7 +683,7 @@ static bool open_problem(struct report *report)
 /* What was derived, and not typed, is only printed from here on. False: out of memory. */
 static bool tidy_all(struct report *report)
 {
-    struct gm_own_system *system = &report->system;
+    struct gm_user_system *system = &report->system;
     bool good = true;
     for (size_t i = 0; good && i < system->n; i++) {
         good = tidy(report, &system->rates[i]) &&
@@ -757,16 +757,16 @@ int gm_list_system(const struct gm_arguments *arguments, const char *path, enum 
         }
     }
     if (report.system.kind == GM_FIELD) {
-        gm_own_wave_close(&report.problem);
+        gm_user_wave_close(&report.problem);
     } else if (report.system.kind == GM_MATRICES) {
-        gm_own_form_close(&report.problem);
+        gm_user_form_close(&report.problem);
     } else if (report.system.kind == GM_EVOLUTION) {
-        gm_own_evolution_shut(&report.problem);
-        gm_own_evolution_close(&report.evolution);
+        gm_user_evolution_shut(&report.problem);
+        gm_user_evolution_close(&report.evolution);
     } else {
-        gm_own_problem_close(&report.problem);
+        gm_user_problem_close(&report.problem);
     }
-    gm_own_model_close(&report.model);
+    gm_user_model_close(&report.model);
     gm_system_close(&report.system);
     return gm_finish(status);
 }

@@ -3,7 +3,7 @@
 #ifndef GM_APP_COMMANDS_REFERENCE_SYSTEM_H
 #define GM_APP_COMMANDS_REFERENCE_SYSTEM_H
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
 
 enum gm_telling { GM_TELL_SHORT, GM_TELL_ALL, GM_TELL_LATEX, GM_TELL_JSON };
 

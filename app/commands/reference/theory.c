@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "app/output/json.h"
-#include "core/formula/number.h"
+#include "core/expression/number.h"
 
 static void print_order(const struct gm_theory *theory)
 {

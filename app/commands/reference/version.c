@@ -12,8 +12,8 @@
 #include <stdio.h>
 #include <suitesparse/cholmod.h>
 
+#include "app/base/share.h"
 #include "app/commands/reference/version.h"
-#include "app/ground/share.h"
 #include "app/native/compiler.h"
 #include "app/output/say.h"
 #include "core/memory.h"

@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_BACKGROUND_CHECK_H
 
 #include "app/explorer/background/job.h"
-#include "app/request/typed.h"
+#include "app/words/typed.h"
 
 /* What is wrong with a line while it is typed: found out beside the screen, as a sum may have many terms. */
 

@@ -11,11 +11,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "app/explorer/background/job.h"
-#include "app/ground/arguments.h"
+#include "app/grid/kinds/study.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
-#include "app/studies/kinds/study.h"
 #include "render/clock.h"
 
 enum { NICE = 10 };

@@ -10,7 +10,7 @@
 /* What the user has set about the screen itself. */
 
 struct gm_guide;
-struct gm_own_prompt;
+struct gm_typed_prompt;
 struct gm_studies;
 
 enum gm_page {
@@ -56,13 +56,13 @@ struct gm_face {
     char typed[GM_TYPED]; /* a search, or an answer */
     size_t parameter;     /* the one that left and right change */
     enum gm_side_panel side;
-    bool explaining;                 /* the status line says what that parameter is */
-    unsigned long read;              /* the last message that was seen and dismissed */
-    const struct gm_scene *watched;  /* whose sentence on what to watch was shown last: it may be gone */
-    int64_t watch_until;             /* when that gives way; 0: it has */
-    const struct gm_guide *guide;    /* through a tour; NULL: there is none */
-    const struct gm_own_prompt *own; /* that may be open; NULL: there is none */
-    struct gm_studies *studies;      /* in the background; NULL: none can be */
+    bool explaining;                /* the status line says what that parameter is */
+    unsigned long read;             /* the last message that was seen and dismissed */
+    const struct gm_scene *watched; /* whose sentence on what to watch was shown last: it may be gone */
+    int64_t watch_until;            /* when that gives way; 0: it has */
+    const struct gm_guide *guide;   /* through a tour; NULL: there is none */
+    const struct gm_typed_prompt *typed_prompt; /* that may be open; NULL: there is none */
+    struct gm_studies *studies;                 /* in the background; NULL: none can be */
 };
 
 #endif

@@ -16,7 +16,7 @@ enum gm_key_result {
     GM_KEY_STUDY,   /* a diagram in the background, by the key */
     GM_KEY_MAP,     /* a map of many runs is asked for */
     GM_KEY_TOUR,    /* another step of a tour, by the key */
-    GM_KEY_OWN,     /* a system of one's own; from the list of schemes a scheme */
+    GM_KEY_TYPED,   /* a system of one's own; from the list of schemes a scheme */
     GM_KEY_FILE,    /* the system of one's own to a file */
     GM_KEY_COPY,    /* the chosen command line to the clipboard */
     GM_KEY_LEAVE,

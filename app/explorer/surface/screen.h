@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_SURFACE_SCREEN_H
 
 #include "app/explorer/surface/sheet.h"
-#include "app/lanes/shot.h"
+#include "app/runs/shot.h"
 #include "render/files/inline_image.h"
 
 /* The screen as cells: what is composed on it, what can be clicked, where its picture is. Nothing here knows

@@ -37,9 +37,9 @@ int gm_sheet_width(const struct gm_sheet *sheet, const char *text)
 void gm_sheet_cut(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
                   bool bold)
 {
-    const int room = sheet->width - column;
+    const int available = sheet->width - column;
     gm_sheet_text(sheet, column, row, text, role, bold);
-    if (room > 1 && gm_sheet_width(sheet, text) > room) {
+    if (available > 1 && gm_sheet_width(sheet, text) > available) {
         const char *end = sheet->face->blocks == GM_ASCII ? "." : "…";
         gm_sheet_text(sheet, sheet->width - 1, row, end, role, bold);
     }
@@ -130,19 +130,19 @@ int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char
     return taken;
 }
 
-static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int room)
+static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int available)
 {
     char line[512];
     snprintf(line, sizeof line, "%.*s", (int)length, text);
-    return gm_sheet_width(sheet, line) > room;
+    return gm_sheet_width(sheet, line) > available;
 }
 
 /* How many bytes of a line fit: all, or, as it is one long word, those up to a comma in its second half, or
    to any letter. */
-static size_t broken(const struct gm_sheet *sheet, const char *word, size_t length, int room)
+static size_t broken(const struct gm_sheet *sheet, const char *word, size_t length, int available)
 {
     size_t fits = length;
-    while (fits > 1 && is_wide(sheet, word, fits, room)) {
+    while (fits > 1 && is_wide(sheet, word, fits, available)) {
         do {
             fits--;
         } while (fits > 1 && ((unsigned char)word[fits] & 0xC0) == 0x80);
@@ -158,14 +158,14 @@ static size_t broken(const struct gm_sheet *sheet, const char *word, size_t leng
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role)
 {
-    int room = sheet->width - column, taken = 0;
-    while (*text && room > 0 && taken < rows) {
+    int available = sheet->width - column, taken = 0;
+    while (*text && available > 0 && taken < rows) {
         char line[512];
         size_t fits = 0;
         for (size_t i = 1; i < sizeof line; i++) {
             bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
             if (blank) {
-                if (fits > 0 && is_wide(sheet, text, i, room)) {
+                if (fits > 0 && is_wide(sheet, text, i, available)) {
                     break;
                 }
                 fits = i;
@@ -177,7 +177,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         if (fits == 0) {
             fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
         }
-        fits = broken(sheet, text, fits, room);
+        fits = broken(sheet, text, fits, available);
         snprintf(line, sizeof line, "%.*s", (int)fits, text);
         gm_sheet_text(sheet, column, row + taken, line, role, false);
         taken++;
@@ -187,7 +187,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         }
         if (*text && taken == rows) { /* words are left */
             const int end = gm_sheet_width(sheet, line);
-            gm_sheet_text(sheet, column + (end < room ? end : room - 1), row + taken - 1,
+            gm_sheet_text(sheet, column + (end < available ? end : available - 1), row + taken - 1,
                           sheet->face->blocks == GM_ASCII ? "." : "…", role, false);
         }
     }

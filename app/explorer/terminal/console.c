@@ -16,9 +16,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "app/base/interrupt.h"
 #include "app/explorer/terminal/mouse.h"
-#include "app/request/interrupt.h"
-#include "app/request/request.h"
+#include "app/words/request.h"
 #include "render/clock.h"
 
 static SCREEN *screen;

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
+#include "app/base/interrupt.h"
 #include "app/explorer/terminal/terminal.h"
-#include "app/request/interrupt.h"
 
 /* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and
    signals read. Answers among the keys go to the terminal's answers. */

@@ -11,7 +11,7 @@
 
 enum { PAGE = 10 };
 
-const struct gm_scheme gm_chooser_own = {
+const struct gm_scheme gm_chooser_user = {
     .name = "own",
     .title = "your own scheme",
     .formula = "composition(verlet; 1/2, 1/2), adjoint(rk4)\nrunge-kutta(a; b), partitioned(a; b; ah; bh)\n"
@@ -41,9 +41,9 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
         memmove(&found[at + 1], &found[at], (count++ - at) * sizeof *found);
         found[at] = scheme;
     }
-    const char *own[] = {gm_chooser_own.name, gm_chooser_own.title, gm_chooser_own.formula, NULL};
+    const char *own[] = {gm_chooser_user.name, gm_chooser_user.title, gm_chooser_user.formula, NULL};
     if (count < GM_SHOT_SCHEMES && gm_search_rank(face->typed, own) >= 0) {
-        found[count++] = &gm_chooser_own;
+        found[count++] = &gm_chooser_user;
     }
     return count;
 }
@@ -113,8 +113,8 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
         return GM_KEY_DONE;
     }
     if (gm_key_is_enter(press->key)) {
-        if (!face->choice || face->choice == &gm_chooser_own) {
-            return face->choice ? GM_KEY_OWN : GM_KEY_DONE;
+        if (!face->choice || face->choice == &gm_chooser_user) {
+            return face->choice ? GM_KEY_TYPED : GM_KEY_DONE;
         }
         enum gm_order_kind kind = face->choosing == GM_CHOOSE_FORK ? GM_ORDER_FORK : GM_ORDER_SWITCH;
         face->choosing = GM_CHOOSE_NOTHING;
@@ -136,8 +136,9 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
         move_choice(face, press->shot, PAGE);
         return GM_KEY_DONE;
     case '?':
-        return face->choice && face->choice != &gm_chooser_own ? gm_keystroke_scheme_page(press, face->choice)
-                                                               : GM_KEY_DONE;
+        return face->choice && face->choice != &gm_chooser_user
+                   ? gm_keystroke_scheme_page(press, face->choice)
+                   : GM_KEY_DONE;
     default:
         if (gm_typed_key(face->typed, press->key)) {
             choose_best(face, press->shot);
@@ -178,7 +179,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
             }
         }
         gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = found[i]});
-        if (found[i] == &gm_chooser_own) {
+        if (found[i] == &gm_chooser_user) {
             gm_sheet_text(sheet, 4, row, found[i]->title, role, chosen);
         } else {
             gm_schemes_row(sheet, 4, row, found[i], columns, role, chosen);

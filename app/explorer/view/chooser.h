@@ -8,7 +8,7 @@
 /* The list of the schemes that fit: one is chosen for a switch or a fork. */
 
 /* The last one of the list: it stands for a scheme that is to be typed. */
-extern const struct gm_scheme gm_chooser_own;
+extern const struct gm_scheme gm_chooser_user;
 
 enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, enum gm_choosing choosing);
 /* A key while it is open. */

@@ -290,7 +290,7 @@ const struct gm_key_row gm_key_rows[] = {
      "formula",
      6,
      "a system of your own: edit the formula of this one, or type another",
-     .result = GM_KEY_OWN},
+     .result = GM_KEY_TYPED},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", .press = press_save},
     {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", .press = press_record},
     {{'y'},

@@ -6,11 +6,11 @@
 
 #include "app/explorer/view/chooser.h"
 #include "app/explorer/view/guide.h"
-#include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
 #include "app/explorer/view/side.h"
 #include "app/explorer/view/status.h"
 #include "app/explorer/view/studies.h"
+#include "app/explorer/view/typed_system.h"
 
 enum { SIDE_LEAST = 31, SIDE_MOST = 58 };
 
@@ -108,11 +108,11 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, shot);
         return;
     }
-    const int asked = gm_own_prompt_rows(face->own, cells->columns, cells->rows);
+    const int asked = gm_typed_prompt_rows(face->typed_prompt, cells->columns, cells->rows);
     if (asked) {
         const struct gm_sheet panel =
             gm_sheet_part(&whole, 0, cells->rows - 1 - asked, cells->columns, asked);
-        gm_own_prompt_draw(&panel, face->own);
+        gm_typed_prompt_draw(&panel, face->typed_prompt);
         rows = cells->rows - 1 - asked;
     }
     if (face->guide && !asked) {
@@ -148,7 +148,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
     }
     if (asked) {
         const struct gm_sheet last = gm_sheet_part(&whole, 0, cells->rows - 1, cells->columns, 1);
-        gm_own_prompt_keys(&last, face->own);
+        gm_typed_prompt_keys(&last, face->typed_prompt);
     } else if (below > 0) {
         gm_status_draw(&whole, shot, side);
     }

@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_VIEW_SCHEMES_H
 
 #include "app/explorer/surface/sheet.h"
-#include "app/lanes/shot.h"
+#include "app/runs/shot.h"
 
 /* Schemes in the rows of a list: title, claims and order in columns, the formula below. */
 

@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_VIEW_SIDE_H
 
 #include "app/explorer/surface/sheet.h"
-#include "app/lanes/shot.h"
+#include "app/runs/shot.h"
 
 /* The side panel: schemes, parameters with their sliders, what is observed. */
 

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
+#include "app/explorer/view/typed_system.h"
 #include "core/count.h"
 #include "render/cells/text.h"
 
@@ -22,7 +22,7 @@ enum {
 static const char *const headings[GM_START_GROUPS] = {NULL, "TOURS", "SYSTEMS", "ROOMS"};
 static const char *const group_names[GM_START_GROUPS] = {"scenes", "tours", "systems", "rooms"};
 
-bool gm_start_is_own(const struct gm_start_entry *entry)
+bool gm_start_is_user(const struct gm_start_entry *entry)
 {
     return entry->group == GM_START_SCENES && !entry->scene;
 }
@@ -213,7 +213,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    const int asked = gm_own_prompt_rows(face->own, whole.width, whole.height);
+    const int asked = gm_typed_prompt_rows(face->typed_prompt, whole.width, whole.height);
     const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked + 1 : below);
     int at = 0;
     if (fresh) {
@@ -239,7 +239,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         const struct gm_sheet right = gm_sheet_part(&whole, list + 3, at, whole.width - list - 4, rows - at);
         if (chosen->tour) {
             draw_tour(&right, chosen->tour);
-        } else if (gm_start_is_own(chosen)) {
+        } else if (gm_start_is_user(chosen)) {
             draw_own(&right);
         } else {
             draw_look(screen, &right, chosen, shot, said);
@@ -248,8 +248,8 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
     if (asked) {
         const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked),
                               last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
-        gm_own_prompt_draw(&panel, face->own);
-        gm_own_prompt_keys(&last, face->own);
+        gm_typed_prompt_draw(&panel, face->typed_prompt);
+        gm_typed_prompt_keys(&last, face->typed_prompt);
         return;
     }
     if (below == 2) {

@@ -31,7 +31,7 @@ struct gm_start {
 };
 
 /* Whether it is what somebody types. */
-bool gm_start_is_own(const struct gm_start_entry *entry);
+bool gm_start_is_user(const struct gm_start_entry *entry);
 /* The place of the first of the next group that something was found of, after that of the choice, or of the
    first; the choice where there is one group alone. */
 size_t gm_start_next_group(const struct gm_start *start);

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/explorer/surface/keystroke.h"
-#include "app/ground/arguments.h"
 
 /* 0: a tour alone shows it */
 static const char keys[GM_STUDY_COUNT] = {

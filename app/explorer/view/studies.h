@@ -4,7 +4,7 @@
 
 #include "app/explorer/background/study.h"
 #include "app/explorer/surface/sheet.h"
-#include "app/lanes/shot.h"
+#include "app/runs/shot.h"
 
 /* The background studies of the explorer, one of each kind, and which of them is on the screen. */
 

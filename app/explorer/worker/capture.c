@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/ground/arguments.h"
+#include "app/base/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
-#include "app/own/now.h"
+#include "app/words/current_values.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/explorer/worker/play.h"
 #include "app/explorer/worker/recorder.h"
-#include "app/lanes/shot.h"
+#include "app/runs/shot.h"
 
 /* What is kept of a session that is played: pictures, a movie, the command lines that redo it. */
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/interrupt.h"
 #include "app/explorer/background/job.h"
-#include "app/request/interrupt.h"
 #include "render/files/sink.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"

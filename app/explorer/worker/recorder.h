@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_WORKER_RECORDER_H
 #define GM_APP_EXPLORER_WORKER_RECORDER_H
 
-#include "app/request/interrupt.h"
+#include "app/base/interrupt.h"
 #include "render/layout/theme.h"
 
 /* A movie of what is seen: a thread that paints pictures and hands them to ffmpeg, so that steps

@@ -14,7 +14,7 @@
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
 #include "core/field/families/heat.h"
-#include "core/field/families/kdv_frames.h"
+#include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/problems/dirac.h"
@@ -99,7 +99,7 @@ static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequenc
 
 static double exact_breather(const struct gm_problem *problem, size_t i, double t)
 {
-    return gm_sine_gordon_exact(&breather, 15, gm_line_node(&problem->line, i), t);
+    return gm_sine_gordon_exact(&breather, 15, gm_grid1_node(&problem->line, i), t);
 }
 
 static void certify_wave(struct gm_certificate *certificate, double *farthest)
@@ -119,7 +119,7 @@ static void certify_wave(struct gm_certificate *certificate, double *farthest)
         const size_t points = (fine ? 1200u : certificate->scheme->needs & GM_NEEDS_PAIRS ? 302u : 301u) << k;
         const double length = fine ? 60 : 30;
         problem->line =
-            (struct gm_line){.points = points, .dx = length / (double)points, .first = -length / 2};
+            (struct gm_grid1){.points = points, .dx = length / (double)points, .first = -length / 2};
         problem->n = gm_wave_size(points);
         subject.dt = (fine ? 0.025 : 0.08) / (double)(1u << k);
         double *y = malloc(problem->n * sizeof *y);
@@ -143,7 +143,7 @@ static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu =
 
 static double exact_kdv(const struct gm_problem *problem, size_t i, double t)
 {
-    return gm_kdv_exact(&soliton, &problem->line, gm_line_node(&problem->line, i), t);
+    return gm_kdv_exact(&soliton, &problem->line, gm_grid1_node(&problem->line, i), t);
 }
 
 /* The difference between a run to t = 1 and one from a frame of velocity 2, which travels over whole nodes; or
@@ -154,9 +154,9 @@ static double frame_defect(const struct gm_field_subject *subject, const double 
         .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .lambda = 2};
     static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
     struct gm_field_subject rest = *subject, moving = *subject;
-    const struct gm_line *line = &subject->problem.line;
+    const struct gm_grid1 *grid = &subject->problem.line;
     const bool fixed = gm_kdv_fixed(&boosted, subject->scheme);
-    const size_t travelled = fixed ? (size_t)lround(boosted.lambda / line->dx) : 0;
+    const size_t travelled = fixed ? (size_t)lround(boosted.lambda / grid->dx) : 0;
     const double step = gm_kdv_defect(&subject->problem, subject->scheme, subject->dt, &symmetry, y);
     double *start = malloc(subject->problem.n * sizeof *start), largest = INFINITY;
     if (!start) {
@@ -168,8 +168,8 @@ static double frame_defect(const struct gm_field_subject *subject, const double 
         if (gm_field_begin(&moving, start)) {
             if (gm_run_until(rest.run, 1) == GM_OK && gm_run_until(moving.run, 1) == GM_OK) {
                 largest = isnan(step) ? 0 : step;
-                for (size_t i = 0; i < line->points; i++) {
-                    const double seen = gm_run_state(moving.run)[(i + travelled) % line->points];
+                for (size_t i = 0; i < grid->points; i++) {
+                    const double seen = gm_run_state(moving.run)[(i + travelled) % grid->points];
                     const double apart =
                         fabs(seen - boosted.lambda / boosted.eta - gm_run_state(rest.run)[i]);
                     largest = gm_larger(apart, largest);
@@ -194,7 +194,7 @@ static void certify_kdv(struct gm_certificate *certificate, double *farthest)
     double error[2] = {NAN, NAN};
     for (size_t k = 0; k < 2; k++) {
         const size_t points = 200u << k;
-        problem->line = (struct gm_line){.points = points, .dx = 40.0 / (double)points, .first = -20};
+        problem->line = (struct gm_grid1){.points = points, .dx = 40.0 / (double)points, .first = -20};
         problem->n = gm_wave_size(points);
         /* an explicit scheme follows dx^3, by less than a quarter */
         const struct gm_scheme *scheme = certificate->scheme;
@@ -230,7 +230,7 @@ static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, 
 static double exact_nls(const struct gm_problem *problem, size_t i, double t)
 {
     double re = 0, im = 0;
-    gm_nls_exact(&bright, &problem->line, gm_line_node(&problem->line, i), t, &re, &im);
+    gm_nls_exact(&bright, &problem->line, gm_grid1_node(&problem->line, i), t, &re, &im);
     return re;
 }
 
@@ -240,7 +240,7 @@ static double *nls_state(const struct gm_problem *problem)
     const size_t points = problem->line.points;
     double *y = malloc(2 * points * sizeof *y);
     for (size_t i = 0; y && i < points; i++) {
-        gm_nls_exact(&bright, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
+        gm_nls_exact(&bright, &problem->line, gm_grid1_node(&problem->line, i), 0, &y[i], &y[points + i]);
     }
     return y;
 }
@@ -257,7 +257,7 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
     double error[2] = {NAN, NAN};
     for (size_t k = 0; k < 2; k++) {
         const size_t points = 300u << k;
-        problem->line = (struct gm_line){.points = points, .dx = 40.0 / (double)points, .first = -20};
+        problem->line = (struct gm_grid1){.points = points, .dx = 40.0 / (double)points, .first = -20};
         problem->n = 2 * points;
         subject.dt = (explicit ? 0.005 : 0.02) / (double)(1u << k);
         double *y = nls_state(problem);
@@ -286,7 +286,7 @@ static const struct gm_dirac standing = {.mass = 1, .coupling = 0.5, .frequency 
 static double exact_dirac(const struct gm_problem *problem, size_t i, double t)
 {
     double s[4];
-    gm_dirac_exact(&standing, gm_line_node(&problem->line, i), t, s);
+    gm_dirac_exact(&standing, gm_grid1_node(&problem->line, i), t, s);
     return s[0];
 }
 
@@ -301,7 +301,7 @@ static void certify_dirac(struct gm_certificate *certificate, double *farthest)
     double error[2] = {NAN, NAN};
     for (size_t k = 0; k < 2; k++) {
         const size_t points = 361u << k;
-        problem->line = (struct gm_line){.points = points, .dx = 60 / (double)points, .first = -30};
+        problem->line = (struct gm_grid1){.points = points, .dx = 60 / (double)points, .first = -30};
         problem->n = 4 * points;
         subject.dt = 0.05 / (double)(1u << k);
         double *y = malloc(problem->n * sizeof *y);
@@ -310,7 +310,7 @@ static void certify_dirac(struct gm_certificate *certificate, double *farthest)
         }
         for (size_t i = 0; i < points; i++) {
             double s[4];
-            gm_dirac_exact(&standing, gm_line_node(&problem->line, i), 0, s);
+            gm_dirac_exact(&standing, gm_grid1_node(&problem->line, i), 0, s);
             for (size_t c = 0; c < 4; c++) {
                 y[c * points + i] = s[c];
             }
@@ -335,11 +335,11 @@ static bool front_after(const struct gm_scheme *scheme, double lambda, double dt
         .frame = GM_FRAME_MOVING, .viscosity = 0.1, .lambda = lambda, .a = -0.3, .d = 0.2};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &burgers;
-    problem.line = (struct gm_line){.points = FRONT, .dx = 0.05, .first = -2};
+    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.05, .first = -2};
     problem.n = gm_burgers_size(&burgers, FRONT);
     double y[2 * FRONT + 1] = {0};
     for (size_t j = 0; j < FRONT; j++) {
-        y[j] = gm_burgers_exact(&burgers, false, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_burgers_exact(&burgers, false, gm_grid1_node(&problem.line, j), 0);
     }
     struct gm_run *run = gm_run_open(&problem, scheme, &no_settings, 0, dt, y);
     if (!run) {
@@ -387,11 +387,11 @@ static bool heat_after(const struct gm_scheme *scheme, double lambda, double dt,
         .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .lambda = lambda, .age = 0.25};
     struct gm_problem problem = gm_problem_heat;
     problem.parameters = &heat;
-    problem.line = (struct gm_line){.points = FRONT, .dx = 0.1, .first = -4};
+    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.1, .first = -4};
     problem.n = FRONT;
     double y[FRONT];
     for (size_t j = 0; j < FRONT; j++) {
-        y[j] = gm_heat_exact(&heat, false, gm_line_node(&problem.line, j), 0);
+        y[j] = gm_heat_exact(&heat, false, gm_grid1_node(&problem.line, j), 0);
     }
     struct gm_run *run = gm_run_open(&problem, scheme, &no_settings, 0, dt, y);
     if (!run) {
@@ -399,7 +399,7 @@ static bool heat_after(const struct gm_scheme *scheme, double lambda, double dt,
     }
     const bool good = gm_run_until(run, until) == GM_OK;
     for (size_t j = 0; j < FRONT; j++) {
-        u[j] = gm_run_state(run)[j] / gm_heat_factor(&heat, false, gm_line_node(&problem.line, j), run->t);
+        u[j] = gm_run_state(run)[j] / gm_heat_factor(&heat, false, gm_grid1_node(&problem.line, j), run->t);
     }
     gm_run_close(run);
     return good;
@@ -414,7 +414,7 @@ static void certify_heat(struct gm_certificate *certificate, double *farthest)
     static const struct gm_heat heat = {.diffusivity = 1};
     struct gm_problem problem = gm_problem_heat;
     problem.parameters = &heat;
-    problem.line = (struct gm_line){.points = FRONT, .dx = 0.1, .first = -4};
+    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.1, .first = -4};
     double level[3][FRONT], boosted[FRONT];
     bool good = true;
     for (int k = 0; k < 3; k++) {

@@ -6,7 +6,7 @@
 
 #include "core/field/families/burgers.h"
 #include "core/field/families/heat.h"
-#include "core/field/families/kdv_frames.h"
+#include "core/field/families/kdv_moving_frames.h"
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
@@ -70,7 +70,7 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
 {
     const struct gm_problem *problem = run->problem;
     const struct gm_field *field = gm_field_of(problem);
-    const size_t points = problem->line.points, seen = gm_line_seen(&problem->line);
+    const size_t points = problem->line.points, seen = gm_grid1_seen(&problem->line);
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
     const bool moving = moves(run);

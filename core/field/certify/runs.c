@@ -228,8 +228,8 @@ static double tell(const struct refined *refined, double by_differences, double 
 /* The largest difference of so many nodes around the ring, of the start. */
 static double largest_difference(const struct gm_certified_system *system, int order)
 {
-    const struct gm_line *line = &system->problem->line;
-    const size_t points = line->points;
+    const struct gm_grid1 *grid = &system->problem->line;
+    const size_t points = grid->points;
     double largest = 0;
     for (size_t c = 0; c < system->problem->n / points; c++) {
         for (size_t i = 0; i < points && moves(system->problem, c); i++) {
@@ -237,7 +237,7 @@ static double largest_difference(const struct gm_certified_system *system, int o
             for (int j = 0; j <= order; j++) {
                 const size_t node = i + (size_t)j;
                 sum += weight *
-                       (system->start[c * points + node % points] + line->jump * (double)(node / points));
+                       (system->start[c * points + node % points] + grid->jump * (double)(node / points));
                 weight *= -(double)(order - j) / (j + 1);
             }
             largest = fmax(fabs(sum), largest);

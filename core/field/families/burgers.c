@@ -314,23 +314,23 @@ static enum gm_status make_step(const struct gm_task *task, const struct gm_burg
                                 double *level[2], double *scratch, double t, struct gm_progress *progress)
 {
     const struct gm_burgers_row *row = task->scheme->coefficients;
-    const struct gm_line *line = &task->problem->line;
-    const size_t last = line->points - 1;
+    const struct gm_grid1 *grid = &task->problem->line;
+    const size_t last = grid->points - 1;
     const bool fixed = gm_burgers_fixed(burgers, task->scheme);
     const struct gm_burgers_step step = {
         .burgers = burgers,
-        .points = line->points,
-        .h = line->dx,
+        .points = grid->points,
+        .h = grid->dx,
         .k = task->dt,
         .sigma = fixed ? 0 : burgers->lambda * task->dt,
         .u = level[0],
         .out = level[1],
         .scratch = scratch,
     };
-    level[1][0] = gm_burgers_exact(burgers, fixed, gm_line_node(line, 0), t);
-    level[1][last] = gm_burgers_exact(burgers, fixed, gm_line_node(line, last), t);
+    level[1][0] = gm_burgers_exact(burgers, fixed, gm_grid1_node(grid, 0), t);
+    level[1][last] = gm_burgers_exact(burgers, fixed, gm_grid1_node(grid, last), t);
     enum gm_status status = row->method(&step, progress);
-    if (status == GM_OK && !within(level[1], line->points, burgers->lambda, task->limit)) {
+    if (status == GM_OK && !within(level[1], grid->points, burgers->lambda, task->limit)) {
         status = GM_BLOW_UP;
     }
     if (status == GM_OK) {

@@ -105,16 +105,16 @@ double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *
                       const struct gm_heat_symmetry *symmetry, const double *u)
 {
     const struct row *row = scheme->coefficients;
-    const struct gm_line *line = &problem->line;
+    const struct gm_grid1 *grid = &problem->line;
     const double nu = gm_heat_of(problem)->diffusivity;
     double largest = 0;
-    for (size_t j = 1; j + 1 < line->points; j++) {
-        const double here = gm_line_node(line, j) - gm_line_node(line, (line->points - 1) / 2);
+    for (size_t j = 1; j + 1 < grid->points; j++) {
+        const double here = gm_grid1_node(grid, j) - gm_grid1_node(grid, (grid->points - 1) / 2);
         double v[3] = {0}, carried[3], w[3] = {0};
-        struct step step = {.points = 3, .viscosity = nu, .h = line->dx, .k = k, .u = u + j - 1, .v = v};
+        struct step step = {.points = 3, .viscosity = nu, .h = grid->dx, .k = k, .u = u + j - 1, .v = v};
         row->make(&step);
         for (int i = 0; i < 3; i++) {
-            const struct gm_event event = {.x = here + (i - 1) * line->dx, .u = u[j - 1 + (size_t)i]};
+            const struct gm_event event = {.x = here + (i - 1) * grid->dx, .u = u[j - 1 + (size_t)i]};
             carried[i] = gm_heat_carried(nu, symmetry, event).u;
         }
         const struct gm_event arrival =
@@ -154,14 +154,14 @@ static struct gm_progress advance(const struct gm_task *task)
     struct work *work = task->workspace;
     const struct row *row = task->scheme->coefficients;
     const struct gm_heat *heat = gm_heat_of(task->problem);
-    const struct gm_line *line = &task->problem->line;
+    const struct gm_grid1 *grid = &task->problem->line;
     const size_t last = work->points - 1;
     const bool fixed = gm_heat_fixed(heat, task->scheme);
     struct gm_progress progress = {.status = GM_OK};
     struct step step = {
         .points = work->points,
         .viscosity = heat->diffusivity,
-        .h = line->dx,
+        .h = grid->dx,
         .k = task->dt,
         .sigma = fixed ? 0 : heat->lambda * task->dt,
     };
@@ -170,8 +170,8 @@ static struct gm_progress advance(const struct gm_task *task)
         const double t = task->t0 + (double)(task->n + i + 1) * task->dt;
         step.u = work->level[i % 2];
         step.v = work->level[(i + 1) % 2];
-        step.v[0] = gm_heat_exact(heat, fixed, gm_line_node(line, 0), t);
-        step.v[last] = gm_heat_exact(heat, fixed, gm_line_node(line, last), t);
+        step.v[0] = gm_heat_exact(heat, fixed, gm_grid1_node(grid, 0), t);
+        step.v[last] = gm_heat_exact(heat, fixed, gm_grid1_node(grid, last), t);
         row->make(&step);
         progress.evaluations++;
         if (!gm_field_within(step.v, work->points, task->limit)) {

@@ -87,8 +87,8 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     double *next = work->level[2];
     memcpy(work->level[1], task->y, size);
     memcpy(work->level[0], task->y + points, size);
-    gm_line_close(work->level[1], points, jump);
-    gm_line_close(work->level[0], points, jump);
+    gm_grid1_close(work->level[1], points, jump);
+    gm_grid1_close(work->level[0], points, jump);
     const bool regular = gap == -task->dt, remembers = row->keeps_change && task->memory;
     if (remembers) {
         memcpy(work->change, task->memory, size);
@@ -115,7 +115,7 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
         if (progress.status != GM_OK) {
             return progress;
         }
-        gm_line_close(next, points, jump);
+        gm_grid1_close(next, points, jump);
         next = rotate(work->level);
         progress.done++;
     }

@@ -47,7 +47,7 @@ void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme 
 void gm_two_step_close(void *workspace);
 
 /* Sets the two end points of a level, or of anything that is periodic up to `jump`. */
-static inline void gm_line_close(double *level, size_t points, double jump)
+static inline void gm_grid1_close(double *level, size_t points, double jump)
 {
     level[-1] = level[points - 1] - jump;
     level[points] = level[0] + jump;

@@ -3,7 +3,7 @@
 #define GM_CORE_FIELD_PROBLEMS_BURGERS_H
 
 #include "core/field/field.h"
-#include "core/field/problems/frames.h"
+#include "core/field/problems/moving_frames.h"
 
 /* Burgers' equation u_t + u u_x = nu u_xx and its frames of reference,
        (t, x, u) -> (t, x + lambda (t - t0), u + lambda).

@@ -5,7 +5,7 @@
 #define GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 
 #include "core/field/field.h"
-#include "core/field/problems/frames.h"
+#include "core/field/problems/moving_frames.h"
 
 /* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem, and its frames of
    reference,
@@ -31,9 +31,9 @@ static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
     return problem->parameters;
 }
 /* At the place x of the frame, NaN for the cosine at t > 0; the formulas above are those for lambda = 0. */
-double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t);
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double x, double t);
 /* Whether that solves the equation on the ring too, but for tails of a thousandth of a soliton's height. */
-bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t);
+bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double t);
 /* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with
    exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
@@ -58,10 +58,10 @@ static inline const struct gm_nls *gm_nls_of(const struct gm_problem *problem)
     return problem->parameters;
 }
 /* NaN for a collision at t > 0. */
-void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_grid1 *grid, double x, double t, double *re,
                   double *im);
 /* Whether that solves the equation on the ring too, but for tails of a thousandth of the amplitude. */
-bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_line *line, double t);
+bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_grid1 *grid, double t);
 
 /* dx sum |A psi|^2;  dx sum [|s|^2 - |v|^4 / 2], of the profiles of both parts;  dx sum |psi|^2 */
 double gm_nls_charge(const struct gm_problem *problem, const double *y);

@@ -3,7 +3,7 @@
 #define GM_CORE_FIELD_PROBLEMS_HEAT_H
 
 #include "core/field/field.h"
-#include "core/field/problems/frames.h"
+#include "core/field/problems/moving_frames.h"
 
 /* The heat equation u_t = nu u_xx for u > 0 and its frames of reference,
        (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu))).

@@ -139,9 +139,9 @@ static void content(const struct gm_problem *problem, double dt, double *means, 
 }
 
 /* The distance from a place on the ring. */
-static double around(const struct gm_line *line, double distance)
+static double around(const struct gm_grid1 *grid, double distance)
 {
-    const double period = line->dx * (double)line->points;
+    const double period = grid->dx * (double)grid->points;
     return distance - period * floor(distance / period + 0.5);
 }
 
@@ -170,9 +170,9 @@ static double two_solitons(double a, double b, double log_a)
    meeting moves it forwards by shift / fast and the other one back by shift / slow, so that the m-th is
    the first one with other starts. What counts is the nearest meeting; its own images, a period apart, are
    added. */
-static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double x, double t)
 {
-    const double period = line->dx * (double)line->points;
+    const double period = grid->dx * (double)grid->points;
     const double shift = 2 * log((fast + slow) / (fast - slow));
     const double overtakes = kdv->mu * (fast * fast - slow * slow) * t;
     const double first = slow_start + shift / (2 * slow) - (fast_start + shift / (2 * fast));
@@ -180,7 +180,7 @@ static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line
     const double passed = between > 0 ? floor((overtakes - first) / between + 0.5) : 0;
     const double fast_at = fast_start + passed * shift / fast + kdv->mu * fast * fast * t;
     const double slow_at = slow_start + passed * (period - shift / slow) + kdv->mu * slow * slow * t;
-    const double middle = (fast_at + slow_at) / 2, place = middle + around(line, x - middle);
+    const double middle = (fast_at + slow_at) / 2, place = middle + around(grid, x - middle);
     double sum = 0;
     for (int image = -1; image <= 1; image++) {
         const double there = place + image * period;
@@ -190,27 +190,27 @@ static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line
 }
 
 /* lambda = 0 */
-static double unboosted(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+static double unboosted(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double x, double t)
 {
     if (kdv->initial == GM_KDV_COSINE) {
         return t == 0 ? cos(M_PI * x) : NAN;
     }
     if (kdv->initial == GM_KDV_TWO) {
-        return 12 * kdv->mu / kdv->eta * two_solitons_around(kdv, line, x, t);
+        return 12 * kdv->mu / kdv->eta * two_solitons_around(kdv, grid, x, t);
     }
-    const double c = kdv->velocity, away = around(line, x - kdv->position - c * t);
+    const double c = kdv->velocity, away = around(grid, x - kdv->position - c * t);
     const double sech = 1 / cosh(sqrt(c / kdv->mu) / 2 * away);
     return 3 * c / kdv->eta * sech * sech;
 }
 
-double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double x, double t)
 {
-    return unboosted(kdv, line, x - kdv->lambda * t, t) + kdv->lambda / kdv->eta;
+    return unboosted(kdv, grid, x - kdv->lambda * t, t) + kdv->lambda / kdv->eta;
 }
 
-bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t)
+bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double t)
 {
-    const double half = line->dx * (double)line->points / 2;
+    const double half = grid->dx * (double)grid->points / 2;
     const double rate = kdv->initial == GM_KDV_TWO ? slow : sqrt(kdv->velocity / kdv->mu);
     return t == 0 || (kdv->initial != GM_KDV_COSINE && 4 * exp(-rate * half) <= 1e-3);
 }
@@ -218,18 +218,18 @@ bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, doubl
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y)
 {
     const struct gm_kdv *kdv = gm_kdv_of(problem);
-    const struct gm_line *line = &problem->line;
-    for (size_t i = 0; i < line->points; i++) {
-        const double x = gm_line_node(line, i);
-        y[i] = gm_kdv_exact(kdv, line, x, 0);
+    const struct gm_grid1 *grid = &problem->line;
+    for (size_t i = 0; i < grid->points; i++) {
+        const double x = gm_grid1_node(grid, i);
+        y[i] = gm_kdv_exact(kdv, grid, x, 0);
         if (kdv->initial == GM_KDV_COSINE) {
             const double slope = -M_PI * sin(M_PI * x), third = M_PI * M_PI * M_PI * sin(M_PI * x);
-            y[line->points + i] = y[i] - dt * (kdv->eta * y[i] * slope + kdv->mu * third);
+            y[grid->points + i] = y[i] - dt * (kdv->eta * y[i] * slope + kdv->mu * third);
         } else {
-            y[line->points + i] = gm_kdv_exact(kdv, line, x, dt);
+            y[grid->points + i] = gm_kdv_exact(kdv, grid, x, dt);
         }
     }
-    y[2 * line->points] = dt;
+    y[2 * grid->points] = dt;
 }
 
 /* What the original frame sees 0 as. */

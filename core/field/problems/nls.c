@@ -127,10 +127,10 @@ static void content(const struct gm_problem *problem, double dt, double *means, 
 }
 
 /* Adds one soliton; on the ring its phase follows it. */
-static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, double c, double x0, double x,
+static void add_soliton(const struct gm_nls *nls, const struct gm_grid1 *grid, double c, double x0, double x,
                         double t, double *re, double *im)
 {
-    const double period = line->dx * (double)line->points, a = nls->amplitude;
+    const double period = grid->dx * (double)grid->points, a = nls->amplitude;
     double away = x - x0 - c * t;
     away -= period * floor(away / period + 0.5);
     const double size = sqrt(2) * a / cosh(a * away), phase = c * away / 2 + (a * a + c * c / 4) * t;
@@ -138,19 +138,19 @@ static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, do
     *im += size * sin(phase);
 }
 
-void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_grid1 *grid, double x, double t, double *re,
                   double *im)
 {
     *re = *im = nls->initial == GM_NLS_COLLISION && t != 0 ? NAN : 0;
-    add_soliton(nls, line, nls->velocity, nls->position, x, t, re, im);
+    add_soliton(nls, grid, nls->velocity, nls->position, x, t, re, im);
     if (nls->initial == GM_NLS_COLLISION) {
-        add_soliton(nls, line, -nls->velocity, -nls->position, x, t, re, im);
+        add_soliton(nls, grid, -nls->velocity, -nls->position, x, t, re, im);
     }
 }
 
-bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_line *line, double t)
+bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_grid1 *grid, double t)
 {
-    const double half = line->dx * (double)line->points / 2;
+    const double half = grid->dx * (double)grid->points / 2;
     return t == 0 || (nls->initial == GM_NLS_SOLITON && 2 * exp(-nls->amplitude * half) <= 1e-3);
 }
 

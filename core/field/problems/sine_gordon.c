@@ -82,14 +82,14 @@ bool gm_sine_gordon_is_known(const struct gm_sine_gordon *solution, double half_
 
 void gm_sine_gordon_levels(const struct gm_problem *problem, double t, double gap, double *y)
 {
-    const struct gm_line *line = &problem->line;
-    const double half_length = line->dx * (double)line->points / 2;
-    for (size_t i = 0; i < line->points; i++) {
-        const double x = line->first + (double)i * line->dx;
+    const struct gm_grid1 *grid = &problem->line;
+    const double half_length = grid->dx * (double)grid->points / 2;
+    for (size_t i = 0; i < grid->points; i++) {
+        const double x = grid->first + (double)i * grid->dx;
         y[i] = gm_sine_gordon_exact(problem->parameters, half_length, x, t);
-        y[line->points + i] = gm_sine_gordon_exact(problem->parameters, half_length, x, t + gap);
+        y[grid->points + i] = gm_sine_gordon_exact(problem->parameters, half_length, x, t + gap);
     }
-    y[2 * line->points] = gap;
+    y[2 * grid->points] = gap;
 }
 
 /* As a run leaves it: the other level is the one before. */

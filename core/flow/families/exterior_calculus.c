@@ -15,8 +15,8 @@
 #include <string.h>
 
 #include "core/count.h"
-#include "core/flow/beside.h"
 #include "core/flow/families/families.h"
+#include "core/flow/second_thread.h"
 #include "core/flow/solver.h"
 #include "core/flow/tracers.h"
 

@@ -228,7 +228,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                                     : NULL;
     certificate->order_holds = !(certificate->order <= scheme->order - 0.15);
     gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
-                            scheme->family->own_time ? "the scheme chooses its steps"
+                            scheme->family->adaptive ? "the scheme chooses its steps"
                                                      : "the law is measured on 3 nodes: points=3");
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *verdict = &certificate->claims[bit];

@@ -112,5 +112,5 @@ const struct gm_family gm_family_adaptive = {
     .workspace_open = gm_multiplier_workspace_open,
     .workspace_close = gm_multiplier_workspace_close,
     .workspace_reset = gm_multiplier_workspace_reset,
-    .own_time = true,
+    .adaptive = true,
 };

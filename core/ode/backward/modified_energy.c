@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/count.h"
-#include "core/formula/derivative.h"
+#include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/ode/ode.h"
 #include "core/tape.h"

@@ -293,7 +293,7 @@ double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme
 static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  bool reflected)
 {
-    const int64_t steps = scheme->family->own_time ? 3 : 1;
+    const int64_t steps = scheme->family->adaptive ? 3 : 1;
     const size_t n = gm_subject_components(subject, scheme);
     const double scale = subject->scale > 0 ? subject->scale : 1, push = 1e-12 * scale;
     double start[MOST], back[MOST], pushed[MOST];
@@ -321,7 +321,7 @@ static struct defect of_reflection(const struct gm_subject *subject, const struc
 
 static double step_of(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
-    return scheme->family->own_time ? subject->dt / 4 : subject->dt;
+    return scheme->family->adaptive ? subject->dt / 4 : subject->dt;
 }
 
 double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
@@ -339,11 +339,11 @@ double gm_reversibility_defect(const struct gm_subject *subject, const struct gm
 static bool go_on(const struct gm_subject *subject, const struct gm_scheme *scheme, double *end)
 {
     /* A scheme that chooses its step may end for want of one: what it has done counts. */
-    const bool own_time = scheme->family->own_time;
-    const double dt = own_time ? subject->dt / 200 : subject->dt / 12;
+    const bool adaptive = scheme->family->adaptive;
+    const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
     double whole[MOST];
     gm_subject_start(subject, scheme, whole);
-    return gm_subject_advance(subject, scheme, dt, own_time ? 1000 : 100, 1, whole, end) || own_time;
+    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, 1, whole, end) || adaptive;
 }
 
 struct gm_manifold_defects gm_constraint_defects(const struct gm_subject *subject,

@@ -147,7 +147,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
              gm_reversibility_defect(subject, scheme, tolerance(certificate, GM_REVERSIBLE)), name);
     }
     const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
-    if (!scheme->family->own_time && subject->problem.n <= GM_SUBJECT_TANGENTS) {
+    if (!scheme->family->adaptive && subject->problem.n <= GM_SUBJECT_TANGENTS) {
         if (subject->hamiltonian) {
             note(certificate, GM_SYMPLECTIC,
                  gm_symplecticity_defect(subject, scheme, tolerance(certificate, GM_SYMPLECTIC)), name);

@@ -122,14 +122,14 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     }
     /* The higher the order, the longer the time until round-off is small beside the error. The variational
        schemes that choose their step may not reach a turning point. */
-    const bool own_time = scheme->family->own_time;
+    const bool adaptive = scheme->family->adaptive;
     const double unit = subject->unit > 0 ? subject->unit : 1,
                  scale = subject->scale > 0 ? subject->scale : 1;
     const bool varies_time = scheme->family->parameters == gm_settings_of_variational_time;
     const double span = varies_time ? 0.4 : scheme->order < 5 ? 2 : 10;
     const double plateau = 1e-12 * scale, ceiling = 0.1 * scale, until = span * unit;
     double exact[TIMES][GM_SUBJECT_COMPONENTS];
-    if (!own_time && !solve_at_times(subject, until, exact)) {
+    if (!adaptive && !solve_at_times(subject, until, exact)) {
         return NAN;
     }
     /* the finest steps, a factor of two apart, whose error stands clear of round-off */
@@ -139,15 +139,15 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     /* of the highest orders that is where steps are large */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const int64_t before = between;
-        const double finer = (own_time ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
+        const double finer = (adaptive ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
         between = lround(finer);
-        if (!own_time && between == before) {
+        if (!adaptive && between == before) {
             continue;
         }
-        const double dt = until / (TIMES * (own_time ? finer : (double)between));
+        const double dt = until / (TIMES * (adaptive ? finer : (double)between));
         const struct gm_settings settings = {
             .compensated = 1, .binding = 5, .tau0 = dt, .newmark_beta = 0.15};
-        const double error = own_time ? error_at_own_time(subject, scheme, &settings, dt, until)
+        const double error = adaptive ? error_at_own_time(subject, scheme, &settings, dt, until)
                                       : error_of(subject, scheme, &settings, dt, between, exact);
         if (error < plateau) {
             break;

@@ -14,7 +14,7 @@
 #include "core/scheme.h"
 
 #define GM_PASS_SCALAR
-#include "core/ode/kernel/lane.h"
+#include "core/ode/kernel/simd.h"
 
 #include GM_KERNELS
 

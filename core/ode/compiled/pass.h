@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of core/ode/compiled/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
 
-#include "core/ode/kernel/lane.h"
+#include "core/ode/kernel/simd.h"
 
 #include GM_KERNELS
 

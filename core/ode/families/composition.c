@@ -23,7 +23,7 @@ struct workspace {
 bool gm_scheme_composes(const struct gm_scheme *scheme)
 {
     const struct gm_family *family = scheme->family;
-    return family->kind == &gm_kind_ode && !family->memory && !family->own_time && !family->doubled &&
+    return family->kind == &gm_kind_ode && !family->memory && !family->adaptive && !family->doubled &&
            !family->not_resumable;
 }
 

@@ -111,7 +111,7 @@ struct work {
 static void workspace_close(void *workspace)
 {
     struct gm_members *members = workspace;
-    struct work *work = members->own;
+    struct work *work = members->family;
     if (work) {
         gm_modes_close(&work->modes);
         free(work->matrices);
@@ -132,7 +132,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         free(work);
         return NULL;
     }
-    members->own = work;
+    members->family = work;
     work->matrices =
         malloc(gm_modes_half(points) * row->stages * PER_STAGE * fields * fields * sizeof *work->matrices);
     work->state = malloc((2 + row->stages) * n * sizeof *work->state);
@@ -203,7 +203,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     const struct exponential *row = task->scheme->coefficients;
     const struct gm_semilinear *semilinear = gm_ode_of(task->problem)->semilinear;
-    struct work *work = members->own;
+    struct work *work = members->family;
     if (work->dt != task->dt) {
         make_matrices(task, work);
     }

@@ -192,7 +192,7 @@ struct gm_tangent *gm_tangent_open(struct gm_run *run)
     if (good && gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(run->scheme, &coefficients)) {
         good = open_stages(tangent, &coefficients);
         gm_coefficients_close(&coefficients);
-        tangent->together = tangent->memory == 0 && !family->own_time;
+        tangent->together = tangent->memory == 0 && !family->adaptive;
     }
     if (!good) {
         gm_tangent_close(tangent);

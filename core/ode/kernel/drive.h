@@ -141,23 +141,23 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
 {
     /* copies, which no store to the state can change */
     const struct gm_problem problem = *task->problem;
-    struct gm_task own = *task;
-    own.problem = &problem;
+    struct gm_task self = *task;
+    self.problem = &problem;
     const size_t size = (size_t)(GM_LANES * GM_ABREAST), m = problem.m, last = m - size, stretch = 512 * size;
-    struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
+    struct K(counts) counts = {.lanes = GM_LANES, .continued = self.steps_before > 0};
     struct K(block) end[GM_ABREAST];
     mask solved = K(all)(), farthest = K(other)(solved);
-    GM_DRIVE_NAME(few)(&own, row, compensated, last, end, &counts, &solved, &farthest);
+    GM_DRIVE_NAME(few)(&self, row, compensated, last, end, &counts, &solved, &farthest);
     for (size_t done = 0; done < last; done += stretch) {
-        const size_t from = own.steps_before % 2 == 0 ? done : (last - 1) / stretch * stretch - done;
+        const size_t from = self.steps_before % 2 == 0 ? done : (last - 1) / stretch * stretch - done;
         const size_t to = from + stretch < last ? from + stretch : last;
         for (size_t first = from; first < to; first += size) {
             struct K(block) block[GM_ABREAST];
-            GM_DRIVE_NAME(few)(&own, row, compensated, first, block, &counts, &solved, &farthest);
-            GM_DRIVE_NAME(put)(&own, compensated, first, block);
+            GM_DRIVE_NAME(few)(&self, row, compensated, first, block, &counts, &solved, &farthest);
+            GM_DRIVE_NAME(put)(&self, compensated, first, block);
         }
     }
-    GM_DRIVE_NAME(put)(&own, compensated, last, end);
+    GM_DRIVE_NAME(put)(&self, compensated, last, end);
     if (!K(everywhere)(solved) || K(somewhere_beyond)(farthest, task->limit)) {
         return false;
     }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of formulas over the lane type, for kernels that are written from formulas: K(value_SIN)(a,
-   b). Each is the C of core/formula/operations.def, by which the interpreter computes as well, lane by lane;
+   b). Each is the C of core/expression/operations.def, by which the interpreter computes as well, lane by lane;
    those that registers have are one operation. Included for each pass. */
-#include "core/formula/arithmetic.h"
+#include "core/expression/arithmetic.h"
 
 /* Of registers they are functions: lane by lane in each place they are most of a compiler's time. */
 #undef GM_OF_LIBRARY
@@ -21,7 +21,7 @@
         }                                                                                                    \
         return x;                                                                                            \
     }
-#include "core/formula/operations.def"
+#include "core/expression/operations.def"
 #undef GM_OPERATION
 
 GM_INLINE real K(smaller)(real a, real b)

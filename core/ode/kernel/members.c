@@ -15,7 +15,7 @@ struct gm_members *gm_members_open(const struct gm_problem *problem, size_t reme
     if (members) {
         members->n = problem->n;
         members->remembered = remembered;
-        members->y = members->room;
+        members->y = members->storage;
         members->memory = members->y + problem->n;
         members->scratch = members->memory + remembered + problem->n; /* a carry between */
     }
@@ -50,7 +50,7 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
 {
     struct gm_members *members = task->workspace;
     const size_t n = members->n, m = task->problem->m;
-    const bool own_time = task->scheme->family->own_time;
+    const bool adaptive = task->scheme->family->adaptive;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
     members->carry = task->carry ? members->memory + members->remembered : NULL;
     for (size_t member = 0; member < m; member++) {
@@ -69,7 +69,7 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
             if (status != GM_OK) {
                 progress.done = done;
                 progress.status = status;
-            } else if (own_time && progress.t >= task->until) {
+            } else if (adaptive && progress.t >= task->until) {
                 progress.done = done + 1;
             }
         }

@@ -19,8 +19,8 @@ struct gm_members {
     double *memory;  /* remembered */
     double *carry;   /* n, what compensated summation carries over; NULL: plain */
     double *scratch; /* as many doubles as were asked for */
-    void *own;       /* the family's, who closes it; NULL */
-    double room[];
+    void *family;    /* the family's, who closes it; NULL */
+    double storage[];
 };
 
 /* Room for a member of the problem with `remembered` doubles of memory and `scratch` doubles of scratch.

@@ -17,7 +17,7 @@ enum { MOST_MEMBERS = 248, IN_CACHE = 4096, LINE = 64 };
 struct tiles {
     size_t members; /* of a tile */
     double *y, *carry, *scratch, *shared;
-    _Alignas(LINE) double room[];
+    _Alignas(LINE) double storage[];
 };
 
 static size_t members_of(const struct gm_problem *problem)
@@ -35,7 +35,7 @@ void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t sha
     struct tiles *tiles = aligned_alloc(LINE, (size + LINE - 1) / LINE * LINE);
     if (tiles) {
         tiles->members = members;
-        tiles->y = tiles->room;
+        tiles->y = tiles->storage;
         tiles->carry = tiles->y + gathered;
         tiles->scratch = tiles->carry + gathered;
         tiles->shared = tiles->scratch + scratch * members;

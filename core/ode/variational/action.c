@@ -41,15 +41,15 @@ size_t gm_action_room(const struct gm_problem *problem)
     return 2 * half + 4 * half * half + (is_given(problem) ? 0 : 1 + 2 * half * half + half + 2 * n + n * n);
 }
 
-struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *room)
+struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scratch)
 {
     const size_t n = problem->n, half = n / 2, square = half * half;
-    double *matrices = room + 2 * half, *own = matrices + 4 * square;
+    double *matrices = scratch + 2 * half, *own = matrices + 4 * square;
     struct gm_action_at action = {
         .problem = problem,
         .half = half,
-        .motion = {.momenta = room,
-                   .forces = room + half,
+        .motion = {.momenta = scratch,
+                   .forces = scratch + half,
                    .momenta_q = matrices,
                    .momenta_v = matrices + square,
                    .forces_q = matrices + 2 * square,

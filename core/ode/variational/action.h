@@ -23,7 +23,7 @@ struct gm_action_at {
 
 /* Doubles of room, which begins as zeros and keeps A^-1 and b from one evaluation to the next. */
 size_t gm_action_room(const struct gm_problem *problem);
-struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *room);
+struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scratch);
 
 /* Fills action->motion at `at`: q, v and, where the state has it, t. False where A is singular. */
 bool gm_action_evaluate(const struct gm_action_at *action, const double *at);

@@ -12,7 +12,7 @@
 
 enum { ITERATIONS = 50 };
 
-size_t gm_manifold_room(const struct gm_problem *problem)
+size_t gm_manifold_scratch_size(const struct gm_problem *problem)
 {
     const size_t half = problem->n / 2, constraints = gm_action_constraints(problem),
                  all = half + constraints;
@@ -20,11 +20,11 @@ size_t gm_manifold_room(const struct gm_problem *problem)
            all * all;
 }
 
-struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *room)
+struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *scratch)
 {
     const size_t half = problem->n / 2, constraints = gm_action_constraints(problem);
-    struct gm_manifold manifold = {.action = gm_action_lay(problem, room), .constraints = constraints};
-    manifold.at = room + gm_action_room(problem);
+    struct gm_manifold manifold = {.action = gm_action_lay(problem, scratch), .constraints = constraints};
+    manifold.at = scratch + gm_action_room(problem);
     manifold.g = manifold.at + problem->n;
     manifold.slopes = manifold.g + constraints;
     manifold.curvature = manifold.slopes + constraints * half;
@@ -154,27 +154,28 @@ static bool accelerate(const struct gm_manifold *manifold, const double *y, doub
 void gm_manifold_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
     const size_t n = problem->n;
-    double *room = gm_has_action(problem) ? calloc(gm_manifold_room(problem) + 2 * n, sizeof *room) : NULL;
-    double *state = room, *rates = room ? room + n : NULL;
+    double *scratch =
+        gm_has_action(problem) ? calloc(gm_manifold_scratch_size(problem) + 2 * n, sizeof *scratch) : NULL;
+    double *state = scratch, *rates = scratch ? scratch + n : NULL;
     for (size_t l = 0; l < m; l++) {
-        const struct gm_manifold manifold = gm_manifold_lay(problem, room ? room + 2 * n : NULL);
-        for (size_t i = 0; room && i < n; i++) {
+        const struct gm_manifold manifold = gm_manifold_lay(problem, scratch ? scratch + 2 * n : NULL);
+        for (size_t i = 0; scratch && i < n; i++) {
             state[i] = y[i * m + l];
         }
-        const bool found = room && accelerate(&manifold, state, rates);
+        const bool found = scratch && accelerate(&manifold, state, rates);
         for (size_t i = 0; i < n; i++) {
             f[i * m + l] = found ? rates[i] : NAN;
         }
     }
-    free(room);
+    free(scratch);
 }
 
 bool gm_manifold_project(const struct gm_problem *problem, double *y)
 {
-    double *room = calloc(gm_manifold_room(problem), sizeof *room), previous = INFINITY;
+    double *scratch = calloc(gm_manifold_scratch_size(problem), sizeof *scratch), previous = INFINITY;
     bool good = false;
-    if (room) {
-        const struct gm_manifold manifold = gm_manifold_lay(problem, room);
+    if (scratch) {
+        const struct gm_manifold manifold = gm_manifold_lay(problem, scratch);
         const size_t half = manifold.action.half, constraints = manifold.constraints;
         for (int iteration = 0; iteration < ITERATIONS && !good; iteration++) {
             memcpy(manifold.at, y, half * sizeof *y);
@@ -197,20 +198,20 @@ bool gm_manifold_project(const struct gm_problem *problem, double *y)
         memset(manifold.at + half, 0, half * sizeof *y);
         good = good && gm_manifold_settle(&manifold, y);
     }
-    free(room);
+    free(scratch);
     return good;
 }
 
 struct gm_manifold_defects gm_manifold_defects(const struct gm_problem *problem, const double *y)
 {
     struct gm_manifold_defects defects = {NAN, NAN};
-    double *room = calloc(gm_manifold_room(problem) + problem->n, sizeof *room);
-    if (room) {
-        struct gm_manifold manifold = gm_manifold_lay(problem, room + problem->n);
+    double *scratch = calloc(gm_manifold_scratch_size(problem) + problem->n, sizeof *scratch);
+    if (scratch) {
+        struct gm_manifold manifold = gm_manifold_lay(problem, scratch + problem->n);
         const size_t half = manifold.action.half, constraints = manifold.constraints;
-        memcpy(room, y, problem->n * sizeof *y);
+        memcpy(scratch, y, problem->n * sizeof *y);
         manifold.constraints = 0; /* the velocities as they are */
-        const bool found = gm_manifold_settle(&manifold, room);
+        const bool found = gm_manifold_settle(&manifold, scratch);
         manifold.constraints = constraints;
         gm_manifold_constrain(&manifold, y);
         defects = found ? (struct gm_manifold_defects){0, 0} : defects;
@@ -223,6 +224,6 @@ struct gm_manifold_defects gm_manifold_defects(const struct gm_problem *problem,
             defects.hidden = fmax(defects.hidden, fabs(sum));
         }
     }
-    free(room);
+    free(scratch);
     return defects;
 }

@@ -16,8 +16,8 @@ struct gm_manifold {
 };
 
 /* Doubles of room, zeros at first, as gm_action_room's. */
-size_t gm_manifold_room(const struct gm_problem *problem);
-struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *room);
+size_t gm_manifold_scratch_size(const struct gm_problem *problem);
+struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *scratch);
 
 /* Fills g and slopes at q; and curvature for the multipliers that are there. */
 void gm_manifold_constrain(const struct gm_manifold *manifold, const double *q);

@@ -119,18 +119,18 @@ static bool go(struct aim *aim, double *apart, double way[2])
 static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, const double *start,
                    struct gm_choice *choices)
 {
-    const struct gm_system_scene *own = lane->own;
+    const struct gm_system_scene *system_scene = lane->owner;
     size_t count = 0;
-    for (size_t row = own->first_start; row < own->row_count; row++) {
-        const size_t c = own->variables[row];
+    for (size_t row = system_scene->first_start; row < system_scene->row_count; row++) {
+        const size_t c = system_scene->variables[row];
         if (c >= aim->places || fabs(aim->variables[c] - start[c]) <= 1e-9 * fmax(1, fabs(start[c]))) {
             continue;
         }
         if (count == GM_CHOICES || !isfinite(aim->variables[c])) {
             return 0;
         }
-        const bool angle = own->system.variables[c].angle;
-        gm_choose(&choices[count++], own->rows[row].key,
+        const bool angle = system_scene->system.variables[c].angle;
+        gm_choose(&choices[count++], system_scene->rows[row].key,
                   angle ? remainder(aim->variables[c], 2 * M_PI) : aim->variables[c]);
     }
     return count;
@@ -140,13 +140,13 @@ size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, dou
                      struct gm_choice *choices)
 {
     enum { MOST_STEPS = 100 };
-    const struct gm_own_system *system = &lane->own->system;
+    const struct gm_user_system *system = &lane->owner->system;
     const struct gm_sight *sight = gm_system_sight(lane);
     struct aim aim = {.sight = sight,
                       .places = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n,
                       .target = {x, y}};
-    if (sight == &lane->own->section || sight->dimensions != 2 || sight->bodies == 0 ||
-        lane->own->model.constraints.count > 0) {
+    if (sight == &lane->owner->section || sight->dimensions != 2 || sight->bodies == 0 ||
+        lane->owner->model.constraints.count > 0) {
         return 0;
     }
     aim.variables =
@@ -160,8 +160,8 @@ size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, dou
     aim.before = aim.step + aim.places;
     memcpy(aim.variables, start, system->n * sizeof *start);
     memcpy(aim.variables + system->initial, start, system->n * sizeof *start);
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->own->first_start; row++) {
-        aim.variables[lane->own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
+        aim.variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
     }
     look(&aim);
     size_t count = 0;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/frame/graph.h"
-#include "scenes/frame/symbol.h"
+#include "scenes/common/graph.h"
+#include "scenes/common/symbol.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/space.h"
 
@@ -137,10 +137,10 @@ static double extent(const struct gm_seen *seen)
 /* Whether the members are a disc in the plane that is shown. */
 static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 {
-    const struct gm_system_scene *own = own_of(lane)->own;
-    return lane->problem.m > 3 && own_of(lane)->shape == GM_SHAPE_DISC && own->system.n == 2 &&
-           sight->components[0] == (long)own->disc[0] && sight->components[1] == (long)own->disc[1] &&
-           !sight->angles[0] && !sight->angles[1];
+    const struct gm_system_scene *system_scene = own_of(lane)->owner;
+    return lane->problem.m > 3 && own_of(lane)->shape == GM_SHAPE_DISC && system_scene->system.n == 2 &&
+           sight->components[0] == (long)system_scene->disc[0] &&
+           sight->components[1] == (long)system_scene->disc[1] && !sight->angles[0] && !sight->angles[1];
 }
 
 /* What one lane has shown up to now. */
@@ -178,8 +178,8 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 {
     const struct gm_system_lane *one = own_of(a), *other = own_of(b);
     return one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
-           memcmp(one->values, other->values, (one->own->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) ==
-               0;
+           memcmp(one->values, other->values,
+                  (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
 
 /* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
@@ -198,12 +198,12 @@ static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t coun
             held++;
         }
     }
-    const double room = fmax(0.5 * extent(&least), 1e-9);
+    const double scratch = fmax(0.5 * extent(&least), 1e-9);
     for (size_t k = 0; k < 3 && held > 1; k++) {
-        all.low[k] = fmax(all.low[k], least.low[k] - room);
-        all.high[k] = fmin(all.high[k], least.high[k] + room);
+        all.low[k] = fmax(all.low[k], least.low[k] - scratch);
+        all.high[k] = fmin(all.high[k], least.high[k] + scratch);
     }
-    all.far = held > 1 ? fmin(all.far, least.far + room) : all.far;
+    all.far = held > 1 ? fmin(all.far, least.far + scratch) : all.far;
     return all;
 }
 
@@ -214,19 +214,19 @@ static const double largest_ratio = 4;
 /* The range of every lane's panel, in place of that of the lane. */
 static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
 {
-    struct gm_seen *own = ranges + count, all = nothing;
+    struct gm_seen *seen = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
     for (size_t i = 0; i < count; i++) {
-        own[i] = range_like(lanes, count, i, ranges);
-        hold_range(&all, &own[i]);
-        least = fmin(least, extent(&own[i]));
-        most = fmax(most, extent(&own[i]));
+        seen[i] = range_like(lanes, count, i, ranges);
+        hold_range(&all, &seen[i]);
+        least = fmin(least, extent(&seen[i]));
+        most = fmax(most, extent(&seen[i]));
     }
     for (size_t i = 0; i < count; i++) {
         ranges[i] = most > largest_ratio * least ? nothing : all;
         for (size_t k = 0; k < count; k++) {
             if (lanes[k]->shown.panel == lanes[i]->shown.panel) {
-                hold_range(&ranges[i], &own[k]);
+                hold_range(&ranges[i], &seen[k]);
             }
         }
     }
@@ -360,13 +360,13 @@ static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const 
                     corners);
     gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners,
                  true);
-    const struct gm_system_scene *own = own_of(lane)->own;
+    const struct gm_system_scene *system_scene = own_of(lane)->owner;
     const size_t m = lane->problem.m;
     const double *y = gm_run_state(lane->run);
     double *points = gm_picture_memory(picture, 2 * m * sizeof *points);
     for (size_t i = 0; points && i + 1 < m; i++) {
-        points[2 * i] = y[own->disc[0] * m + i];
-        points[2 * i + 1] = y[own->disc[1] * m + i];
+        points[2 * i] = y[system_scene->disc[0] * m + i];
+        points[2 * i + 1] = y[system_scene->disc[1] * m + i];
     }
     if (points && lane->run->t != lane->t0) {
         gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.42}, points, m - 1);
@@ -484,7 +484,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
 static void set_section(struct gm_picture *picture, struct gm_panel *panel,
                         const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_sight *sight = &own_of(lanes[0])->own->section;
+    const struct gm_sight *sight = &own_of(lanes[0])->owner->section;
     struct gm_seen range = nothing;
     for (size_t i = 0; i < count; i++) {
         const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
@@ -500,7 +500,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
 
 static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
 {
-    const struct gm_sight *sight = &own_of(lane)->own->section;
+    const struct gm_sight *sight = &own_of(lane)->owner->section;
     const struct gm_entries *crossings = &lane->entries[GM_TRACK_SECTION];
     double *points = gm_picture_memory(picture, 2 * (crossings->count + 1) * sizeof *points);
     for (size_t i = 0; points && i < crossings->count; i++) {
@@ -514,7 +514,7 @@ static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, c
 
 static const char *section_title(const struct gm_lane *lane)
 {
-    return own_of(lane)->own->stroboscopic ? "Stroboscopic section" : "Poincaré section";
+    return own_of(lane)->owner->stroboscopic ? "Stroboscopic section" : "Poincaré section";
 }
 
 static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
@@ -569,12 +569,12 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
 /* "m = 1,  Δt = 0.01": what is the same in all lanes. */
 static const char *told(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_system_scene *own = own_of(lanes[0])->own;
+    const struct gm_system_scene *system_scene = own_of(lanes[0])->owner;
     const char *text = "";
     char number[64];
     size_t shown = 0;
-    for (size_t row = 0; row < own->first_start && shown < TOLD_PARAMETERS; row++) {
-        const struct gm_parameter *parameter = &own->rows[row];
+    for (size_t row = 0; row < system_scene->first_start && shown < TOLD_PARAMETERS; row++) {
+        const struct gm_parameter *parameter = &system_scene->rows[row];
         const double value = gm_parameter_get(parameter, lanes[0]->parameters);
         bool same = parameter->offset >= offsetof(struct gm_system_lane, values);
         for (size_t i = 1; i < count; i++) {
@@ -603,32 +603,33 @@ static const char *told(struct gm_picture *picture, const struct gm_lane *const 
 void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_system_lane *lane = own_of(lanes[0]);
-    const struct gm_system_scene *own = lane->own;
+    const struct gm_system_scene *system_scene = lane->owner;
     bool one_scheme = true;
     for (size_t i = 1; i < count; i++) {
         one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
     }
     picture->title = gm_picture_text(picture, "%s, by %s",
-                                     own->system.texts[GM_WORD_TITLE] ? own->scene.title
-                                                                      : typeset(picture, own->scene.title),
+                                     system_scene->system.texts[GM_WORD_TITLE]
+                                         ? system_scene->scene.title
+                                         : typeset(picture, system_scene->scene.title),
                                      one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
     picture->subtitle = told(picture, lanes, count);
-    picture->caption = own->scene.watch;
+    picture->caption = system_scene->scene.watch;
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
-    const bool only_section = own->has_section && lane->show == GM_SHOW_SECTION;
+    const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
     if (only_section) {
         draw_sections(picture, lanes, count);
     } else {
         draw_states(picture, lanes, count);
     }
     /* where there is room for one graph it is the section if a drive makes the motion, else what is kept */
-    const bool section = own->has_section && lane->show == GM_SHOW_ALL;
-    if (section && own->stroboscopic) {
+    const bool section = system_scene->has_section && lane->show == GM_SHOW_ALL;
+    if (section && system_scene->stroboscopic) {
         draw_section(picture, lanes, count);
     }
-    draw_numbers(picture, lanes, count, MOST_GRAPHS - (own->has_section && !only_section ? 1 : 0));
-    if (section && !own->stroboscopic) {
+    draw_numbers(picture, lanes, count, MOST_GRAPHS - (system_scene->has_section && !only_section ? 1 : 0));
+    if (section && !system_scene->stroboscopic) {
         draw_section(picture, lanes, count);
     }
 }

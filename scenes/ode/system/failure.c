@@ -13,7 +13,7 @@
 #include "scenes/ode/system/look.h"
 
 /* A formula that is no number: "log(x) is not finite where x = -0.3". */
-static void tell_node(const struct gm_own_system *system, gm_node_id node, const double *values, char *text,
+static void tell_node(const struct gm_user_system *system, gm_node_id node, const double *values, char *text,
                       size_t size)
 {
     const struct gm_naming naming = gm_system_naming(system);
@@ -30,10 +30,10 @@ static void tell_node(const struct gm_own_system *system, gm_node_id node, const
 }
 
 /* The first part of H, else of a rate, that is no number in a member's state; false if there is none. */
-static bool tell_part(const struct gm_system_scene *own, const struct gm_view *view, const double *state,
-                      size_t member, char *text, size_t size)
+static bool tell_part(const struct gm_system_scene *system_scene, const struct gm_view *view,
+                      const double *state, size_t member, char *text, size_t size)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const struct gm_formula *graph = &system->graph;
     const struct gm_system_lane *lane = view->parameters;
     const size_t m = view->problem->m;
@@ -44,8 +44,8 @@ static bool tell_part(const struct gm_system_scene *own, const struct gm_view *v
         const bool is_time = i == system->n && !system->timed;
         variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
     }
-    for (size_t row = GM_SYSTEM_ROWS; variables && row < own->first_start; row++) {
-        variables[own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    for (size_t row = GM_SYSTEM_ROWS; variables && row < system_scene->first_start; row++) {
+        variables[system_scene->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
     }
     if (variables && values) {
         gm_formula_evaluate(graph, graph->count, variables, values);
@@ -72,10 +72,10 @@ static bool tell_part(const struct gm_system_scene *own, const struct gm_view *v
 
 /* A state of a member of a Lagrangian system from which it does not move on: its momenta have no velocities, or no
    rates. */
-static bool tell_velocities(const struct gm_system_scene *own, const struct gm_view *view,
+static bool tell_velocities(const struct gm_system_scene *system_scene, const struct gm_view *view,
                             const double *state, const double *slope, size_t member, char *text, size_t size)
 {
-    const size_t m = view->problem->m, half = own->system.n / 2;
+    const size_t m = view->problem->m, half = system_scene->system.n / 2;
     bool placed = true, moves = true, turns = true;
     for (size_t i = 0; i < 2 * half; i++) {
         const bool finite = isfinite(slope[i * m + member]);
@@ -93,7 +93,7 @@ static bool tell_velocities(const struct gm_system_scene *own, const struct gm_v
                                  "singular)");
     for (size_t i = 0; i < half && length + 60 < size; i++) {
         length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
-                                   own->system.variables[i].name, state[i * m + member]);
+                                   system_scene->system.variables[i].name, state[i * m + member]);
     }
     return true;
 }
@@ -160,16 +160,16 @@ static void tell_rest(const struct gm_view *view, const double *slope, double *a
 static bool tell_states(const struct gm_view *view, const double *states, const double *slope, char *text,
                         size_t size)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
-    const bool lagrangian = own->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const bool lagrangian = system_scene->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
     const size_t n = view->problem->n, m = view->problem->m;
     for (size_t member = 0; member < m; member++) {
         bool finite = true;
         for (size_t i = 0; i < n; i++) {
             finite = finite && isfinite(slope[i * m + member]);
         }
-        if (!finite && (lagrangian ? tell_velocities(own, view, states, slope, member, text, size)
-                                   : tell_part(own, view, states, member, text, size))) {
+        if (!finite && (lagrangian ? tell_velocities(system_scene, view, states, slope, member, text, size)
+                                   : tell_part(system_scene, view, states, member, text, size))) {
             return true;
         }
     }

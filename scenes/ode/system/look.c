@@ -11,7 +11,7 @@ static const double bright = 0.15;
 
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
 {
-    return ((const struct gm_system_lane *)view->parameters)->own;
+    return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
 size_t gm_sight_numbers(const struct gm_sight *sight)
@@ -33,20 +33,21 @@ size_t gm_system_bright_from(const struct gm_lane *lane)
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
-    const struct gm_system_scene *own = lane->own;
-    const size_t pairs = own->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1, show = (size_t)lane->show;
-    if (own->has_section && show == GM_SHOW_SECTION) {
-        return &own->section;
+    const struct gm_system_scene *system_scene = lane->owner;
+    const size_t pairs = system_scene->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
+                 show = (size_t)lane->show;
+    if (system_scene->has_section && show == GM_SHOW_SECTION) {
+        return &system_scene->section;
     }
-    return &own->sights[show < pairs || show >= pairs + own->pair_count
-                            ? 0
-                            : show - pairs + (own->sight_count - own->pair_count)];
+    return &system_scene->sights[show < pairs || show >= pairs + system_scene->pair_count
+                                     ? 0
+                                     : show - pairs + (system_scene->sight_count - system_scene->pair_count)];
 }
 
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
 {
     const struct gm_system_lane *lane = view->parameters;
-    const struct gm_own_system *system = &lane->own->system;
+    const struct gm_user_system *system = &lane->owner->system;
     const size_t m = view->problem->m;
     enum {
         FEW = 256
@@ -62,8 +63,8 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
         variables[i] = view->state[i * m + member];
         variables[system->initial + i] = view->start[i * m + member];
     }
-    for (size_t row = GM_SYSTEM_ROWS; variables && row < lane->own->first_start; row++) {
-        variables[lane->own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    for (size_t row = GM_SYSTEM_ROWS; variables && row < lane->owner->first_start; row++) {
+        variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
     }
     if (variables) {
         variables[system->n] = view->t;
@@ -86,7 +87,7 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
                          const double *times, size_t count, double *values)
 {
     const struct gm_system_lane *lane = view->parameters;
-    const struct gm_own_system *system = &lane->own->system;
+    const struct gm_user_system *system = &lane->owner->system;
     const size_t m = view->problem->m, n = system->n;
     double *variables = calloc(system->variable_count * count, sizeof *variables);
     if (!variables) {
@@ -98,8 +99,8 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     for (size_t i = 0; i < n; i++) {
         fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
     }
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->own->first_start; row++) {
-        fill(variables + lane->own->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
+        fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
     }
     gm_tape_values(tape, variables, values, count);
     free(variables);

@@ -3,11 +3,11 @@
 #ifndef GM_SCENES_ODE_SYSTEM_LOOK_H
 #define GM_SCENES_ODE_SYSTEM_LOOK_H
 
-#include "core/ode/own/own.h"
+#include "core/ode/user/problem.h"
 #include "core/tape.h"
-#include "scenes/frame/camera.h"
-#include "scenes/frame/lane.h"
-#include "scenes/frame/written.h"
+#include "scenes/common/camera.h"
+#include "scenes/common/lane.h"
+#include "scenes/common/written.h"
 
 /* A way to look at the state: bodies and rods, or one point, in a plane or in space. */
 struct gm_sight {
@@ -30,8 +30,8 @@ enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12, GM_M
 /* What follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
-    struct gm_own_system system;
-    struct gm_own_model model;
+    struct gm_user_system system;
+    struct gm_user_model model;
     struct gm_parameter *rows;
     size_t *variables; /* of each row: its number among the system's */
     size_t row_count, first_start;
@@ -62,7 +62,7 @@ struct gm_system_scene {
 /* A lane's parameters. */
 struct gm_system_lane {
     struct gm_timing timing;
-    const struct gm_system_scene *own;
+    const struct gm_system_scene *owner;
     long members;
     double spread;
     int shape, show;

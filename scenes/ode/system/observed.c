@@ -9,10 +9,10 @@
 #include <string.h>
 
 #include "core/linear/curve.h"
+#include "core/model/scope.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
-#include "core/system/names.h"
-#include "scenes/frame/rows.h"
+#include "scenes/common/rows.h"
 #include "scenes/ode/system/pieces.h"
 
 /* ---- formulas in flight ---- */
@@ -26,14 +26,14 @@ static double value_of(const struct gm_tape *tape, const struct gm_view *view)
 
 static double observed(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
-    return value_of(&own->formulas[view->observable - own->observables], view);
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    return value_of(&system_scene->formulas[view->observable - system_scene->observables], view);
 }
 
 static double terms(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
-    return value_of(&own->terms[view->observable - own->observables], view);
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    return value_of(&system_scene->terms[view->observable - system_scene->observables], view);
 }
 
 /* Of a Lagrangian system, whose formulas hold velocities: p q' - L, or the magnitudes of these terms. */
@@ -96,15 +96,15 @@ static double hidden_defect(const struct gm_view *view)
 /* The distance from the solution that the file tells, of the component that is farthest. */
 static double solution_error(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = gm_system_scene_of(view);
-    const size_t n = own->system.n, m = view->problem->m;
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const size_t n = system_scene->system.n, m = view->problem->m;
     double *exact = malloc(n * sizeof *exact), error = exact ? 0 : NAN;
     if (exact) {
-        gm_system_values(&own->exact, view, m - 1, exact);
+        gm_system_values(&system_scene->exact, view, m - 1, exact);
     }
     for (size_t i = 0; exact && i < n; i++) {
         const double away = fabs(view->state[i * m + m - 1] - exact[i]);
-        if (own->system.variables[i].exact != GM_NO_NODE) {
+        if (system_scene->system.variables[i].exact != GM_NO_NODE) {
             error = away > error || isnan(away) ? away : error;
         }
     }
@@ -162,22 +162,24 @@ void gm_system_stops(const struct gm_view *view, const double *states, const dou
 /* ---- the rows of the scene ---- */
 
 /* The exact solution, where the file tells one, begins where the system does. */
-bool gm_system_check_exact(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+bool gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                           char *sentence)
 {
-    const size_t n = own->exact.outputs;
+    const size_t n = system_scene->exact.outputs;
     struct gm_problem alone = *problem;
-    double *start = n > 0 ? gm_system_start_values(own->initial, NULL) : NULL,
+    double *start = n > 0 ? gm_system_start_values(system_scene->initial, NULL) : NULL,
            *exact = calloc(n + 1, sizeof *exact);
     bool good = n == 0 || (start && exact);
     alone.m = 1;
     if (n > 0 && good) {
         gm_system_values(
-            &own->exact,
-            &(struct gm_view){.parameters = own->initial, .problem = &alone, .state = start, .start = start},
+            &system_scene->exact,
+            &(struct gm_view){
+                .parameters = system_scene->initial, .problem = &alone, .state = start, .start = start},
             0, exact);
     }
     for (size_t i = 0; good && i < n; i++) {
-        const struct gm_system_variable *variable = &own->system.variables[i];
+        const struct gm_system_variable *variable = &system_scene->system.variables[i];
         const double most = 1e-9 * fmax(1, fabs(start[i]));
         if (variable->exact != GM_NO_NODE && variable->start != GM_NO_NODE &&
             !(fabs(exact[i] - start[i]) <= most)) {
@@ -224,22 +226,23 @@ static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
     return found;
 }
 
-static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
+static bool add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node)
 {
-    const size_t i = own->observable_count;
-    own->observables[i] = row;
-    own->observable_count++;
+    const size_t i = system_scene->observable_count;
+    system_scene->observables[i] = row;
+    system_scene->observable_count++;
     bool good =
-        row.key && row.title && (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+        row.key && row.title &&
+        (node == GM_NO_NODE || gm_system_open_tape(system_scene, &system_scene->formulas[i], &node, 1));
     if (good && row.error && node != GM_NO_NODE) {
-        const gm_node_id sizes = sizes_of(&own->system.graph, node);
-        own->observables[i].terms = terms;
-        good = sizes != GM_NO_NODE && gm_system_open_tape(own, &own->terms[i], &sizes, 1);
+        const gm_node_id sizes = sizes_of(&system_scene->system.graph, node);
+        system_scene->observables[i].terms = terms;
+        good = sizes != GM_NO_NODE && gm_system_open_tape(system_scene, &system_scene->terms[i], &sizes, 1);
     }
     return good;
 }
 
-static bool is_forced(const struct gm_own_system *system)
+static bool is_forced(const struct gm_user_system *system)
 {
     for (size_t i = 0; i < system->n; i++) {
         if (system->variables[i].force != GM_NO_NODE) {
@@ -250,13 +253,13 @@ static bool is_forced(const struct gm_own_system *system)
 }
 
 /* What the momentum map of a symmetry is measured by: its terms at the start, which may cancel. */
-static double momentum_scale(struct gm_system_scene *own, const struct gm_system_item *item)
+static double momentum_scale(struct gm_system_scene *system_scene, const struct gm_system_item *item)
 {
-    const size_t half = own->system.n / 2;
-    double *values = gm_system_start_values(own->initial, NULL),
+    const size_t half = system_scene->system.n / 2;
+    double *values = gm_system_start_values(system_scene->initial, NULL),
            *generator = malloc(half * sizeof *generator), sum = 0;
     struct gm_tape tape = {0};
-    if (values && generator && gm_system_open_tape(own, &tape, item->nodes, half)) {
+    if (values && generator && gm_system_open_tape(system_scene, &tape, item->nodes, half)) {
         gm_tape_values(&tape, values, generator, 1);
         for (size_t i = 0; i < half; i++) {
             sum += fabs(generator[i] * values[half + i]);
@@ -269,17 +272,17 @@ static double momentum_scale(struct gm_system_scene *own, const struct gm_system
 }
 
 /* The text, which is the scene's, with blanks for what joins words. */
-static const char *spaced(struct gm_system_scene *own, const char *text)
+static const char *spaced(struct gm_system_scene *system_scene, const char *text)
 {
-    for (char *at = text ? own->texts.list[own->texts.count - 1] : NULL; at && *at; at++) {
+    for (char *at = text ? system_scene->texts.list[system_scene->texts.count - 1] : NULL; at && *at; at++) {
         *at = *at == '_' ? ' ' : *at;
     }
     return text;
 }
 
-static bool add_energy(struct gm_system_scene *own, const struct gm_problem *problem)
+static bool add_energy(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const bool lagrangian = system->kind == GM_LAGRANGIAN, kept = !system->timed && !is_forced(system);
     if (system->kind == GM_RATES || (lagrangian && !gm_ode_of(problem)->hamiltonian)) {
         return true;
@@ -291,47 +294,50 @@ static bool add_energy(struct gm_system_scene *own, const struct gm_problem *pro
         energy.evaluate = legendre_energy;
         energy.terms = kept ? legendre_terms : NULL;
     }
-    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
+    return add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy);
 }
 
 /* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
    among those without a name. */
-static bool add_invariant(struct gm_system_scene *own, const struct gm_system_item *item, size_t nameless)
+static bool add_invariant(struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                          size_t nameless)
 {
     const bool symmetry = item->word == GM_WORD_SYMMETRY;
-    const char *name = item->name[0] ? item->name : gm_system_kept_text(own, "momentum%zu", nameless);
+    const char *name =
+        item->name[0] ? item->name : gm_system_kept_text(system_scene, "momentum%zu", nameless);
     if (!name) {
         return false;
     }
-    const double scale = symmetry ? momentum_scale(own, item) : item->scale;
+    const double scale = symmetry ? momentum_scale(system_scene, item) : item->scale;
     struct gm_observable row = GM_KEPT_OBSERVABLE(
-        gm_system_kept_text(own, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
-        spaced(own, gm_system_kept_text(own, "%s error", name)), .least = scale,
-        .scale_text = scale > 0 ? gm_system_kept_text(own, "%.3g", scale) : NULL);
+        gm_system_kept_text(system_scene, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
+        spaced(system_scene, gm_system_kept_text(system_scene, "%s error", name)), .least = scale,
+        .scale_text = scale > 0 ? gm_system_kept_text(system_scene, "%.3g", scale) : NULL);
     row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
-    return add_observable(own, row, item->nodes[symmetry ? own->system.n / 2 : 0]);
+    return add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0]);
 }
 
 /* What the file names: observe:, invariant:, casimir:, symmetry:. */
-static bool add_named(struct gm_system_scene *own)
+static bool add_named(struct gm_system_scene *system_scene)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     size_t nameless = 0;
     bool good = true;
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         switch (item->word) {
         case GM_WORD_OBSERVE:
-            good = add_observable(own, (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
+            good = add_observable(system_scene,
+                                  (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
                                   item->nodes[0]);
             break;
         case GM_WORD_SYMMETRY:
             nameless += !item->name[0];
-            good = system->kind > GM_LAGRANGIAN || add_invariant(own, item, nameless);
+            good = system->kind > GM_LAGRANGIAN || add_invariant(system_scene, item, nameless);
             break;
         case GM_WORD_INVARIANT:
         case GM_WORD_CASIMIR:
-            good = add_invariant(own, item, 0);
+            good = add_invariant(system_scene, item, 0);
             break;
         default:
             break;
@@ -340,23 +346,23 @@ static bool add_named(struct gm_system_scene *own)
     return good;
 }
 
-static bool add_defects(struct gm_system_scene *own, const struct gm_problem *problem)
+static bool add_defects(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     return gm_action_constraints(problem) == 0 ||
-           (add_observable(own,
+           (add_observable(system_scene,
                            (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
                                                                    "the largest |g|"),
                            GM_NO_NODE) &&
-            add_observable(own,
+            add_observable(system_scene,
                            (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
                                                                    "the largest |dg/dt|"),
                            GM_NO_NODE));
 }
 
 /* The distance from exact:, of the components that it tells. */
-static bool add_solution_error(struct gm_system_scene *own)
+static bool add_solution_error(struct gm_system_scene *system_scene)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     gm_node_id *exact = calloc(system->n, sizeof *exact);
     bool told = false;
     for (size_t i = 0; exact && i < system->n; i++) {
@@ -366,38 +372,38 @@ static bool add_solution_error(struct gm_system_scene *own)
     }
     bool good = exact != NULL;
     if (good && told) {
-        good = gm_system_open_tape(own, &own->exact, exact, system->n) &&
-               add_observable(own,
+        good = gm_system_open_tape(system_scene, &system_scene->exact, exact, system->n) &&
+               add_observable(system_scene,
                               (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", solution_error,
                                                                       "distance from the exact solution"),
                               GM_NO_NODE);
-        own->work.measure = "solution_error";
+        system_scene->work.measure = "solution_error";
     }
     free(exact);
     return good;
 }
 
 /* The area of a disc of members, in the plane. */
-static bool add_area(struct gm_system_scene *own)
+static bool add_area(struct gm_system_scene *system_scene)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     return system->n != 2 ||
-           (add_observable(own,
+           (add_observable(system_scene,
                            (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
                                                                .why = why_no_area),
                            GM_NO_NODE) &&
             (system->kind > GM_LAGRANGIAN || is_forced(system) ||
-             add_observable(own,
+             add_observable(system_scene,
                             (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
                                                                      .why = why_no_area),
                             GM_NO_NODE)));
 }
 
 /* Says which line makes a second observable of that name; false. */
-static bool refuse_twice(const struct gm_system_scene *own, const char *key, char *sentence)
+static bool refuse_twice(const struct gm_system_scene *system_scene, const char *key, char *sentence)
 {
-    for (size_t i = own->system.item_count; i-- > 0;) {
-        const struct gm_system_item *item = &own->system.items[i];
+    for (size_t i = system_scene->system.item_count; i-- > 0;) {
+        const struct gm_system_item *item = &system_scene->system.items[i];
         const size_t length = item->name ? strlen(item->name) : 0;
         const char *ending = item->word == GM_WORD_OBSERVE ? "" : "_error";
         if (length > 0 && strncmp(key, item->name, length) == 0 && strcmp(key + length, ending) == 0) {
@@ -408,19 +414,22 @@ static bool refuse_twice(const struct gm_system_scene *own, const char *key, cha
     return gm_refuse(sentence, "there are two observables %s", key);
 }
 
-bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                                char *sentence)
 {
-    const size_t most = own->system.item_count + 7;
-    own->observables = calloc(most, sizeof *own->observables);
-    own->formulas = calloc(most, sizeof *own->formulas);
-    own->terms = calloc(most, sizeof *own->terms);
-    bool good = own->observables && own->formulas && own->terms && add_energy(own, problem) &&
-                add_named(own) && add_defects(own, problem) && add_solution_error(own) && add_area(own);
-    for (size_t i = 0; i < own->observable_count && good; i++) {
+    const size_t most = system_scene->system.item_count + 7;
+    system_scene->observables = calloc(most, sizeof *system_scene->observables);
+    system_scene->formulas = calloc(most, sizeof *system_scene->formulas);
+    system_scene->terms = calloc(most, sizeof *system_scene->terms);
+    bool good = system_scene->observables && system_scene->formulas && system_scene->terms &&
+                add_energy(system_scene, problem) && add_named(system_scene) &&
+                add_defects(system_scene, problem) && add_solution_error(system_scene) &&
+                add_area(system_scene);
+    for (size_t i = 0; i < system_scene->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
-            const char *key = own->observables[i].key, *other = own->observables[k].key;
+            const char *key = system_scene->observables[i].key, *other = system_scene->observables[k].key;
             good = !gm_observables_clash(key, other) ||
-                   refuse_twice(own, strlen(key) < strlen(other) ? other : key, sentence);
+                   refuse_twice(system_scene, strlen(key) < strlen(other) ? other : key, sentence);
         }
     }
     return good;

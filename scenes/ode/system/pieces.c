@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/system/equations.h"
+#include "core/model/equations.h"
 
-size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_word word)
+size_t gm_system_count_items(const struct gm_user_system *system, enum gm_system_word word)
 {
     size_t count = 0;
     while (gm_system_item_of(system, word, count)) {
@@ -20,35 +20,35 @@ size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_
 
 double *gm_system_start_values(const struct gm_system_lane *lane, const char *given)
 {
-    const struct gm_system_scene *own = lane->own;
-    double *known = malloc(own->system.variable_count * sizeof *known);
-    for (size_t i = 0; known && i < own->system.variable_count; i++) {
+    const struct gm_system_scene *system_scene = lane->owner;
+    double *known = malloc(system_scene->system.variable_count * sizeof *known);
+    for (size_t i = 0; known && i < system_scene->system.variable_count; i++) {
         known[i] = NAN;
     }
-    for (size_t row = GM_SYSTEM_ROWS; known && row < own->row_count; row++) {
-        known[own->variables[row]] = !given || given[row] ? lane->values[row - GM_SYSTEM_ROWS] : NAN;
+    for (size_t row = GM_SYSTEM_ROWS; known && row < system_scene->row_count; row++) {
+        known[system_scene->variables[row]] = !given || given[row] ? lane->values[row - GM_SYSTEM_ROWS] : NAN;
     }
-    double *values = known ? gm_equations_start(&own->system, known) : NULL;
+    double *values = known ? gm_equations_start(&system_scene->system, known) : NULL;
     free(known);
     return values;
 }
 
-const char *gm_system_kept_text(struct gm_system_scene *own, const char *format, ...)
+const char *gm_system_kept_text(struct gm_system_scene *system_scene, const char *format, ...)
 {
     char *text = NULL;
     va_list arguments;
     va_start(arguments, format);
     const int length = vasprintf(&text, format, arguments);
     va_end(arguments);
-    return gm_kept_texts_add(&own->texts, length < 0 ? NULL : text);
+    return gm_kept_texts_add(&system_scene->texts, length < 0 ? NULL : text);
 }
 
-bool gm_system_open_tape(struct gm_system_scene *own, struct gm_tape *tape, const gm_node_id *nodes,
+bool gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count)
 {
-    const size_t inputs = own->system.variable_count;
+    const size_t inputs = system_scene->system.variable_count;
     double *unused = calloc(inputs, sizeof *unused);
-    const bool good = unused && gm_tape_open(tape, &own->system.graph, nodes, count, inputs, unused);
+    const bool good = unused && gm_tape_open(tape, &system_scene->system.graph, nodes, count, inputs, unused);
     free(unused);
     return good;
 }

@@ -11,9 +11,9 @@
 
 /* Whether a formula turns with the angles: one of them further by 2 pi makes that of it, or of its
    negative. */
-static bool is_angle(struct gm_system_scene *own, gm_node_id node)
+static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     bool angles = false, found = false;
     for (size_t i = 0; i < system->n; i++) {
         angles |= system->variables[i].angle;
@@ -21,9 +21,9 @@ static bool is_angle(struct gm_system_scene *own, gm_node_id node)
     if (!angles) {
         return false;
     }
-    double *values = gm_system_start_values(own->initial, NULL), before, after;
+    double *values = gm_system_start_values(system_scene->initial, NULL), before, after;
     struct gm_tape tape = {0};
-    if (values && gm_system_open_tape(own, &tape, &node, 1)) {
+    if (values && gm_system_open_tape(system_scene, &tape, &node, 1)) {
         gm_tape_values(&tape, values, &before, 1);
         for (size_t i = 0; i < system->n && !found; i++) {
             if (system->variables[i].angle) {
@@ -40,32 +40,36 @@ static bool is_angle(struct gm_system_scene *own, gm_node_id node)
 }
 
 /* An axis: what it is called, whether it is an angle, whether a component. */
-static bool describe_axis(struct gm_system_scene *own, struct gm_sight *sight, size_t k, gm_node_id node)
+static bool describe_axis(struct gm_system_scene *system_scene, struct gm_sight *sight, size_t k,
+                          gm_node_id node)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const struct gm_node *at = &system->graph.nodes[node];
     const struct gm_naming naming = gm_system_naming(system);
     if (k < 2) {
         sight->components[k] = at->operation == GM_VARIABLE && at->a < system->n ? (long)at->a : -1;
-        sight->angles[k] = is_angle(own, node);
+        sight->angles[k] = is_angle(system_scene, node);
     }
-    sight->labels[k] = gm_kept_texts_add(&own->texts, gm_formula_text(&system->graph, node, &naming));
+    sight->labels[k] =
+        gm_kept_texts_add(&system_scene->texts, gm_formula_text(&system->graph, node, &naming));
     return sight->labels[k] != NULL;
 }
 
 /* A plane of two formulas. */
-static bool open_plane(struct gm_system_scene *own, struct gm_sight *sight, gm_node_id x, gm_node_id y)
+static bool open_plane(struct gm_system_scene *system_scene, struct gm_sight *sight, gm_node_id x,
+                       gm_node_id y)
 {
     const gm_node_id nodes[] = {x, y};
     sight->dimensions = 2;
     sight->bodies = 1;
     sight->fixed = calloc(1, sizeof *sight->fixed);
-    return sight->fixed && describe_axis(own, sight, 0, x) && describe_axis(own, sight, 1, y) &&
-           gm_system_open_tape(own, &sight->tape, nodes, 2);
+    return sight->fixed && describe_axis(system_scene, sight, 0, x) &&
+           describe_axis(system_scene, sight, 1, y) &&
+           gm_system_open_tape(system_scene, &sight->tape, nodes, 2);
 }
 
 /* Copies the formulas of all lines of a word; returns where they end. */
-static gm_node_id *copy_nodes(const struct gm_own_system *system, enum gm_system_word word, gm_node_id *to)
+static gm_node_id *copy_nodes(const struct gm_user_system *system, enum gm_system_word word, gm_node_id *to)
 {
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, word, i)); i++) {
@@ -76,7 +80,7 @@ static gm_node_id *copy_nodes(const struct gm_own_system *system, enum gm_system
 }
 
 /* Which bodies stand still. */
-static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sight, const gm_node_id *nodes)
+static bool find_fixed(const struct gm_user_system *system, struct gm_sight *sight, const gm_node_id *nodes)
 {
     bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
     for (size_t i = 0; marked && i <= system->n; i++) {
@@ -96,9 +100,9 @@ static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sigh
 
 /* What axis k of space is called where bodies are members of lists, x[1], x[2]: x, the name of all. NULL: they have no
    name in common, or there is no memory for it. */
-static const char *common_name(struct gm_system_scene *own, size_t k)
+static const char *common_name(struct gm_system_scene *system_scene, size_t k)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const char *common = NULL;
     size_t length = 0;
     const struct gm_system_item *item;
@@ -114,14 +118,14 @@ static const char *common_name(struct gm_system_scene *own, size_t k)
         common = name;
         length = strcspn(name, "[");
     }
-    return common ? gm_kept_texts_add(&own->texts, strndup(common, length)) : NULL;
+    return common ? gm_kept_texts_add(&system_scene->texts, strndup(common, length)) : NULL;
 }
 
 /* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
    and z where the first body does not tell others, or several tell different ones. */
-static void name_axes(struct gm_system_scene *own, struct gm_sight *sight)
+static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     static const char *const usual[] = {"x", "y", "z"};
     const struct gm_system_item *first = gm_system_item_of(system, GM_WORD_VIEW, 0);
     const bool in_space = sight->dimensions == 3;
@@ -131,7 +135,7 @@ static void name_axes(struct gm_system_scene *own, struct gm_sight *sight)
         told = at->operation == GM_VARIABLE && at->a < system->n;
         if (told) {
             const bool several = in_space && sight->bodies > 1;
-            const char *common = several ? common_name(own, k) : system->variables[at->a].name;
+            const char *common = several ? common_name(system_scene, k) : system->variables[at->a].name;
             sight->labels[k] = common ? common : usual[k];
             sight->components[k % 2] = in_space ? -1 : (long)at->a;
         }
@@ -150,9 +154,9 @@ static void name_axes(struct gm_system_scene *own, struct gm_sight *sight)
 }
 
 /* What `view` and `rod` lines say. */
-static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
+static bool open_view(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const size_t views = gm_system_count_items(system, GM_WORD_VIEW),
                  rods = gm_system_count_items(system, GM_WORD_ROD);
     const size_t dimensions = views > 0 ? gm_system_item_of(system, GM_WORD_VIEW, 0)->count
@@ -165,87 +169,90 @@ static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
     if (good) {
         copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
         good = find_fixed(system, sight, nodes) &&
-               gm_system_open_tape(own, &sight->tape, nodes, gm_sight_numbers(sight));
-        name_axes(own, sight);
+               gm_system_open_tape(system_scene, &sight->tape, nodes, gm_sight_numbers(sight));
+        name_axes(system_scene, sight);
     }
     free(nodes);
     return good;
 }
 
-bool gm_system_open_surfaces(struct gm_system_scene *own, char *sentence)
+bool gm_system_open_surfaces(struct gm_system_scene *system_scene, char *sentence)
 {
     gm_node_id nodes[3 * GM_MOST_SURFACES];
-    const size_t count = gm_system_count_items(&own->system, GM_WORD_SURFACE);
+    const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_SURFACE);
     if (count > GM_MOST_SURFACES) {
         return gm_refuse(sentence, "a system has at most %d surfaces; this has %zu", GM_MOST_SURFACES, count);
     }
-    copy_nodes(&own->system, GM_WORD_SURFACE, nodes);
-    return count == 0 || gm_system_open_tape(own, &own->surfaces, nodes, 3 * count);
+    copy_nodes(&system_scene->system, GM_WORD_SURFACE, nodes);
+    return count == 0 || gm_system_open_tape(system_scene, &system_scene->surfaces, nodes, 3 * count);
 }
 
-static bool add_pair(struct gm_system_scene *own, size_t a, size_t b)
+static bool add_pair(struct gm_system_scene *system_scene, size_t a, size_t b)
 {
-    struct gm_own_system *system = &own->system;
-    if (own->sight_count == GM_MOST_SIGHTS) {
+    struct gm_user_system *system = &system_scene->system;
+    if (system_scene->sight_count == GM_MOST_SIGHTS) {
         return true;
     }
-    struct gm_sight *sight = &own->sights[own->sight_count++];
-    own->pair_count++;
-    sight->name = gm_system_kept_text(own, "%s:%s", system->variables[a].name, system->variables[b].name);
+    struct gm_sight *sight = &system_scene->sights[system_scene->sight_count++];
+    system_scene->pair_count++;
+    sight->name =
+        gm_system_kept_text(system_scene, "%s:%s", system->variables[a].name, system->variables[b].name);
     const gm_node_id x = gm_formula_variable(&system->graph, a), y = gm_formula_variable(&system->graph, b);
-    return sight->name && open_plane(own, sight, x, y);
+    return sight->name && open_plane(system_scene, sight, x, y);
 }
 
-bool gm_system_make_sights(struct gm_system_scene *own)
+bool gm_system_make_sights(struct gm_system_scene *system_scene)
 {
-    const struct gm_own_system *system = &own->system;
+    const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2;
-    own->sights = calloc(GM_MOST_SIGHTS, sizeof *own->sights);
-    own->shows = calloc(GM_MOST_SIGHTS + 4, sizeof *own->shows);
-    bool good = own->sights && own->shows;
+    system_scene->sights = calloc(GM_MOST_SIGHTS, sizeof *system_scene->sights);
+    system_scene->shows = calloc(GM_MOST_SIGHTS + 4, sizeof *system_scene->shows);
+    bool good = system_scene->sights && system_scene->shows;
     if (good &&
         (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {
-        good = open_view(own, &own->sights[own->sight_count++]);
+        good = open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
     }
     if (n == 1) {
-        good = good && add_pair(own, 1, 0); /* over time */
+        good = good && add_pair(system_scene, 1, 0); /* over time */
     }
     for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
-        good = add_pair(own, i, half + i);
+        good = add_pair(system_scene, i, half + i);
     }
     const size_t planar = system->kind <= GM_LAGRANGIAN ? half : n;
     for (size_t i = 0; good && i < planar && n > 1; i++) {
-        for (size_t k = i + 1; good && k < planar && own->sight_count < GM_MOST_SIGHTS; k++) {
-            good = add_pair(own, i, k);
+        for (size_t k = i + 1; good && k < planar && system_scene->sight_count < GM_MOST_SIGHTS; k++) {
+            good = add_pair(system_scene, i, k);
         }
     }
-    const struct gm_sight *first = &own->sights[0];
-    own->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
+    const struct gm_sight *first = &system_scene->sights[0];
+    system_scene->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
     if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1) {
-        own->disc[0] = (size_t)first->components[0];
-        own->disc[1] = (size_t)first->components[1];
+        system_scene->disc[0] = (size_t)first->components[0];
+        system_scene->disc[1] = (size_t)first->components[1];
     }
     const struct gm_system_item *section_item = gm_system_item_of(system, GM_WORD_SECTION, 0);
     if (good && section_item) {
         gm_node_id nodes[1 + GM_MOST_CONDITIONS] = {section_item->nodes[0]};
-        own->has_section = true;
-        own->stroboscopic = section_item->periodic;
-        own->conditions =
+        system_scene->has_section = true;
+        system_scene->stroboscopic = section_item->periodic;
+        system_scene->conditions =
             section_item->count - 3 < GM_MOST_CONDITIONS ? section_item->count - 3 : GM_MOST_CONDITIONS;
-        memcpy(nodes + 1, section_item->nodes + 3, own->conditions * sizeof *nodes);
-        own->turns = !own->stroboscopic && is_angle(own, nodes[0]);
-        own->section.name = "section";
-        good = open_plane(own, &own->section, section_item->nodes[1], section_item->nodes[2]) &&
-               gm_system_open_tape(own, &own->where, nodes, 1 + own->conditions);
+        memcpy(nodes + 1, section_item->nodes + 3, system_scene->conditions * sizeof *nodes);
+        system_scene->turns = !system_scene->stroboscopic && is_angle(system_scene, nodes[0]);
+        system_scene->section.name = "section";
+        good = open_plane(system_scene, &system_scene->section, section_item->nodes[1],
+                          section_item->nodes[2]) &&
+               gm_system_open_tape(system_scene, &system_scene->where, nodes, 1 + system_scene->conditions);
     }
     size_t shows = 0;
     if (good) {
-        own->shows[shows++] = "all";
-        if (own->has_section) {
-            own->shows[shows++] = "section";
+        system_scene->shows[shows++] = "all";
+        if (system_scene->has_section) {
+            system_scene->shows[shows++] = "section";
         }
-        for (size_t i = own->sight_count - own->pair_count; i < own->sight_count; i++) {
-            own->shows[shows++] = own->sights[i].name;
+        for (size_t i = system_scene->sight_count - system_scene->pair_count; i < system_scene->sight_count;
+             i++) {
+            system_scene->shows[shows++] = system_scene->sights[i].name;
         }
     }
     return good;

@@ -6,10 +6,10 @@
 #include "scenes/ode/system/look.h"
 
 /* Makes the sights, the section and the words of show=, with room for another one; false where memory was refused. */
-bool gm_system_make_sights(struct gm_system_scene *own);
+bool gm_system_make_sights(struct gm_system_scene *system_scene);
 void gm_system_close_sight(struct gm_sight *sight);
 
 /* The surfaces that the file names; false with a sentence where they are too many. */
-bool gm_system_open_surfaces(struct gm_system_scene *own, char *sentence);
+bool gm_system_open_surfaces(struct gm_system_scene *system_scene, char *sentence);
 
 #endif

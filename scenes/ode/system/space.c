@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/frame/graph.h"
+#include "scenes/common/graph.h"
 
 /* A path whose mean chord is longer, of what is seen, is drawn as dots: between them it is not known. */
 static const double longest_chord = 0.05;
@@ -27,7 +27,7 @@ static struct gm_view at_start(const struct gm_lane *lane)
 
 static void take_surfaces(struct gm_picture *picture, const struct gm_lane *lane, struct gm_space *space)
 {
-    const struct gm_tape *tape = &own_of(lane)->own->surfaces;
+    const struct gm_tape *tape = &own_of(lane)->owner->surfaces;
     const struct gm_view before = at_start(lane);
     struct gm_ellipsoid *surfaces = gm_picture_memory(picture, (tape->outputs + 1) * sizeof *surfaces);
     double sizes[3 * GM_MOST_SURFACES];

@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_SPACE_H
 #define GM_SCENES_ODE_SYSTEM_SPACE_H
 
-#include "scenes/frame/space.h"
+#include "scenes/common/space.h"
 #include "scenes/ode/system/look.h"
 
 /* A system of somebody's own in space: its bodies, rods and surfaces as they are seen from the lane's camera. */

@@ -298,11 +298,11 @@ static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
     const size_t n = base->problem->n, size = memory(base->problem, base->scheme), low = of_level(base->work);
-    double *room = malloc((n + 2 * size) * sizeof *room);
-    if (!room) {
+    double *scratch = malloc((n + 2 * size) * sizeof *scratch);
+    if (!scratch) {
         return false;
     }
-    double *given = room + n, *made = given + size;
+    double *given = scratch + n, *made = given + size;
     memcpy(given, base->memory, size * sizeof *given);
     memcpy(given + ARRAYS, from, low * sizeof *given);
     const struct gm_task task = {
@@ -312,14 +312,14 @@ static bool one_step(const void *context, const double *from, double *to)
         .steps = 1,
         .limit = INFINITY,
         .y = base->y,
-        .out = room,
+        .out = scratch,
         .memory = given,
         .memory_out = made,
         .workspace = base->work,
     };
     const bool good = base->scheme->family->loop(&task).status == GM_OK;
     memcpy(to, made + ARRAYS, low * sizeof *to);
-    free(room);
+    free(scratch);
     return good;
 }
 

@@ -71,9 +71,9 @@ static void correct(struct gm_gauss_work *work, const struct gm_problem *problem
 static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
-    const struct gm_line *line = &problem->line;
+    const struct gm_grid1 *grid = &problem->line;
     const struct gm_gauss_tableau *tableau = task->scheme->coefficients;
-    const size_t points = line->points, r = tableau->n, count = r * points;
+    const size_t points = grid->points, r = tableau->n, count = r * points;
     const double gap = task->y[2 * points];
     double *u = task->memory_out, *v = u + count, *filled = v + count;
     struct gm_gauss_work *work = task->workspace;
@@ -81,15 +81,15 @@ static enum gm_status start(const struct gm_task *task)
         return GM_OK;
     }
     double *second = work->next_u, *other = work->v, *second_other = work->next_v;
-    gm_gauss_to_stages(work, line, task->y, u, second);
-    gm_gauss_to_stages(work, line, task->y + points, other, second_other);
+    gm_gauss_to_stages(work, grid, task->y, u, second);
+    gm_gauss_to_stages(work, grid, task->y + points, other, second_other);
     if (r == 1) {
         memcpy(work->u, u, count * sizeof *u);
         for (size_t i = 0; i < points; i++) {
             work->stages[i] = (u[i] + other[i]) / 2;
         }
         gm_gauss_forces(work, problem, NULL);
-        gm_gauss_prepare(work, line->dx, gap);
+        gm_gauss_prepare(work, grid->dx, gap);
         gm_gauss_forward(work, work->force, work->hat);
         gm_gauss_forward(work, work->stages, work->hat_u);
         for (size_t mode = 0; mode < points; mode++) {
@@ -103,7 +103,7 @@ static enum gm_status start(const struct gm_task *task)
         }
     } else {
         for (size_t at = 0; at < count; at++) {
-            const double slant = gm_gauss_slant(line, tableau, at / points, at % points);
+            const double slant = gm_gauss_slant(grid, tableau, at / points, at % points);
             const double here = second[at] - gm_field_of(problem)->wave->slope(problem, u[at] + slant);
             const double there =
                 second_other[at] - gm_field_of(problem)->wave->slope(problem, other[at] + slant);
@@ -119,7 +119,7 @@ static enum gm_status start(const struct gm_task *task)
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct gm_gauss_work *work = task->workspace;
-    const struct gm_line *line = &task->problem->line;
+    const struct gm_grid1 *grid = &task->problem->line;
     const size_t points = work->points, count = work->tableau->n * points, size = count * sizeof(double);
     struct gm_progress progress = {.status = GM_OK};
     memcpy(work->next_u, task->memory, size);
@@ -139,8 +139,8 @@ static struct gm_progress advance(const struct gm_task *task)
     memcpy(task->memory_out, work->next_u, size);
     memcpy(task->memory_out + count, work->next_v, size);
     task->memory_out[2 * count] = 1;
-    gm_gauss_to_nodes(work, line, work->next_u, task->out);
-    gm_gauss_to_nodes(work, line, work->u, task->out + points);
+    gm_gauss_to_nodes(work, grid, work->next_u, task->out);
+    gm_gauss_to_nodes(work, grid, work->u, task->out + points);
     task->out[2 * points] = -task->dt;
     return progress;
 }

@@ -173,9 +173,9 @@ static void solve_modes(struct gm_gauss_work *work)
     }
 }
 
-double gm_gauss_slant(const struct gm_line *line, const struct gm_gauss_tableau *tableau, size_t m, size_t i)
+double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_gauss_tableau *tableau, size_t m, size_t i)
 {
-    return line->jump * ((double)i + (m < tableau->n ? tableau->c[m] : 0)) / (double)line->points;
+    return grid->jump * ((double)i + (m < tableau->n ? tableau->c[m] : 0)) / (double)grid->points;
 }
 
 void gm_gauss_forces(struct gm_gauss_work *work, const struct gm_problem *problem, const double *curvature)
@@ -265,7 +265,7 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
     return GM_NO_CONVERGENCE;
 }
 
-void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_line *line, const double *stages,
+void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *stages,
                        double *nodes)
 {
     const struct gm_gauss_tableau *tableau = work->tableau;
@@ -288,7 +288,7 @@ void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_line *line, c
     }
     gm_gauss_backward(work, work->hat, nodes);
     for (size_t i = 0; i < points; i++) {
-        nodes[i] += gm_gauss_slant(line, tableau, r, i);
+        nodes[i] += gm_gauss_slant(grid, tableau, r, i);
     }
 }
 
@@ -303,14 +303,14 @@ void gm_gauss_share_mean(double *stages, size_t points)
     }
 }
 
-void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_line *line, const double *nodes,
+void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *nodes,
                         double *stages, double *second)
 {
     const struct gm_gauss_tableau *tableau = work->tableau;
     const size_t points = work->points, r = tableau->n;
     double *scratch = work->force;
     for (size_t i = 0; i < points; i++) {
-        scratch[i] = nodes[i] - gm_gauss_slant(line, tableau, r, i);
+        scratch[i] = nodes[i] - gm_gauss_slant(grid, tableau, r, i);
     }
     gm_gauss_forward(work, scratch, work->hat_u);
     for (size_t m = 0; m < r; m++) {
@@ -321,7 +321,7 @@ void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_line *line, 
                                             : 2 * mode == points ? cos(M_PI * tableau->c[m])
                                                                  : cexp(I * angle * tableau->c[m]);
                 work->hat[mode] =
-                    work->hat_u[mode] * turn * (which ? -angle * angle / (line->dx * line->dx) : 1);
+                    work->hat_u[mode] * turn * (which ? -angle * angle / (grid->dx * grid->dx) : 1);
             }
             gm_gauss_backward(work, work->hat, (which ? second : stages) + m * points);
         }

@@ -55,7 +55,8 @@ double _Complex gm_gauss_amplitude(const struct gm_gauss_branch *branch, size_t 
                                    const double _Complex *hat);
 
 /* u - jump x / length is periodic; that of stage m of cell i, of its node for m = r. */
-double gm_gauss_slant(const struct gm_line *line, const struct gm_gauss_tableau *tableau, size_t m, size_t i);
+double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_gauss_tableau *tableau, size_t m,
+                      size_t i);
 
 /* V' at all stages; of a tangent, V'' at those of the solution times the tangent. */
 void gm_gauss_forces(struct gm_gauss_work *work, const struct gm_problem *problem, const double *curvature);
@@ -66,11 +67,11 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
                              const double *curvature, struct gm_progress *progress);
 
 /* Values at the nodes from those at the stages. */
-void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_line *line, const double *stages,
+void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *stages,
                        double *nodes);
 
 /* Values at the stages from those at the nodes, and with `second` their second derivatives in space. */
-void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_line *line, const double *nodes,
+void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *nodes,
                         double *stages, double *second);
 
 /* Takes out the branch without a derivative of two stages: both get the same mean over the ring. */

@@ -91,7 +91,7 @@ static void residual_at(void *context, const double *u, double *residual)
     const size_t points = work->points;
     double *closed = work->guess;
     memcpy(closed, u, points * sizeof *u);
-    gm_line_close(closed, points, equations->problem->line.jump);
+    gm_grid1_close(closed, points, equations->problem->line.jump);
     cell_means(equations->now - 1, closed - 1, work->cells - 1, points + 1);
     gm_field_of(equations->problem)
         ->wave->slopes(equations->problem, work->cells - 1, work->force - 1, points + 1);
@@ -145,7 +145,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
     }
     double last = INFINITY;
     for (int k = 0; k < MOST; k++) {
-        gm_line_close(guess, points, jump);
+        gm_grid1_close(guess, points, jump);
         cell_means(now - 1, guess - 1, work->cells - 1, points + 1);
         wave->slopes(problem, work->cells - 1, work->force - 1, points + 1);
         subtract_force(work->right - 1, work->force - 1, next - 1, points);
@@ -164,8 +164,8 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
             guess[i] = next[i];
         }
     }
-    struct equations own = {work, problem, now, diagonal, off};
-    const struct gm_ring_equations equations = {&own, residual_at, jacobian};
+    struct equations self = {work, problem, now, diagonal, off};
+    const struct gm_ring_equations equations = {&self, residual_at, jacobian};
     return gm_ring_newton_solve(&work->newton, &equations, next, progress);
 }
 

@@ -222,16 +222,16 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const size_t points = work->points, count = 2 * points;
     const int p = equation->power;
-    struct equations own = equations_of(work, problem, dt, base);
+    struct equations self = equations_of(work, problem, dt, base);
     double *now = array(work, NOW), *next = array(work, NEXT), *right = array(work, RIGHT);
     double *mean = array(work, MEAN);
     memset(right, 0, count * sizeof *right);
-    add_power(right, now, points, p, 1, own.mean[0], own.mean[1]);
-    add_power(right, now, points, p, -1, -own.difference, 0);
+    add_power(right, now, points, p, 1, self.mean[0], self.mean[1]);
+    add_power(right, now, points, p, -1, -self.difference, 0);
     memcpy(next, now, count * sizeof *next);
     double last = INFINITY;
     for (int k = 0; k < MOST; k++) {
-        explicit_part(&own, next);
+        explicit_part(&self, next);
         gm_ring_roots_solve(ring, mean, mean + points, array(work, FORCE));
         double change = 0, largest = 0;
         for (size_t i = 0; i < count; i++) {
@@ -254,7 +254,7 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
         }
     }
     const size_t size = parts_of(equation) * points * sizeof *next;
-    const struct gm_ring_equations equations = {&own, residual_at, jacobian};
+    const struct gm_ring_equations equations = {&self, residual_at, jacobian};
     double *guess = array(work, GUESS);
     memcpy(guess, next, size);
     const enum gm_status status = gm_ring_newton_solve(&work->newton, &equations, guess, progress);

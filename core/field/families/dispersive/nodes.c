@@ -27,10 +27,10 @@ static size_t shifted(size_t i, long by, size_t points)
     return (i + (size_t)((long)points + by)) % points;
 }
 
-static double second(const double *u, size_t i, long reach, const struct gm_line *line)
+static double second(const double *u, size_t i, long reach, const struct gm_grid1 *grid)
 {
-    const double step = (double)reach * line->dx;
-    return (u[shifted(i, reach, line->points)] - 2 * u[i] + u[shifted(i, -reach, line->points)]) /
+    const double step = (double)reach * grid->dx;
+    return (u[shifted(i, reach, grid->points)] - 2 * u[i] + u[shifted(i, -reach, grid->points)]) /
            (step * step);
 }
 
@@ -102,16 +102,16 @@ static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *pr
 static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const double *p_new,
                               const double *q, double *tangent_p, double *tangent_q)
 {
-    const struct gm_line *line = &problem->line;
-    for (size_t i = 0; i < line->points; i++) {
+    const struct gm_grid1 *grid = &problem->line;
+    for (size_t i = 0; i < grid->points; i++) {
         const double p = p_new[i];
         tangent_p[i] =
-            (tangent_p[i] - dt * (second(tangent_q, i, 1, line) + (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
+            (tangent_p[i] - dt * (second(tangent_q, i, 1, grid) + (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
             (1 + 2 * dt * q[i] * p);
     }
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         const double p = p_new[i];
-        tangent_q[i] += dt * (second(tangent_p, i, 1, line) + (3 * p * p + q[i] * q[i]) * tangent_p[i] +
+        tangent_q[i] += dt * (second(tangent_p, i, 1, grid) + (3 * p * p + q[i] * q[i]) * tangent_p[i] +
                               2 * q[i] * p * tangent_q[i]);
     }
 }
@@ -183,15 +183,15 @@ static bool by_own_steps(const struct base *base, const double *from, const doub
 /* phi from D u = ..., around the ring, or both rings of every other node. */
 static void integrate(const struct base *base, const double *u, double *phi)
 {
-    const struct gm_line *line = &base->problem->line;
-    const size_t points = line->points, stride = base->centred ? 2 : 1;
+    const struct gm_grid1 *grid = &base->problem->line;
+    const size_t points = grid->points, stride = base->centred ? 2 : 1;
     const size_t rings = base->centred && points % 2 == 0 ? 2 : 1;
     for (size_t ring = 0; ring < rings; ring++) {
         size_t at = ring;
         phi[at] = 0;
         for (size_t k = 1; k < points / rings; k++) {
             const size_t next = (at + stride) % points, slope = base->centred ? (at + 1) % points : next;
-            phi[next] = phi[at] + (double)stride * line->dx * u[slope];
+            phi[next] = phi[at] + (double)stride * grid->dx * u[slope];
             at = next;
         }
     }

@@ -15,17 +15,17 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 
-static double second(const double *u, size_t i, const struct gm_line *line)
+static double second(const double *u, size_t i, const struct gm_grid1 *grid)
 {
-    const size_t points = line->points;
-    return (u[(i + 1) % points] - 2 * u[i] + u[(i + points - 1) % points]) / (line->dx * line->dx);
+    const size_t points = grid->points;
+    return (u[(i + 1) % points] - 2 * u[i] + u[(i + points - 1) % points]) / (grid->dx * grid->dx);
 }
 
 /* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; false where no real p' is left. */
-static bool nls_first(const struct gm_line *line, double dt, double *p, const double *q)
+static bool nls_first(const struct gm_grid1 *grid, double dt, double *p, const double *q)
 {
-    for (size_t i = 0; i < line->points; i++) {
-        const double free = p[i] - dt * (second(q, i, line) + q[i] * q[i] * q[i]);
+    for (size_t i = 0; i < grid->points; i++) {
+        const double free = p[i] - dt * (second(q, i, grid) + q[i] * q[i] * q[i]);
         const double discriminant = 1 + 4 * dt * q[i] * free;
         if (discriminant < 0) {
             return false;
@@ -35,28 +35,28 @@ static bool nls_first(const struct gm_line *line, double dt, double *p, const do
     return true;
 }
 
-static void nls_second(const struct gm_line *line, double dt, const double *p, double *q)
+static void nls_second(const struct gm_grid1 *grid, double dt, const double *p, double *q)
 {
-    for (size_t i = 0; i < line->points; i++) {
-        q[i] += dt * (second(p, i, line) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
+    for (size_t i = 0; i < grid->points; i++) {
+        q[i] += dt * (second(p, i, grid) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
     }
 }
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    const struct gm_line *line = &task->problem->line;
-    double *p = task->out, *q = p + line->points;
+    const struct gm_grid1 *grid = &task->problem->line;
+    double *p = task->out, *q = p + grid->points;
     struct gm_progress progress = {.status = GM_OK};
-    memcpy(p, task->y, 2 * line->points * sizeof *p);
+    memcpy(p, task->y, 2 * grid->points * sizeof *p);
     for (int64_t k = 0; k < task->steps; k++) {
         progress.iterations++;
-        if (!nls_first(line, task->dt, p, q)) {
+        if (!nls_first(grid, task->dt, p, q)) {
             progress.status = GM_NO_CONVERGENCE;
             return progress;
         }
-        nls_second(line, task->dt, p, q);
+        nls_second(grid, task->dt, p, q);
         progress.evaluations++;
-        if (!gm_field_within(p, 2 * line->points, task->limit)) {
+        if (!gm_field_within(p, 2 * grid->points, task->limit)) {
             progress.status = GM_BLOW_UP;
             return progress;
         }

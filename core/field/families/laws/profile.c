@@ -8,10 +8,10 @@
 #include "core/linear/curve.h"
 
 /* False: out of memory. */
-static bool differentiate(const struct gm_line *line, const double *u, double *slopes)
+static bool differentiate(const struct gm_grid1 *grid, const double *u, double *slopes)
 {
-    const size_t points = line->points;
-    const double unit = 2 * M_PI / (line->dx * (double)points);
+    const size_t points = grid->points;
+    const double unit = 2 * M_PI / (grid->dx * (double)points);
     double complex *along = malloc(points * sizeof *along);
     for (size_t i = 0; along && i < points; i++) {
         along[i] = u[i];
@@ -26,15 +26,15 @@ static bool differentiate(const struct gm_line *line, const double *u, double *s
 
 double *gm_field_profile(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *u)
 {
-    const struct gm_line *line = &problem->line;
-    const size_t points = line->points;
+    const struct gm_grid1 *grid = &problem->line;
+    const size_t points = grid->points;
     double *values = malloc(2 * points * sizeof *values);
     for (size_t i = 0; values && i < points; i++) {
         const double right = u[i + 1 < points ? i + 1 : 0];
         values[i] = scheme->in_cells ? (u[i] + right) / 2 : u[i];
-        values[points + i] = (right - u[i]) / line->dx;
+        values[points + i] = (right - u[i]) / grid->dx;
     }
-    if (values && scheme->in_modes && !differentiate(line, u, values + points)) {
+    if (values && scheme->in_modes && !differentiate(grid, u, values + points)) {
         free(values);
         return NULL;
     }

@@ -10,20 +10,20 @@
 #include "core/field/families/waves/levels.h"
 
 /* Node i + by of a level, around the ring. */
-static double at(const struct gm_line *line, const double *level, size_t i, int by)
+static double at(const struct gm_grid1 *grid, const double *level, size_t i, int by)
 {
-    if (by > 0 && i + 1 == line->points) {
-        return level[0] + line->jump;
+    if (by > 0 && i + 1 == grid->points) {
+        return level[0] + grid->jump;
     }
     if (by < 0 && i == 0) {
-        return level[line->points - 1] - line->jump;
+        return level[grid->points - 1] - grid->jump;
     }
     return by > 0 ? level[i + 1] : by < 0 ? level[i - 1] : level[i];
 }
 
-static double d2(const struct gm_line *line, const double *level, size_t i)
+static double d2(const struct gm_grid1 *grid, const double *level, size_t i)
 {
-    return (at(line, level, i, 1) - 2 * level[i] + at(line, level, i, -1)) / (line->dx * line->dx);
+    return (at(grid, level, i, 1) - 2 * level[i] + at(grid, level, i, -1)) / (grid->dx * grid->dx);
 }
 
 /* Adds a term to a sum and keeps what rounding would lose (Neumaier 1974): invariants are looked at to the
@@ -41,32 +41,32 @@ static void add(struct exact_sum *total, double term)
 
 double gm_wave_energy(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_line *line = &problem->line;
-    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    const struct gm_grid1 *grid = &problem->line;
+    const double *u = y, *o = y + grid->points, gap = y[2 * grid->points];
     struct exact_sum total = {0};
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         const double rate = (u[i] - o[i]) / gap;
-        const double slope = (at(line, u, i, 1) - u[i]) * (at(line, o, i, 1) - o[i]) / (line->dx * line->dx);
+        const double slope = (at(grid, u, i, 1) - u[i]) * (at(grid, o, i, 1) - o[i]) / (grid->dx * grid->dx);
         add(&total, (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) +
                                                  gm_field_of(problem)->wave->potential(problem, o[i])) /
                                                     2);
     }
-    return line->dx * (total.sum + total.lost);
+    return grid->dx * (total.sum + total.lost);
 }
 
 double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_line *line = &problem->line;
-    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    const struct gm_grid1 *grid = &problem->line;
+    const double *u = y, *o = y + grid->points, gap = y[2 * grid->points];
     double sum = 0;
-    for (size_t i = 0; i < line->points; i++) {
-        const double u_next = at(line, u, i, 1), o_next = at(line, o, i, 1);
+    for (size_t i = 0; i < grid->points; i++) {
+        const double u_next = at(grid, u, i, 1), o_next = at(grid, o, i, 1);
         const double rate = (u[i] + u_next - o[i] - o_next) / (2 * gap);
-        const double slope = (u_next - u[i] + o_next - o[i]) / (2 * line->dx);
+        const double slope = (u_next - u[i] + o_next - o[i]) / (2 * grid->dx);
         sum += (rate * rate + slope * slope) / 2 +
                gm_field_of(problem)->wave->potential(problem, (u[i] + u_next + o[i] + o_next) / 4);
     }
-    return line->dx * sum;
+    return grid->dx * sum;
 }
 
 /* GM_LAW_NONE for schemes of other families. */
@@ -86,13 +86,13 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
 
 double gm_wave_momentum(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_line *line = &problem->line;
-    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    const struct gm_grid1 *grid = &problem->line;
+    const double *u = y, *o = y + grid->points, gap = y[2 * grid->points];
     double sum = 0;
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         /* gap is the other time minus the present one */
         sum += (o[i] - u[i]) / gap *
-               (at(line, u, i, 1) - at(line, u, i, -1) + at(line, o, i, 1) - at(line, o, i, -1)) / 4;
+               (at(grid, u, i, 1) - at(grid, u, i, -1) + at(grid, o, i, 1) - at(grid, o, i, -1)) / 4;
     }
     return -sum;
 }
@@ -114,15 +114,15 @@ static double cell_law(const struct gm_problem *problem, double a, double b, dou
 static void cell_laws(const struct gm_problem *problem, double dt, const double *y, enum gm_local_law law,
                       double *residual)
 {
-    const struct gm_line *line = &problem->line;
-    const double *u = y, *o = y + line->points;
-    for (size_t i = 0; i < line->points; i++) {
+    const struct gm_grid1 *grid = &problem->line;
+    const double *u = y, *o = y + grid->points;
+    for (size_t i = 0; i < grid->points; i++) {
         if (law == GM_LAW_OF_ENERGY) {
-            const double a = (o[i] + at(line, o, i, 1)) / 2, b = (u[i] + at(line, u, i, 1)) / 2;
+            const double a = (o[i] + at(grid, o, i, 1)) / 2, b = (u[i] + at(grid, u, i, 1)) / 2;
             residual[i] = cell_law(problem, a, b, dt);
         } else {
-            const double a = (o[i] + u[i]) / 2, b = (at(line, o, i, 1) + at(line, u, i, 1)) / 2;
-            residual[i] = cell_law(problem, a, b, line->dx);
+            const double a = (o[i] + u[i]) / 2, b = (at(grid, o, i, 1) + at(grid, u, i, 1)) / 2;
+            residual[i] = cell_law(problem, a, b, grid->dx);
         }
     }
 }
@@ -131,7 +131,7 @@ bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *sche
                   const double *y, enum gm_local_law law, double *residual)
 {
     const enum gm_wave_law kind = law_of(scheme);
-    const struct gm_line *line = &problem->line;
+    const struct gm_grid1 *grid = &problem->line;
     struct gm_levels levels;
     if (kind == GM_LAW_CELLS) {
         cell_laws(problem, dt, y, law, residual);
@@ -140,13 +140,13 @@ bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *sche
     if (kind != GM_LAW_NODES || !gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
         return false;
     }
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         if (law == GM_LAW_OF_ENERGY) {
             const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
             residual[i] = rate * node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
         } else {
-            const double a = at(line, levels.now, i, 1), b = at(line, levels.now, i, -1);
-            residual[i] = (a - b) / (2 * line->dx) * node_law(problem, &levels, dt, i, a, b);
+            const double a = at(grid, levels.now, i, 1), b = at(grid, levels.now, i, -1);
+            residual[i] = (a - b) / (2 * grid->dx) * node_law(problem, &levels, dt, i, a, b);
         }
     }
     gm_levels_close(&levels);

@@ -214,7 +214,7 @@ static bool by_own_steps(const struct base *base, const struct tangent *a)
 }
 
 struct nodes {
-    const struct gm_line *line;
+    const struct gm_grid1 *line;
     double dt;
     bool centred;
     const struct tangent *tangent;
@@ -240,59 +240,59 @@ static void complete_node(const void *tangent, size_t node, double *levels)
 static double law_of_nodes(const struct base *base, bool centred, const struct tangent *a,
                            const struct tangent *b)
 {
-    const struct gm_line *line = &base->problem->line;
-    const struct nodes of_a = {line, base->dt, centred, a}, of_b = {line, base->dt, centred, b};
-    return gm_nodes_law(gm_field_of(base->problem)->form, centred, line->points, line->dx, base->dt,
+    const struct gm_grid1 *grid = &base->problem->line;
+    const struct nodes of_a = {grid, base->dt, centred, a}, of_b = {grid, base->dt, centred, b};
+    return gm_nodes_law(gm_field_of(base->problem)->form, centred, grid->points, grid->dx, base->dt,
                         complete_node, &of_a, &of_b);
 }
 
 /* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
    alternating part free; the acceleration, which like A_t V = D_t A_x u has none, determines it. */
-static void side_slopes(const struct gm_line *line, const double *before, const double *after,
+static void side_slopes(const struct gm_grid1 *grid, const double *before, const double *after,
                         const double *curvature, double *w)
 {
-    const size_t points = line->points;
+    const size_t points = grid->points;
     double alternating = 0;
     for (size_t i = 0; i < points; i++) {
         const size_t r = right_of(i, points);
         const double force = curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
-        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * line->dx);
+        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * grid->dx);
         alternating += i % 2 ? -force : force;
     }
     gm_ring_unaverage(w, points);
     for (size_t i = 0; points % 2 == 0 && i < points; i++) {
-        const double part = line->dx / 2 * alternating / (double)points;
+        const double part = grid->dx / 2 * alternating / (double)points;
         w[i] -= i % 2 ? -part : part;
     }
 }
 
 /* D_t V in cell i */
-static double acceleration(const struct gm_line *line, const double *before, const double *after,
+static double acceleration(const struct gm_grid1 *grid, const double *before, const double *after,
                            const double *curvature, const double *w, size_t i)
 {
-    const size_t r = right_of(i, line->points);
-    return (w[r] - w[i]) / line->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
+    const size_t r = right_of(i, grid->points);
+    return (w[r] - w[i]) / grid->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
 }
 
 static bool complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
 {
-    const struct gm_line *line = &base->problem->line;
-    const size_t points = line->points;
+    const struct gm_grid1 *grid = &base->problem->line;
+    const size_t points = grid->points;
     double *w = malloc(2 * points * sizeof *w);
     if (!w) {
         return false;
     }
     double *w_later = w + points;
-    side_slopes(line, a->past, a->now, base->earlier, w);
-    side_slopes(line, a->now, a->next, base->later, w_later);
+    side_slopes(grid, a->past, a->now, base->earlier, w);
+    side_slopes(grid, a->now, a->next, base->later, w_later);
     for (size_t i = 0; i < points; i++) {
         const size_t r = right_of(i, points);
         double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
         lower[U] = (a->now[i] + a->now[r]) / 2;
         upper[U] = (a->next[i] + a->next[r]) / 2;
         lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / base->dt +
-                   base->dt / 2 * acceleration(line, a->past, a->now, base->earlier, w, i);
-        upper[V] = lower[V] + base->dt * acceleration(line, a->now, a->next, base->later, w_later, i);
+                   base->dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
+        upper[V] = lower[V] + base->dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
     }
     for (size_t i = 0; i <= points; i++) {
         const size_t at = i < points ? i : 0;
@@ -307,8 +307,8 @@ static bool complete_cells(const struct base *base, const struct tangent *a, str
 static double law_of_cells(const struct base *base, const struct tangent *a, const struct tangent *b)
 {
     static const double one = 1;
-    const struct gm_line *line = &base->problem->line;
-    const struct gm_lattice cells = {line->points, 1, 1, &one, &one, line->dx, base->dt};
+    const struct gm_grid1 *grid = &base->problem->line;
+    const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, base->dt};
     struct gm_faces of_a, of_b;
     double law = NAN;
     if (gm_faces_open(&of_a, gm_field_of(base->problem)->form, &cells)) {
@@ -327,10 +327,10 @@ static double law_of_cells(const struct base *base, const struct tangent *a, con
 static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
                             double *curvature)
 {
-    const struct gm_line *line = &problem->line;
-    for (size_t i = 0; i < line->points; i++) {
-        const size_t r = right_of(i, line->points);
-        const double jump = r == 0 ? line->jump : 0;
+    const struct gm_grid1 *grid = &problem->line;
+    for (size_t i = 0; i < grid->points; i++) {
+        const size_t r = right_of(i, grid->points);
+        const double jump = r == 0 ? grid->jump : 0;
         curvature[i] =
             gm_field_of(problem)->wave->curvature(problem, (p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
     }

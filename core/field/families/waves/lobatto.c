@@ -74,10 +74,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 }
 
 /* L of a level that gains `jump` around the ring. */
-static void bend(const struct gm_line *line, double jump, const double *u, double *second)
+static void bend(const struct gm_grid1 *grid, double jump, const double *u, double *second)
 {
-    const size_t points = line->points;
-    const double over = 1 / (line->dx * line->dx);
+    const size_t points = grid->points;
+    const double over = 1 / (grid->dx * grid->dx);
     for (size_t i = 0; i < points; i += 2) {
         const double left = i >= 2 ? u[i - 2] : u[points - 2] - jump;
         const double near = i >= 2 ? u[i - 1] : u[points - 1] - jump;
@@ -391,12 +391,12 @@ static const struct gm_lobatto_row rows[] = {
 /* The longest step, (w dt)^2 = square, with w^2 = 6/dx^2 + V'' wherever u is */
 static double longest(const struct gm_problem *problem, const double *y, double square)
 {
-    const struct gm_line *line = &problem->line;
+    const struct gm_grid1 *grid = &problem->line;
     double most = 0;
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < grid->points; i++) {
         most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
     }
-    return sqrt(square / (6 / (line->dx * line->dx) + most));
+    return sqrt(square / (6 / (grid->dx * grid->dx) + most));
 }
 static double longest_of_verlet(const struct gm_problem *problem, const double *y)
 {

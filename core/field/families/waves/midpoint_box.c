@@ -47,20 +47,20 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
 }
 
 /* A node that may lie beyond an end. */
-static double at(const struct gm_line *line, const double *u, size_t i, long by)
+static double at(const struct gm_grid1 *grid, const double *u, size_t i, long by)
 {
-    const long n = (long)line->points, place = (long)i + by;
+    const long n = (long)grid->points, place = (long)i + by;
     const long turns = place >= n ? 1 : place < 0 ? -1 : 0;
-    return u[place - turns * n] + (double)turns * line->jump;
+    return u[place - turns * n] + (double)turns * grid->jump;
 }
 
 /* u_tt: by centred differences twice over, or the usual ones */
 static double acceleration(const struct gm_problem *problem, const double *u, size_t i, long reach,
                            double slope)
 {
-    const struct gm_line *line = &problem->line;
-    const double step = (double)reach * line->dx;
-    return (at(line, u, i, reach) - 2 * u[i] + at(line, u, i, -reach)) / (step * step) - slope;
+    const struct gm_grid1 *grid = &problem->line;
+    const double step = (double)reach * grid->dx;
+    return (at(grid, u, i, reach) - 2 * u[i] + at(grid, u, i, -reach)) / (step * step) - slope;
 }
 
 /* v at both levels of the state, to second order, from their difference and the accelerations there. */

@@ -24,7 +24,7 @@ const struct gm_explicit_tableau *gm_explicit_tableau_of(const enum gm_explicit_
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     };
-    return *row == GM_EXPLICIT_OWN ? &((const struct gm_explicit_own *)row)->tableau : tableaus[*row];
+    return *row == GM_EXPLICIT_USER ? &((const struct gm_explicit_user *)row)->tableau : tableaus[*row];
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)

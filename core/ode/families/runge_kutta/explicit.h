@@ -28,12 +28,12 @@ enum gm_explicit_row {
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     GM_EXPLICIT_COUNT,
-    GM_EXPLICIT_OWN = GM_EXPLICIT_COUNT /* none of it: a struct gm_explicit_own */
+    GM_EXPLICIT_USER = GM_EXPLICIT_COUNT /* none of it: a struct gm_explicit_user */
 };
 
 /* A method that is brought along, whose tableau is known at run time alone. */
-struct gm_explicit_own {
-    enum gm_explicit_row row; /* GM_EXPLICIT_OWN */
+struct gm_explicit_user {
+    enum gm_explicit_row row; /* GM_EXPLICIT_USER */
     struct gm_explicit_tableau tableau;
 };
 

@@ -130,8 +130,8 @@ __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(co
         break;
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
-    case GM_EXPLICIT_OWN:
-        tableau = &((const struct gm_explicit_own *)row)->tableau;
+    case GM_EXPLICIT_USER:
+        tableau = &((const struct gm_explicit_user *)row)->tableau;
         break;
     }
     return K(explicit_own_run)(task, tableau);

@@ -58,10 +58,11 @@ static size_t room_of(const struct gm_problem *problem, const struct gm_variatio
 {
     const size_t unknowns = unknowns_of(problem, rule);
     return 2 * rule->points * (rule->degree + 1) + 3 * (problem->n / 2) + 4 * unknowns + unknowns * unknowns +
-           gm_manifold_room(problem);
+           gm_manifold_scratch_size(problem);
 }
 
-static struct step lay(const struct gm_problem *problem, const struct gm_variational_row *rule, double *room)
+static struct step lay(const struct gm_problem *problem, const struct gm_variational_row *rule,
+                       double *storage)
 {
     const size_t half = problem->n / 2, unknowns = unknowns_of(problem, rule),
                  table = rule->points * (rule->degree + 1);
@@ -69,9 +70,9 @@ static struct step lay(const struct gm_problem *problem, const struct gm_variati
                         .half = half,
                         .constraints = gm_action_constraints(problem),
                         .unknowns = unknowns,
-                        .values = room,
-                        .slopes = room + table,
-                        .q = room + 2 * table};
+                        .values = storage,
+                        .slopes = storage + table,
+                        .q = storage + 2 * table};
     step.p = step.q + half;
     step.impulse = step.p + half;
     step.solution = step.impulse + half;

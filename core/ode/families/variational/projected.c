@@ -18,7 +18,7 @@ struct workspace {
     const struct gm_scheme *base; /* Phi */
     void *base_workspace;         /* NULL: its loop needs none */
     double *state, *member;       /* n * m before a step, n */
-    double room[];
+    double storage[];
 };
 
 static void workspace_close(void *data)
@@ -38,8 +38,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         return NULL;
     }
     workspace->base = gm_scheme_find(scheme->coefficients);
-    workspace->state = workspace->room;
-    workspace->member = workspace->room + count;
+    workspace->state = workspace->storage;
+    workspace->member = workspace->storage + count;
     if (!gm_scheme_workspace_open(workspace->base, problem, &workspace->base_workspace)) {
         workspace_close(workspace);
         return NULL;

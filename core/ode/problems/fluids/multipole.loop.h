@@ -42,7 +42,7 @@ struct cell {
 
 struct tree {
     struct cell *cells;
-    size_t count, room;
+    size_t count, capacity;
     size_t filled; /* how long the lists are */
     double *x, *y; /* vortices */
     size_t *origin;
@@ -144,13 +144,13 @@ static bool divide(struct tree *tree, size_t index)
         tree->filled += (cell->count + 2 * LANES - 1) / LANES * LANES; /* whole lanes from any of them on */
         return true;
     }
-    if (tree->count + 4 > tree->room) {
-        struct cell *longer = realloc(tree->cells, 2 * tree->room * sizeof *longer);
+    if (tree->count + 4 > tree->capacity) {
+        struct cell *longer = realloc(tree->cells, 2 * tree->capacity * sizeof *longer);
         if (!longer) {
             return false;
         }
         tree->cells = longer;
-        tree->room *= 2;
+        tree->capacity *= 2;
         cell = &tree->cells[index];
     }
     size_t bounds[5] = {first, 0, 0, 0, end};
@@ -475,8 +475,8 @@ static void close_tree(struct tree *tree)
 static bool open_tree(struct tree *tree, const double *state, size_t count, double tolerance,
                       bool of_logarithms)
 {
-    *tree = (struct tree){.count = 1, .room = 64, .near = {.singly = {.product = 1}}};
-    tree->cells = malloc(tree->room * sizeof *tree->cells);
+    *tree = (struct tree){.count = 1, .capacity = 64, .near = {.singly = {.product = 1}}};
+    tree->cells = malloc(tree->capacity * sizeof *tree->cells);
     tree->x = malloc(2 * count * sizeof *tree->x);
     tree->origin = malloc(count * sizeof *tree->origin);
     if (!tree->cells || !tree->x || !tree->origin) {

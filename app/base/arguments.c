@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Words as one owned list: split from a text, completed by what is usual, written so that they are read
+   again. */
+#include "app/base/arguments.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/common/scene.h"
+
+void gm_arguments_close(struct gm_arguments *arguments)
+{
+    for (int i = 0; i < arguments->count; i++) {
+        free(arguments->words[i]);
+    }
+    free(arguments->words);
+    *arguments = (struct gm_arguments){0};
+}
+
+bool gm_arguments_add(struct gm_arguments *arguments, const char *word)
+{
+    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
+    if (!more) {
+        return false;
+    }
+    arguments->words = more;
+    more[arguments->count] = strdup(word);
+    if (!more[arguments->count]) {
+        return false;
+    }
+    arguments->count++;
+    return true;
+}
+
+bool gm_arguments_end(struct gm_arguments *arguments)
+{
+    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
+    if (more) {
+        arguments->words = more;
+        more[arguments->count] = NULL;
+    }
+    return more != NULL;
+}
+
+bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
+{
+    char *word = malloc(strlen(text) + 1);
+    bool good = word != NULL;
+    while (good) {
+        text += strspn(text, " \t");
+        if (*text == '\0') {
+            break;
+        }
+        char *to = word;
+        while (*text != '\0' && *text != ' ' && *text != '\t') {
+            text += text[0] == '\\' && text[1] != '\0';
+            *to++ = *text++;
+        }
+        *to = '\0';
+        good = gm_arguments_add(arguments, word);
+    }
+    free(word);
+    return good;
+}
+
+/* How long a word's key is; both keys of a run's end count as one. */
+static size_t key_of(const char *word, const char **key)
+{
+    *key = strncmp(word, "steps=", 6) == 0 ? "until=" : word;
+    return strcspn(*key, "=") + 1;
+}
+
+const char *gm_arguments_find(const struct gm_arguments *arguments, const char *word)
+{
+    const char *key, *other;
+    const size_t length = key_of(word, &key);
+    for (int i = 0; i < arguments->count; i++) {
+        if (key_of(arguments->words[i], &other) == length && strncmp(other, key, length) == 0) {
+            return arguments->words[i];
+        }
+    }
+    return NULL;
+}
+
+bool gm_arguments_have(const struct gm_arguments *arguments, const char *word)
+{
+    return gm_arguments_find(arguments, word) != NULL;
+}
+
+void gm_arguments_put(FILE *stream, const char *word)
+{
+    for (; *word; word++) {
+        if (*word == ' ' || *word == '\\') {
+            putc('\\', stream);
+        }
+        putc(*word, stream);
+    }
+}
+
+void gm_arguments_put_shell(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/:%@^";
+    size_t front = strspn(word, plain);
+    if (!word[front] && front > 0) {
+        fputs(word, stream);
+        return;
+    }
+    const char *equals = strchr(word, '=');
+    front = equals && equals < word + front ? (size_t)(equals - word) + 1 : 0;
+    fprintf(stream, "%.*s'", (int)front, word);
+    for (const char *at = word + front; *at; at++) {
+        fputs(*at == '\'' ? "'\\'" : "", stream);
+        putc(*at, stream);
+        fputs(*at == '\'' ? "'" : "", stream);
+    }
+    putc('\'', stream);
+}
+
+void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene)
+{
+    gm_arguments_put(stream, scene->words ? scene->words[0] : scene->name);
+    for (size_t i = 1; scene->words && scene->words[i]; i++) {
+        fputc(' ', stream);
+        gm_arguments_put(stream, scene->words[i]);
+    }
+}
+
+void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size)
+{
+    char *whole = NULL;
+    size_t length = 0;
+    FILE *stream = scene->words ? open_memstream(&whole, &length) : NULL;
+    for (size_t i = 0; stream && scene->words[i]; i++) {
+        fputs(i ? " " : "", stream);
+        gm_arguments_put_shell(stream, scene->words[i]);
+    }
+    const bool told = stream && fclose(stream) == 0;
+    snprintf(text, size, "%s", told ? whole : scene->name);
+    free(whole);
+}
+
+char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fputs(front, stream);
+    for (int i = 0; i < arguments->count; i++) {
+        fputc(' ', stream);
+        gm_arguments_put(stream, arguments->words[i]);
+    }
+    if (fclose(stream) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}

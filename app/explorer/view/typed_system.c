@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the prompt for a system or a scheme of one's own, or a map, looks like. */
+#include "app/explorer/view/typed_system.h"
+
+#include <stdio.h>
+
+/* The line, the caret, and rows for so many letters of what is wrong; above them a rule with what is asked, but in
+   screens of few rows. Of these the scene, the keys, the line and its caret have the first ones. */
+enum { LETTERS = 150, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16, SCREEN_ROWS = 7 };
+
+static const char *const questions[GM_TYPED_KINDS] = {
+    [GM_TYPED_SYSTEM] = " Your own system: a formula with its values, a file, or a name ",
+    [GM_TYPED_SWITCH] = " Your own scheme for this lane: coefficients, or a file ",
+    [GM_TYPED_MAP] = " A map of runs: two keys with ranges a..b:n, and measure=what it shows, as megno ",
+    [GM_TYPED_FORK] = " Your own scheme for one more lane: coefficients, or a file ",
+};
+
+/* What is wrong, at most. */
+static int rows_told(int columns)
+{
+    const int width = columns > 2 ? columns - 2 : 1, rows = (LETTERS + width - 1) / width;
+    return rows > 2 ? rows : 2;
+}
+
+int gm_typed_prompt_rows(const struct gm_typed_prompt *prompt, int columns, int rows)
+{
+    if (!prompt || prompt->kind == GM_TYPED_NONE || rows < 4) {
+        return 0;
+    }
+    const int told = rows_told(columns), room = rows - SCREEN_ROWS;
+    return room < 1 ? FEW_ROWS : room < told ? 2 + room : 2 + told + (rows >= FEW_SCREEN_ROWS);
+}
+
+static void verdict(const struct gm_typed_prompt *prompt, char *text, size_t size)
+{
+    if (prompt->line.refused > 0) {
+        snprintf(text, size,
+                 "A line has room for %d bytes, and the last %zu that came were left out: a file has more.",
+                 GM_EDIT - 1, prompt->line.refused);
+    } else if (!prompt->checked) {
+        snprintf(text, size, "%s", prompt->entered ? "It is read …" : prompt->fault.sentence);
+    } else if (prompt->fault.sentence[0]) {
+        snprintf(text, size, "%s", prompt->fault.sentence);
+    } else {
+        snprintf(text, size, "That is right: enter takes it.");
+    }
+}
+
+void gm_typed_prompt_draw(const struct gm_sheet *sheet, const struct gm_typed_prompt *prompt)
+{
+    char text[GM_MESSAGE + 128];
+    const bool rule = sheet->height > 2 + rows_told(sheet->width), caret = sheet->height > FEW_ROWS,
+               wrong = prompt->fault.sentence[0] != '\0';
+    const int below = rule + 1 + caret;
+    const struct gm_sheet line = gm_sheet_part(sheet, 1, rule, sheet->width - 2, 1);
+    const struct gm_sheet told = gm_sheet_part(sheet, 1, below, sheet->width - 2, sheet->height - below);
+    for (int i = 0; rule && i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
+    }
+    if (rule) {
+        gm_sheet_cut(sheet, 1, 0, questions[prompt->kind], GM_INK, true);
+    }
+    gm_edit_draw(&line, 0, &prompt->line);
+    if (caret && prompt->checked && wrong && prompt->fault.at >= 0) {
+        gm_sheet_glyph(sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), rule + 1,
+                       '^', GM_INITIAL, true);
+    }
+    verdict(prompt, text, sizeof text);
+    gm_sheet_wrapped(&told, 0, 0, told.height, text, prompt->checked && wrong ? GM_INITIAL : GM_SECONDARY);
+}
+
+void gm_typed_prompt_keys(const struct gm_sheet *last, const struct gm_typed_prompt *prompt)
+{
+    const bool ready = prompt->checked && !prompt->fault.sentence[0];
+    const struct gm_hint hints[] = {{"enter", ready ? "take it" : "–", '\n'},
+                                    {"esc", "back", 27},
+                                    {"← →", "move", 0},
+                                    {"ctrl-U", "clear", 'U' - '@'},
+                                    {NULL, NULL, 0}};
+    gm_sheet_hints(last, 1, ready ? hints : hints + 1);
+}

@@ -1,0 +1,540 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a sweep: over one key a graph with a line for each scheme, over two a map for each. A table
+   of any length goes into bins, each of which shows the mean of its runs. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/grid/edges.h"
+#include "app/grid/sweep.h"
+#include "app/output/csv.h"
+#include "core/expression/number.h"
+#include "core/schemes.h"
+#include "scenes/common/graph.h"
+#include "scenes/common/symbol.h"
+
+enum {
+    GRAPH_BINS = 1024, /* across */
+    MAP_BINS = 256,    /* across, and up */
+    MOST_PANELS = 9,
+};
+
+struct bin {
+    double sum;
+    size_t runs;
+};
+
+struct gm_sweep_chart {
+    const struct gm_sweep *sweep;
+    size_t keys[2], key_count; /* the words along the axes */
+    size_t bins[2];            /* 1 up, in a graph */
+    size_t lines;              /* of each observable: the combinations of all other words */
+    size_t shown;              /* observables: the first of the sweep's */
+    struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
+    size_t failed;             /* runs, which are left out */
+    FILE *table;               /* behind the rows that were read */
+    size_t rows;               /* of them */
+    size_t status;             /* the number of its cell in a row */
+};
+
+static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
+{
+    const struct gm_parameter *parameter = gm_scene_parameter(sweep->scene, word->key);
+    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(word->key);
+    const bool number = strcmp(word->key, "steps") == 0 ||
+                        (row && (row->type == GM_REAL || row->type == GM_INTEGER) && !row->automatic);
+    return number && word->count > 1;
+}
+
+/* What the picture has along its axes, and how many lines; false with a sentence if that is no picture. */
+static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, char *message)
+{
+    size_t axes = 0;
+    *chart = (struct gm_sweep_chart){.sweep = sweep, .lines = 1};
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        if (is_axis(sweep, word)) {
+            chart->keys[axes % 2] = i;
+            axes++;
+        } else if (!sweep->words.zip) {
+            chart->lines *= word->count;
+        }
+    }
+    chart->key_count = axes;
+    chart->shown = sweep->measure || sweep->chosen.count < 1 ? sweep->chosen.count : 1;
+    if (chart->shown == 0) {
+        snprintf(message, GM_MESSAGE, "%s has no observable that a picture could show", sweep->scene->name);
+        return false;
+    }
+    const size_t panels = chart->shown * (axes == 2 ? chart->lines : 1);
+    if (axes < 1 || axes > 2 || (axes == 2 && sweep->words.zip)) {
+        snprintf(message, GM_MESSAGE,
+                 "a picture is made of one key with several numbers, or of two, and not of %zu%s", axes,
+                 axes == 2 ? " that are paired" : "");
+        return false;
+    }
+    if (panels > MOST_PANELS || (axes == 1 && chart->lines > GM_LANE_COLOURS)) {
+        snprintf(message, GM_MESSAGE, "a picture has up to %d %s, and these are %zu",
+                 axes == 1 && panels <= MOST_PANELS ? GM_LANE_COLOURS : MOST_PANELS,
+                 axes == 1 && panels <= MOST_PANELS ? "lines"
+                 : axes == 1                        ? "graphs"
+                                                    : "maps",
+                 axes == 1 && panels <= MOST_PANELS ? chart->lines : panels);
+        return false;
+    }
+    for (size_t i = 0; i < 2; i++) {
+        const size_t count = i < axes ? sweep->words.list[chart->keys[i]].count : 1;
+        const size_t most = axes == 1 ? GRAPH_BINS : MAP_BINS;
+        chart->bins[i] = count < most ? count : most;
+    }
+    return true;
+}
+
+bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message)
+{
+    struct gm_sweep_chart chart;
+    return plan(&chart, sweep, message);
+}
+
+/* Which line a run belongs to. */
+static size_t line_of(const struct gm_sweep_chart *chart, size_t run)
+{
+    const struct gm_words *words = &chart->sweep->words;
+    size_t line = 0;
+    for (size_t i = 0; i < words->count && chart->lines > 1; i++) {
+        if (!is_axis(chart->sweep, &words->list[i])) {
+            line = line * words->list[i].count + gm_words_choice(words, i, run);
+        }
+    }
+    return line;
+}
+
+/* The bin of a run along an axis. */
+static size_t bin_of(const struct gm_sweep_chart *chart, size_t axis, size_t run)
+{
+    if (axis >= chart->key_count) {
+        return 0;
+    }
+    const struct gm_words *words = &chart->sweep->words;
+    const size_t choice = gm_words_choice(words, chart->keys[axis], run);
+    const double part = (double)choice / (double)words->list[chart->keys[axis]].count;
+    return chart->bins[axis] == words->list[chart->keys[axis]].count
+               ? choice
+               : (size_t)(part * (double)chart->bins[axis]);
+}
+
+static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable, size_t line)
+{
+    return &chart->cells[(observable * chart->lines + line) * chart->bins[0] * chart->bins[1]];
+}
+
+static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
+{
+    enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
+    if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
+        chart->failed++;
+        return;
+    }
+    for (size_t i = 0; i < chart->shown; i++) {
+        char *end = NULL;
+        const char *cell = gm_csv_cell(row, chart->status + OBSERVABLES + i);
+        const double value = strtod(cell, &end);
+        struct bin *bin = &bins_of(
+            chart, i, line_of(chart, run))[bin_of(chart, 1, run) * chart->bins[0] + bin_of(chart, 0, run)];
+        if (end != cell && isfinite(value)) {
+            bin->sum += value;
+            bin->runs++;
+        }
+    }
+}
+
+struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message)
+{
+    struct gm_sweep_chart *chart = calloc(1, sizeof *chart);
+    char *head = gm_sweep_head(sweep);
+    if (!chart || !head || !plan(chart, sweep, message)) {
+        free(head);
+        free(chart);
+        return NULL;
+    }
+    for (const char *at = strstr(head, ",status,"); at > head; at--) {
+        chart->status += *at == ',';
+    }
+    free(head);
+    chart->cells =
+        calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);
+    chart->table = fopen(path, "r");
+    if (!chart->cells || !chart->table) {
+        snprintf(message, GM_MESSAGE, "%.360s could not be read: %s", path, strerror(errno));
+        gm_sweep_chart_close(chart);
+        return NULL;
+    }
+    gm_sweep_chart_read(chart);
+    return chart;
+}
+
+void gm_sweep_chart_read(struct gm_sweep_chart *chart)
+{
+    char *line = NULL;
+    size_t capacity = 0;
+    clearerr(chart->table);
+    while (getline(&line, &capacity, chart->table) > 0) {
+        const bool head = chart->rows == 0;
+        if (!head && chart->rows <= chart->sweep->count) {
+            take_row(chart, chart->rows - 1, line);
+        }
+        chart->rows++;
+    }
+    free(line);
+}
+
+void gm_sweep_chart_close(struct gm_sweep_chart *chart)
+{
+    if (chart) {
+        if (chart->table) {
+            fclose(chart->table);
+        }
+        free(chart->cells);
+        free(chart);
+    }
+}
+
+/* ---- drawing ---- */
+
+static double mean_of(const struct bin *bin)
+{
+    return bin->runs > 0 ? bin->sum / (double)bin->runs : NAN;
+}
+
+/* The values of an observable that are drawn: their ends, and whether they are better told apart by
+   powers. */
+struct extent {
+    double low, high;
+    bool logarithmic, is_signed;
+};
+
+static struct extent extent_of(const struct gm_sweep_chart *chart, size_t observable)
+{
+    const double wide = 30, balanced = 0.05;
+    const struct bin *bins = bins_of(chart, observable, 0);
+    double low = 1, high = 0, least = 1, greatest = 0;
+    for (size_t i = 0; i < chart->lines * chart->bins[0] * chart->bins[1]; i++) {
+        const double value = mean_of(&bins[i]);
+        gm_range_add(&low, &high, value);
+        if (value > 0) {
+            gm_range_add(&least, &greatest, value);
+        }
+    }
+    const bool powers = low >= 0 && least > 0 && greatest > wide * least;
+    return (struct extent){.low = powers ? least : low,
+                           .high = powers ? greatest : high,
+                           .logarithmic = powers,
+                           .is_signed = fmin(-low, high) > balanced * fmax(-low, high)};
+}
+
+/* The number that stands for a bin: of those of its runs the middle one. */
+static double value_at(const struct gm_sweep_chart *chart, size_t axis, size_t bin)
+{
+    char text[GM_TEXT_SIZE];
+    const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
+    const double each = (double)word->count / (double)chart->bins[axis];
+    double value = NAN;
+    gm_number_parse(gm_word_value(word, (size_t)(each * ((double)bin + 0.5)), text), &value);
+    return value;
+}
+
+/* The bins of an axis by their values, which may have been typed in any order. */
+static void order_bins(const struct gm_sweep_chart *chart, size_t axis, size_t *order, double *values)
+{
+    const size_t count = chart->bins[axis];
+    for (size_t i = 0; i < count; i++) {
+        const double value = value_at(chart, axis, i);
+        size_t at = i;
+        for (; at > 0 && values[at - 1] > value; at--) {
+            values[at] = values[at - 1];
+            order[at] = order[at - 1];
+        }
+        values[at] = value;
+        order[at] = i;
+    }
+}
+
+/* Whether an axis has the scale of powers: equal factors were asked for, or the parameter is one of those. */
+static bool is_logarithmic(const struct gm_sweep_chart *chart, size_t axis)
+{
+    const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
+    const struct gm_parameter *row = gm_scene_parameter(chart->sweep->scene, word->key);
+    bool equal_factors = row && row->logarithmic, even = false;
+    for (size_t i = 0; i < word->piece_count; i++) {
+        equal_factors |= word->pieces[i].range.logarithmic;
+        even |= word->pieces[i].range.count > 0 && !word->pieces[i].range.logarithmic;
+    }
+    for (size_t i = 0; i < chart->bins[axis]; i++) {
+        equal_factors = equal_factors && value_at(chart, axis, i) > 0;
+    }
+    return equal_factors && !even;
+}
+
+static const char *key_label(const struct gm_sweep_chart *chart, size_t axis, struct gm_picture *picture)
+{
+    const char *key = chart->sweep->words.list[chart->keys[axis]].key;
+    const struct gm_parameter *row = gm_scene_parameter(chart->sweep->scene, key);
+    const char *unit = row ? row->unit : "";
+    return gm_picture_text(picture, "%s%s%s", gm_key_symbol(key), unit[0] ? ", " : "", unit);
+}
+
+static const char *title_of(const struct gm_sweep_chart *chart, size_t observable, struct gm_picture *picture)
+{
+    char title[GM_MESSAGE];
+    const struct gm_scene *scene = chart->sweep->scene;
+    return gm_picture_text(
+        picture, "%s",
+        gm_observable_title(gm_scene_observable_at(scene, chart->sweep->chosen.numbers[observable]), title,
+                            sizeof title));
+}
+
+/* The same without the formula that may follow two blanks. */
+static const char *short_title(const struct gm_sweep_chart *chart, size_t observable,
+                               struct gm_picture *picture)
+{
+    const char *title = title_of(chart, observable, picture), *formula = strstr(title, "  ");
+    return formula ? gm_picture_text(picture, "%.*s", (int)(formula - title), title) : title;
+}
+
+/* What sets a line apart: "Verlet, system = pendulum". */
+static const char *line_name(const struct gm_sweep_chart *chart, size_t line, struct gm_picture *picture)
+{
+    const struct gm_words *words = &chart->sweep->words;
+    const char *name = "";
+    for (size_t i = words->count; i-- > 0;) {
+        const struct gm_word *word = &words->list[i];
+        if (is_axis(chart->sweep, word) || words->zip) {
+            continue;
+        }
+        char text[GM_TEXT_SIZE];
+        const char *value = gm_word_name(word, line % word->count, text);
+        const bool scheme = strcmp(word->key, "scheme") == 0;
+        if (scheme) {
+            value = gm_scheme_find(value)->title;
+        }
+        if (word->count > 1 || scheme) {
+            name = gm_picture_text(picture, "%s%s%s%s%s", scheme ? "" : word->key, scheme ? "" : " = ", value,
+                                   name[0] ? ", " : "", name);
+        }
+        line /= word->count;
+    }
+    return name;
+}
+
+static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, struct gm_picture *picture)
+{
+    enum { SINGLE = 64 }; /* so many points are told apart */
+    const size_t count = chart->bins[0];
+    const struct extent extent = extent_of(chart, observable);
+    double *points = gm_picture_memory(picture, 3 * count * sizeof *points), *values = points + 2 * count;
+    size_t *order = gm_picture_memory(picture, count * sizeof *order);
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title_of(chart, observable, picture));
+    if (!points || !order) {
+        return;
+    }
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    panel->x = (struct gm_axis){.label = key_label(chart, 0, picture),
+                                .scale = is_logarithmic(chart, 0) ? GM_LOG : GM_LINEAR,
+                                .low = 1,
+                                .high = 0};
+    panel->y = (struct gm_axis){.label = "",
+                                .scale = extent.logarithmic ? GM_LOG : GM_LINEAR,
+                                .low = extent.low,
+                                .high = extent.high};
+    order_bins(chart, 0, order, values);
+    for (size_t i = 0; i < count; i++) {
+        points[2 * i] = values[i];
+        gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, panel->y.scale);
+    for (size_t line = 0; line < chart->lines; line++) {
+        const struct bin *bins = bins_of(chart, observable, line);
+        for (size_t i = 0; i < count; i++) {
+            points[2 * i + 1] = mean_of(&bins[order[i]]);
+        }
+        const struct gm_style style = {gm_lane_role(line), 1, 2, gm_lane_dash(line)};
+        gm_mark_line(picture, panel, style, points, count, false);
+        if (count <= SINGLE) {
+            gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 5},
+                           points, count);
+        }
+        gm_panel_key(picture, panel, style, line_name(chart, line, picture));
+    }
+}
+
+/* The corners of a map's cells, four for each, and its two triangles. */
+struct cells {
+    double *points, *values;
+    int *triangles;
+    size_t count; /* of cells */
+};
+
+static void add_cell(struct cells *cells, const double x[2], const double y[2], double value)
+{
+    const size_t first = 4 * cells->count;
+    for (size_t i = 0; i < 4; i++) {
+        cells->points[2 * (first + i)] = x[i == 1 || i == 2];
+        cells->points[2 * (first + i) + 1] = y[i >= 2];
+        cells->values[first + i] = value;
+    }
+    const int corner = (int)first;
+    const int triangles[] = {corner, corner + 1, corner + 2, corner, corner + 2, corner + 3};
+    memcpy(&cells->triangles[6 * cells->count++], triangles, sizeof triangles);
+}
+
+static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size_t line,
+                     struct gm_picture *picture)
+{
+    const size_t across = chart->bins[0], up = chart->bins[1], all = across * up;
+    const struct extent extent = extent_of(chart, observable);
+    const bool logarithmic[] = {is_logarithmic(chart, 0), is_logarithmic(chart, 1)};
+    const char *title = title_of(chart, observable, picture);
+    double values[MAP_BINS], edges[2][MAP_BINS + 1];
+    size_t order[2][MAP_BINS];
+    struct cells cells = {.points = malloc(8 * all * sizeof *cells.points),
+                          .values = malloc(4 * all * sizeof *cells.values),
+                          .triangles = malloc(6 * all * sizeof *cells.triangles)};
+    const char *name = line_name(chart, line, picture);
+    /* a small picture has no room at the bar */
+    struct gm_panel *panel = gm_panel_add(
+        picture, GM_PLACE_STATE,
+        chart->shown > 1 ? gm_picture_text(picture, "%s%s%s", short_title(chart, observable, picture),
+                                           name[0] ? ", " : "", name)
+                         : name);
+    const bool empty = extent.low > extent.high, even = extent.low == extent.high;
+    panel->axes = true;
+    panel->colour_bar = !empty && !even; /* one number has no scale */
+    panel->title_role = GM_INK;
+    panel->note = empty                ? "no run has a number"
+                  : even               ? gm_picture_text(picture, "%.6g everywhere", extent.low)
+                  : extent.logarithmic ? "colour: log₁₀"
+                                       : "";
+    panel->colour_bar_label = gm_picture_text(picture, "%s%s", extent.logarithmic ? "log₁₀ " : "", title);
+    for (size_t axis = 0; axis < 2; axis++) {
+        struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;
+        order_bins(chart, axis, order[axis], values);
+        gm_edges_of(values, chart->bins[axis], logarithmic[axis], edges[axis]);
+        *shown = (struct gm_axis){.label = key_label(chart, axis, picture),
+                                  .scale = logarithmic[axis] ? GM_LOG : GM_LINEAR,
+                                  .low = 1,
+                                  .high = 0,
+                                  .least_tick = values[0],
+                                  .largest_tick = values[chart->bins[axis] - 1]};
+        for (size_t i = 0; i <= chart->bins[axis]; i++) {
+            gm_range_add(&shown->low, &shown->high, edges[axis][i]);
+        }
+    }
+    const struct bin *bins = bins_of(chart, observable, line);
+    const bool good = cells.points && cells.values && cells.triangles;
+    for (size_t i = 0; good && i < all; i++) {
+        const double value = mean_of(&bins[order[1][i / across] * across + order[0][i % across]]);
+        /* 0 is less than any power: it has the colour of the least */
+        const double shown = extent.logarithmic ? log10(fmax(value, extent.low)) : value;
+        if (isfinite(value)) {
+            add_cell(&cells, &edges[0][i % across], &edges[1][i / across], shown);
+        }
+    }
+    const double reach = fmax(-extent.low, extent.high);
+    const double low = extent.logarithmic ? log10(extent.low) : extent.is_signed ? -reach : extent.low;
+    const double high = extent.logarithmic ? log10(extent.high) : extent.is_signed ? reach : extent.high;
+    if (good && !empty) {
+        gm_mark_mesh(picture, panel, extent.is_signed ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low, high,
+                     cells.points, cells.values, 4 * cells.count, cells.triangles, 2 * cells.count);
+    }
+    free(cells.points);
+    free(cells.values);
+    free(cells.triangles);
+}
+
+/* The value of an axis that is nearest to a place on it. */
+static size_t nearest_choice(const struct gm_sweep_chart *chart, size_t axis, double place)
+{
+    const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
+    const bool powers = is_logarithmic(chart, axis);
+    size_t nearest = 0;
+    double least = INFINITY;
+    for (size_t i = 0; i < word->count; i++) {
+        char text[GM_TEXT_SIZE];
+        double value = NAN;
+        gm_number_parse(gm_word_value(word, i, text), &value);
+        const double away = powers ? fabs(log(value / place)) : fabs(value - place);
+        if (away < least) {
+            least = away;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+bool gm_sweep_pick(const struct gm_sweep *sweep, size_t map, double x, double y, size_t *run)
+{
+    struct gm_sweep_chart chart;
+    char message[GM_MESSAGE];
+    if (!plan(&chart, sweep, message) || chart.key_count != 2 || map >= chart.shown * chart.lines) {
+        return false;
+    }
+    const size_t chosen[] = {nearest_choice(&chart, 0, x), nearest_choice(&chart, 1, y)};
+    size_t line = map % chart.lines, each = 1;
+    *run = 0;
+    for (size_t i = sweep->words.count; i-- > 0;) { /* the last list changes fastest */
+        const struct gm_word *word = &sweep->words.list[i];
+        size_t choice = i == chart.keys[0] ? chosen[0] : chosen[1];
+        if (!is_axis(sweep, word)) {
+            choice = line % word->count;
+            line /= word->count;
+        }
+        *run += choice * each;
+        each *= word->count;
+    }
+    return true;
+}
+
+/* "until = 10, steps = 5": the keys that have one value. */
+static const char *fixed_words(const struct gm_sweep *sweep, struct gm_picture *picture)
+{
+    const char *text = "";
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        if (word->count == 1 && strcmp(word->key, "scheme") != 0) {
+            text = gm_picture_text(picture, "%s,  %s = %s", text, gm_key_symbol(word->key),
+                                   word->pieces[0].text);
+        }
+    }
+    return text;
+}
+
+void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture)
+{
+    const struct gm_sweep *sweep = chart->sweep;
+    const size_t last = chart->key_count - 1;
+    picture->title = gm_picture_text(picture, "%s: %s over %s%s%s", sweep->scene->title,
+                                     chart->shown == 1 ? short_title(chart, 0, picture) : "what comes out",
+                                     key_label(chart, 0, picture), last > 0 ? " and " : "",
+                                     last > 0 ? key_label(chart, last, picture) : "");
+    picture->subtitle = gm_picture_text(picture, "%zu run%s%s", sweep->count, gm_plural((double)sweep->count),
+                                        fixed_words(sweep, picture));
+    const bool binned = sweep->words.list[chart->keys[0]].count > chart->bins[0] ||
+                        (last > 0 && sweep->words.list[chart->keys[last]].count > chart->bins[last]);
+    picture->clock = "";
+    picture->caption = gm_picture_text(
+        picture, "%s%s", binned ? "What lies closer together is shown by its mean. " : "",
+        chart->failed > 0
+            ? gm_picture_text(picture, "%zu of the runs gave no numbers and are left out.", chart->failed)
+            : "");
+    for (size_t i = 0; i < chart->shown; i++) {
+        for (size_t line = 0; line < chart->lines && chart->key_count == 2; line++) {
+            draw_map(chart, i, line, picture);
+        }
+        if (chart->key_count == 1) {
+            draw_graph(chart, i, picture);
+        }
+    }
+}

@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The runs of a sweep: from a number to a run, and from a run to a row. */
+#include "app/base/interrupt.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/grid/sweep.h"
+#include "app/output/csv.h"
+#include "app/words/drive.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+#include "render/clock.h"
+
+const char gm_sweep_statuses[] =
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused, warning";
+
+static const struct gm_parameter *row_of(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *parameter = gm_scene_parameter(scene, key);
+    return parameter ? parameter : gm_setting_find(key);
+}
+
+static bool is_number(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = row_of(scene, key);
+    return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
+}
+
+/* Whether a word says how runs are made of the others, and is no key of a run. */
+static bool is_of_the_list(const struct gm_word *word)
+{
+    return strcmp(word->key, "zip") == 0;
+}
+
+static bool is_column(const struct gm_word *word)
+{
+    return !is_of_the_list(word) && strcmp(word->key, "scheme") != 0;
+}
+
+/* ---- the words of a run ---- */
+
+static bool add_word(struct gm_arguments *arguments, const char *key, const char *value)
+{
+    char *word = NULL;
+    const bool good = asprintf(&word, "%s=%s", key, value) >= 0 && gm_arguments_add(arguments, word);
+    free(word);
+    return good;
+}
+
+/* Whether a word is a parameter that schemes bring, and that this one does not. */
+static bool is_idle(const struct gm_sweep *sweep, const struct gm_word *word, const struct gm_scheme *scheme)
+{
+    const struct gm_parameter *setting = gm_setting_find(word->key);
+    return setting && scheme && !gm_scene_parameter(sweep->scene, word->key) &&
+           !gm_scheme_takes(scheme, setting);
+}
+
+/* The words of run number `run`, which are to be closed; `instead` of key `key`, where that is not NULL. What
+   its scheme does not take is left out, as lanes leave it out, where another one takes it. */
+static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, const char *instead,
+                     struct gm_arguments *arguments)
+{
+    char text[GM_TEXT_SIZE];
+    const struct gm_word *schemes = gm_words_find(&sweep->words, "scheme");
+    const size_t choice = gm_words_choice(&sweep->words, (size_t)(schemes - sweep->words.list), run);
+    const struct gm_scheme *scheme =
+        gm_scheme_find(key && strcmp(key, "scheme") == 0 ? instead : gm_word_value(schemes, choice, text));
+    *arguments = (struct gm_arguments){0};
+    bool good =
+        gm_arguments_add(arguments, sweep->scene->words ? sweep->scene->words[0] : sweep->scene->name);
+    for (size_t i = 1; good && sweep->scene->words && sweep->scene->words[i]; i++) {
+        good = gm_arguments_add(arguments, sweep->scene->words[i]);
+    }
+    for (size_t i = 0; good && i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        bool idle = is_idle(sweep, word, scheme);
+        for (size_t k = 0; idle && k < schemes->count; k++) {
+            idle = is_idle(sweep, word, gm_scheme_find(schemes->pieces[k].text));
+        }
+        if (!is_of_the_list(word) && (idle || !is_idle(sweep, word, scheme))) {
+            const bool other = key && strcmp(key, word->key) == 0;
+            good =
+                add_word(arguments, word->key,
+                         other ? instead : gm_word_value(word, gm_words_choice(&sweep->words, i, run), text));
+        }
+    }
+    return good;
+}
+
+char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
+{
+    struct gm_arguments arguments;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? open_memstream(&text, &size) : NULL;
+    if (stream) {
+        fputs("run", stream);
+        for (int i = 0; i < arguments.count; i++) {
+            putc(' ', stream);
+            gm_arguments_put_shell(stream, arguments.words[i]);
+        }
+        if (fclose(stream) != 0) {
+            free(text);
+            text = NULL;
+        }
+    }
+    gm_arguments_close(&arguments);
+    return text;
+}
+
+/* ---- reading ---- */
+
+/* The run with the middle of every list. */
+static size_t middle_of(const struct gm_sweep *sweep)
+{
+    size_t run = 0;
+    for (size_t i = 0; i < sweep->words.count && !sweep->words.zip; i++) {
+        run = run * sweep->words.list[i].count + sweep->words.list[i].count / 2;
+    }
+    return sweep->words.zip ? sweep->count / 2 : run;
+}
+
+static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value,
+                    bool *unreadable, char *message)
+{
+    struct gm_arguments arguments;
+    struct gm_request request = {0};
+    const bool told = words_of(sweep, run, key, value, &arguments) || gm_refuse(message, "not enough memory");
+    const bool good =
+        told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message);
+    *unreadable = request.refusal == GM_EXIT_FILE;
+    gm_request_close(&request);
+    gm_arguments_close(&arguments);
+    return good;
+}
+
+/* Whether the first run can be asked for, with another value of a key, or else the one in the middle: in a
+   corner of ranges there may be no run. False with a sentence on the first. */
+static bool try_some(const struct gm_sweep *sweep, const char *key, const char *value, bool *unreadable,
+                     char *message)
+{
+    char ignored[GM_MESSAGE];
+    bool also_unreadable;
+    return try_run(sweep, 0, key, value, unreadable, message) ||
+           try_run(sweep, middle_of(sweep), key, value, &also_unreadable, ignored);
+}
+
+/* Whether a value is one of its key. */
+static bool fits(const struct gm_scene *scene, const char *key, const char *value)
+{
+    char *own = gm_scene_defaults(scene);
+    struct gm_settings settings;
+    double steps = 0;
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    const bool good = row ? own && gm_parameter_set(row, own, value) == GM_PARSED
+                      : gm_setting_find(key)
+                          ? gm_parameter_set(gm_setting_find(key), &settings, value) == GM_PARSED
+                          : gm_number_parse(value, &steps) && steps >= 0 && steps <= (double)GM_MOST_STEPS;
+    free(own);
+    return good;
+}
+
+/* A run can be asked for with all schemes, and every list holds values of its key: of a range the ends
+   tell. */
+static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
+{
+    char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        if (strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0) {
+            return gm_refuse(message, "%s= is of lanes beside each other; a sweep has none", word->key);
+        }
+        if (strcmp(word->key, "scheme") == 0) {
+            for (size_t k = 0; k < word->count; k++) {
+                if (!try_some(sweep, "scheme", gm_word_value(word, k, first), unreadable, message)) {
+                    return false;
+                }
+            }
+        }
+        size_t value = 0;
+        for (size_t k = 0; is_column(word) && k < word->piece_count; k++) {
+            const size_t values = word->pieces[k].range.count ? word->pieces[k].range.count : 1;
+            const char *ends[] = {gm_word_value(word, value, first),
+                                  gm_word_value(word, value + values - 1, last)};
+            for (size_t end = 0; end < 2; end++) {
+                if (!fits(sweep->scene, word->key, ends[end]) &&
+                    !try_some(sweep, word->key, ends[end], unreadable, message)) {
+                    return false;
+                }
+            }
+            value += values;
+        }
+    }
+    return true;
+}
+
+static bool choose_observables(struct gm_sweep *sweep, const char *measure, char *message)
+{
+    sweep->measure = measure ? strdup(measure) : NULL;
+    return (!measure || sweep->measure || gm_refuse(message, "not enough memory")) &&
+           gm_chosen_open(&sweep->chosen, sweep->scene, measure, message);
+}
+
+bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
+                   bool *unreadable, char *message)
+{
+    *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
+    *unreadable = false;
+    if (arguments->count == 0) {
+        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
+    }
+    int status;
+    sweep->scene = gm_request_scene(arguments->count, arguments->words, &status, message);
+    if (!sweep->scene) {
+        *unreadable = status == GM_EXIT_FILE;
+        return false;
+    }
+    if (!gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                       GM_RUN_SCHEMES, message) ||
+        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
+        !choose_observables(sweep, measure, message) || !check(sweep, unreadable, message)) {
+        return false;
+    }
+    sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
+    return sweep->arguments || gm_refuse(message, "not enough memory");
+}
+
+void gm_sweep_close(struct gm_sweep *sweep)
+{
+    gm_words_close(&sweep->words);
+    free(sweep->arguments);
+    free(sweep->measure);
+    gm_chosen_close(&sweep->chosen);
+    *sweep = (struct gm_sweep){0};
+}
+
+size_t gm_sweep_share(const struct gm_sweep *sweep)
+{
+    return (sweep->count + sweep->shards - sweep->shard) / sweep->shards;
+}
+
+size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
+{
+    return k * sweep->shards + sweep->shard - 1;
+}
+
+/* ---- rows ---- */
+
+char *gm_sweep_head(const struct gm_sweep *sweep)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fputs("scene,scheme", stream);
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        if (is_column(&sweep->words.list[i])) {
+            const char *key = sweep->words.list[i].key;
+            /* behind the status stands how many were made */
+            fprintf(stream, ",%s", strcmp(key, "steps") == 0 ? "steps_asked" : key);
+        }
+    }
+    fputs(",status,warning,t,steps,evaluations,solves,seconds", stream);
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
+    }
+    fputc('\n', stream);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
+{
+    char text[GM_TEXT_SIZE];
+    fprintf(stream, "%s,", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
+    for (size_t pass = 0; pass < 2; pass++) { /* the scheme, wherever it was typed, is the first column */
+        for (size_t i = 0; i < sweep->words.count; i++) {
+            const struct gm_word *word = &sweep->words.list[i];
+            if (is_of_the_list(word) || is_column(word) != (pass == 1)) {
+                continue;
+            }
+            const char *value = gm_word_value(word, gm_words_choice(&sweep->words, i, run), text);
+            const struct gm_scheme *scheme = strcmp(word->key, "scheme") == 0 ? gm_scheme_find(value) : NULL;
+            value = scheme ? gm_scheme_word(scheme) : value;
+            double number = 0;
+            if (is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
+                fprintf(stream, "%.17g,", number);
+            } else {
+                gm_csv_put_text(stream, value);
+                fputc(',', stream);
+            }
+        }
+    }
+}
+
+char *gm_sweep_front(const struct gm_sweep *sweep, size_t run)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    put_front(sweep, run, stream);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+/* The cells behind the front, of a run that has ended or could not begin (no lane). */
+static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
+                    const char *warning, const double *values, FILE *stream)
+{
+    const struct gm_lane *lane = drive->lane;
+    fprintf(stream, "%s,", status);
+    if (warning[0]) {
+        gm_csv_put_quoted(stream, warning);
+    }
+    if (lane) {
+        const struct gm_run *run = lane->run;
+        fprintf(stream, ",%.17g,%" PRId64 ",%.0f,%.0f,%.6g", run->t, run->steps,
+                gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
+                drive->seconds);
+    } else {
+        fputs(",,,,,", stream);
+    }
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        fputc(',', stream);
+        if (lane && !isnan(values[i])) {
+            fprintf(stream, "%.17g", values[i]);
+        }
+    }
+    fputc('\n', stream);
+}
+
+/* Whether what is told follows from the last state alone. */
+static bool is_of_the_end(const struct gm_sweep *sweep)
+{
+    bool end = !sweep->scene->stop;
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        const struct gm_observable *observable =
+            gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i]);
+        end = end && !observable->recalls && observable->period == 0;
+    }
+    return end;
+}
+
+/* Asks for the run as `geomint run` would, and makes it, unless a status says why it cannot be. */
+static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
+                     const char *status, struct gm_sweep_row *row)
+{
+    char message[GM_MESSAGE];
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_drive drive = {.request = request};
+    drive.lane = status ? NULL : gm_request_open_lane(request, 0, message);
+    if (drive.lane) {
+        drive.lane->unfollowed = is_of_the_end(sweep);
+        gm_drive_to(&drive, request->lanes[0].steps, false, message);
+    }
+    const struct gm_run *ended = drive.lane ? drive.lane->run : NULL;
+    const bool interrupted = ended && gm_interrupted && gm_drive_goes_on(&drive, request->lanes[0].steps);
+    double *values = interrupted ? NULL : malloc(sweep->chosen.count * sizeof *values);
+    for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
+        values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
+    }
+    size_t size = 0;
+    FILE *stream = values ? open_memstream(&row->text, &size) : NULL;
+    if (!status) {
+        const bool lost = gm_memory_refusals() != refusals || !ended;
+        status = gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status);
+        row->ok = !lost && ended->status == GM_OK;
+    }
+    if (row->ok) {
+        gm_drive_warning(&drive, row->sentence, GM_MESSAGE);
+    }
+    if (stream) {
+        put_front(sweep, run, stream);
+        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, stream);
+        if (fclose(stream) != 0) {
+            free(row->text);
+            row->text = NULL;
+        }
+    }
+    free(values);
+    gm_lane_close(drive.lane);
+}
+
+void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row)
+{
+    struct gm_arguments arguments;
+    struct gm_request request = {0};
+    const unsigned long refusals = gm_memory_refusals();
+    *row = (struct gm_sweep_row){0};
+    const bool told = words_of(sweep, run, NULL, NULL, &arguments);
+    const bool asked = told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words,
+                                                    1, row->sentence);
+    const bool lost = gm_memory_refusals() != refusals;
+    if (asked || lost) {
+        row->sentence[0] = '\0';
+    }
+    make_row(sweep, run, &request, asked ? NULL : lost ? gm_status_name(GM_OUT_OF_MEMORY) : "refused", row);
+    gm_request_close(&request);
+    gm_arguments_close(&arguments);
+}
+
+/* ---- how long it takes ---- */
+
+/* Of all runs, judged by a few of them. */
+static double sum_of(const struct gm_sweep *sweep,
+                     double (*of)(const struct gm_request *request, size_t index))
+{
+    enum { SAMPLES = 5 };
+    const size_t runs = gm_sweep_share(sweep);
+    double sum = 0;
+    for (size_t i = 0; i < SAMPLES && runs > 0; i++) {
+        char message[GM_MESSAGE];
+        struct gm_arguments arguments;
+        struct gm_request request = {0};
+        const size_t run = gm_sweep_run(sweep, (runs - 1) / (SAMPLES - 1) * i);
+        if (words_of(sweep, run, NULL, NULL, &arguments) &&
+            gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message)) {
+            sum += of(&request, 0);
+        }
+        gm_request_close(&request);
+        gm_arguments_close(&arguments);
+    }
+    return sum / SAMPLES * (double)runs;
+}
+
+double gm_sweep_seconds(const struct gm_sweep *sweep)
+{
+    return sum_of(sweep, gm_drive_seconds);
+}
+
+double gm_sweep_steps(const struct gm_sweep *sweep)
+{
+    return sum_of(sweep, gm_request_steps);
+}

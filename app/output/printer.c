@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pictures to files: pixels to PNG, drawings to SVG and PDF. */
+#include "app/output/printer.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "app/output/say.h"
+#include "core/memory.h"
+#include "render/drawing/glyphs.h"
+#include "render/message.h"
+#include "render/pixels/canvas.h"
+#include "render/vector/pdf.h"
+#include "render/vector/svg.h"
+
+struct gm_printer {
+    struct gm_canvas *canvas; /* of PNG */
+    unsigned char *rgb;
+    const char *backend;
+};
+
+static const char *const names[GM_FORMAT_COUNT] = {"png", "svg", "pdf"};
+
+const char *gm_format_name(enum gm_format format)
+{
+    return names[format];
+}
+
+bool gm_format_find(const char *name, enum gm_format *format)
+{
+    for (int i = 0; i < GM_FORMAT_COUNT; i++) {
+        if (strcasecmp(name, names[i]) == 0) {
+            *format = (enum gm_format)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gm_format_of(const char *path, enum gm_format *format)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot && gm_format_find(dot + 1, format);
+}
+
+static bool no_memory(const struct gm_appearance *look, char *message)
+{
+    return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
+}
+
+void gm_printer_expect(enum gm_format format)
+{
+    if (format == GM_FORMAT_PNG) {
+        gm_canvas_expect();
+    }
+}
+
+struct gm_printer *gm_printer_open(const struct gm_print *print, char *message)
+{
+    const struct gm_appearance *look = &print->look;
+    struct gm_printer *press = calloc(1, sizeof *press);
+    if (!press) {
+        no_memory(look, message);
+        return NULL;
+    }
+    if (print->format != GM_FORMAT_PNG) {
+        press->backend = print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
+        return press;
+    }
+    press->canvas = gm_canvas_open(look, message);
+    press->rgb = malloc((size_t)look->width * (size_t)look->height * 3);
+    if (!press->canvas || !press->rgb) {
+        if (press->canvas || gm_memory_was_short()) {
+            no_memory(look, message);
+        }
+        gm_printer_close(press);
+        return NULL;
+    }
+    press->backend = gm_canvas_backend(press->canvas);
+    return press;
+}
+
+void gm_printer_close(struct gm_printer *press)
+{
+    if (press) {
+        gm_canvas_close(press->canvas);
+        free(press->rgb);
+        free(press);
+    }
+}
+
+const char *gm_printer_backend(const struct gm_printer *press)
+{
+    return press->backend;
+}
+
+bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct gm_picture *picture,
+                      const struct gm_png_text *texts, size_t count, char *message)
+{
+    const struct gm_appearance *look = &print->look;
+    const char *path = strcmp(print->path, "-") == 0 ? "/dev/stdout" : print->path;
+    if (gm_memory_was_short()) {
+        return no_memory(look, message);
+    }
+    if (print->format != GM_FORMAT_PNG) {
+        const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
+            path, look, picture, texts, count, &print->fields, message);
+        if (!drawn && errno == ENOMEM) {
+            gm_memory_refused(); /* Cairo, perhaps, which tells nobody else */
+        }
+        return drawn || (gm_memory_was_short() ? no_memory(look, message) : false);
+    }
+    if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
+        return no_memory(look, message);
+    }
+    return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
+}
+
+int gm_printer_fail(const char *path, const char *message)
+{
+    struct pollfd pipe = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    if (path && strcmp(path, "-") == 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR)) {
+        return GM_EXIT_PIPE;
+    }
+    gm_complain("%s", message);
+    return GM_EXIT_FILE;
+}
+
+/* The letters that the font lacks, the last place of them for that there are more. */
+static void tell_lacking(void)
+{
+    enum { TOLD = GM_LACKING - 1 };
+    uint32_t letters[GM_LACKING];
+    const size_t count = gm_glyphs_lacking(letters);
+    char told[TOLD * 16] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < count && i < TOLD; i++) {
+        const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
+        used += (size_t)snprintf(told + used, sizeof told - used, "%sU+%04" PRIX32, between, letters[i]);
+    }
+    if (count == 1) {
+        gm_complain("the font has no letter %s: a box stands for it in the picture", told);
+    } else if (count > 1) {
+        gm_complain("the font has no letters %s%s: boxes stand for them in the picture", told,
+                    count > TOLD ? " and others" : "");
+    }
+}
+
+void gm_printer_report(const struct gm_print *print, const char *table)
+{
+    if (strcmp(print->path, "-") != 0) {
+        gm_complain("wrote %s%s%s", print->path, table[0] ? " and " : "", table);
+    }
+    if (print->format != GM_FORMAT_SVG) {
+        tell_lacking();
+    }
+    if (print->fields > 0 && !gm_memory_was_short()) {
+        gm_complain("%s in it %s of pixels; all else is lines and letters",
+                    print->fields > 1 ? "the fields of colours" : "the field of colours",
+                    print->fields > 1 ? "are images" : "is an image");
+    }
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_PRESS_H
+#define GM_APP_OUTPUT_PRESS_H
+
+#include "render/files/png.h"
+#include "render/layout/appearance.h"
+#include "render/picture/picture.h"
+
+/* One picture to a file, in the format of its ending. */
+
+enum gm_format { GM_FORMAT_PNG, GM_FORMAT_SVG, GM_FORMAT_PDF, GM_FORMAT_COUNT };
+
+/* What is printed where. */
+struct gm_print {
+    const char *path; /* "-": standard output */
+    enum gm_format format;
+    struct gm_appearance look;
+    size_t fields; /* set when it is printed: the fields of colours that a drawing holds as images */
+};
+
+/* "png", "svg", "pdf" */
+const char *gm_format_name(enum gm_format format);
+/* The format of that name, and that of a file by its ending; false if there is none. */
+bool gm_format_find(const char *name, enum gm_format *format);
+bool gm_format_of(const char *path, enum gm_format *format);
+
+/* Begins, beside the run whose picture it will print, what takes long of opening a press. */
+void gm_printer_expect(enum gm_format format);
+
+/* A press for one format and look, which outlives it. NULL on failure, with a sentence (GM_MESSAGE bytes). */
+struct gm_printer;
+struct gm_printer *gm_printer_open(const struct gm_print *print, char *message);
+void gm_printer_close(struct gm_printer *press);
+
+/* What paints, for the file to tell. */
+const char *gm_printer_backend(const struct gm_printer *press);
+
+/* Writes the picture with what it tells of itself. False with a sentence (GM_MESSAGE bytes). */
+bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct gm_picture *picture,
+                      const struct gm_png_text *texts, size_t count, char *message);
+
+/* Complains that the picture could not be written to that path (NULL: one that is not known). The status to exit with:
+   3, or 141, without a word, where standard output is a pipe that nobody reads. */
+int gm_printer_fail(const char *path, const char *message);
+
+/* Says on standard error what was written, of a file, with the table beside it ("": none); and once what of
+   it is an image. */
+void gm_printer_report(const struct gm_print *print, const char *table);
+
+#endif

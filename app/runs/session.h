@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_LANES_SESSION_H
+#define GM_APP_LANES_SESSION_H
+
+#include "app/runs/past.h"
+#include "app/words/request.h"
+
+/* What is explored: lanes of one scene that go through model time together, what was changed in flight, and
+   the snapshots to step back to. No threads, no clock, no terminal. */
+
+enum { GM_MOST_LANES = 24 };
+
+/* How far a lane has gone through model time, whichever way: gone + |t - from|. */
+struct gm_course {
+    double gone, from;
+};
+
+struct gm_session {
+    const struct gm_scene *scene;
+    size_t count; /* of lanes, at least 1 */
+    struct gm_lane *lanes[GM_MOST_LANES];
+    struct gm_past pasts[GM_MOST_LANES];
+    struct gm_course courses[GM_MOST_LANES];
+    /* Parameters that wait for gm_session_restart; NULL where nothing was changed. Until then a lane keeps
+       its own: its problem was made for them. */
+    struct gm_lane_spec wanted[GM_MOST_LANES];
+    struct gm_request log; /* the lanes' starts, and the changes since */
+    bool overlaid;         /* all lanes in one panel */
+    bool visiting;         /* an earlier moment is looked at; later ones are kept until a lane goes on */
+    bool turned;           /* time has run backwards since the start */
+};
+
+/* Opens the lanes of a request, which is copied. False with a sentence (GM_MESSAGE bytes). */
+bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message);
+void gm_session_close(struct gm_session *session);
+
+/* All lanes at their start again, with the schemes they have now and the parameters as last set. If those
+   contradict, false with a sentence; the lanes then go on as they were. */
+bool gm_session_restart(struct gm_session *session, char *message);
+
+/* ---- time ---- */
+
+/* 1 where time runs forwards, -1 where it runs backwards. */
+double gm_session_direction(const struct gm_session *session);
+/* The time of the lane that is furthest in that direction, and the nearest time at which a lane that still
+   goes makes its next step (infinite, in that direction, if none does). */
+double gm_session_time(const struct gm_session *session);
+double gm_session_next(const struct gm_session *session);
+
+/* Lets the lane that is furthest behind make steps that end no further than t: one, or a share of many. False
+   if no lane has such a step to make. */
+bool gm_session_advance(struct gm_session *session, double t);
+
+/* One step back for the lanes that are ahead; false with a sentence. */
+bool gm_session_back(struct gm_session *session, char *message);
+
+/* Lets time run the other way from here, dt to -dt; false with a sentence if a scheme does not know how. */
+bool gm_session_turn(struct gm_session *session, char *message);
+/* The largest component of the difference of a lane's state from its start. */
+double gm_session_from_start(const struct gm_session *session, size_t lane);
+
+/* How much model time the lanes have gone through, and how much the snapshots reach over. */
+double gm_session_gone(const struct gm_session *session);
+double gm_session_reach(const struct gm_session *session);
+/* Where the first snapshot after `gone` is; `gone` itself if there is none. */
+double gm_session_after(const struct gm_session *session, double gone);
+/* Takes the lanes to the snapshots at or before `gone`; later ones stay within reach until a lane goes on.
+   False with a sentence if there are none. */
+bool gm_session_visit(struct gm_session *session, double gone, char *message);
+
+/* ---- changes ---- */
+
+/* Sets a parameter of the scene or of the schemes. Every lane takes it, but where lanes differ in it, only
+   `lane`. A live one acts at once; otherwise *restart is set, and the change takes effect with
+   gm_session_restart. */
+bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
+                    const char *text, bool *restart, char *message);
+/* Whether the lanes differ in a parameter. */
+bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row, bool of_scheme);
+/* The struct that holds a lane's parameters of the scene or of the schemes, as last set. */
+const void *gm_session_owner(const struct gm_session *session, size_t lane, bool of_scheme);
+
+/* Another scheme for a lane, from its present state on. */
+bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_scheme *scheme,
+                       char *message);
+
+/* ---- lanes ---- */
+
+/* A further lane with the parameters of `like`, at its start. */
+bool gm_session_add(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
+/* A further lane with the state and the past of `like`, which goes on with another scheme. */
+bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
+bool gm_session_remove(struct gm_session *session, size_t lane, char *message);
+/* All lanes in one panel, or a panel for each. */
+bool gm_session_overlay(struct gm_session *session, char *message);
+
+/* The first scheme, in the scene's order, that fits and that no lane has; NULL if there is none. */
+const struct gm_scheme *gm_session_unused(const struct gm_session *session);
+/* The schemes that fit, those the scene prefers first; at most `bound`. */
+size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes, size_t bound);
+
+#endif

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
+#include <ctype.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/base/arguments.h"
+#include "app/words/request.h"
+#include "app/words/scheme.h"
+#include "core/expression/number.h"
+#include "core/schemes.h"
+#include "render/cells/text.h"
+
+/* Whether the parameter has no effect in any lane; such a one is not told. */
+static bool is_idle(const struct gm_request *request, const char *key)
+{
+    for (size_t i = 0; i < request->count; i++) {
+        if (!gm_scene_idle(request->scene, request->lanes[i].parameters, key)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* One key of the formatted request: the value of every lane. */
+static void format_key(FILE *stream, const struct gm_request *request, const char *key,
+                       const char *(*value)(const struct gm_request *, size_t lane, const void *row,
+                                            char *text),
+                       const void *row, const char *standard, size_t *lists)
+{
+    char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
+    bool same = true;
+    const char *first = value(request, 0, row, room);
+    for (size_t i = 1; i < request->count; i++) {
+        same &= strcmp(first, value(request, i, row, text)) == 0;
+    }
+    if (same && standard && strcmp(first, standard) == 0) {
+        return;
+    }
+    fprintf(stream, " %s=", key);
+    gm_arguments_put(stream, first);
+    for (size_t i = 1; i < request->count && !same; i++) {
+        fputc(',', stream);
+        gm_arguments_put(stream, value(request, i, row, text));
+    }
+    *lists += same ? 0 : 1;
+}
+
+static const char *scheme_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    (void)row;
+    (void)text;
+    return gm_scheme_word(request->lanes[lane].scheme);
+}
+
+static const char *parameter_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    return gm_parameter_format(row, request->lanes[lane].parameters, text, GM_TEXT_SIZE);
+}
+
+static const char *setting_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    return gm_parameter_format(row, &request->lanes[lane].settings, text, GM_TEXT_SIZE);
+}
+
+static bool has_key(const struct gm_arguments *words, const char *key)
+{
+    char word[96];
+    snprintf(word, sizeof word, "%s=", key);
+    return gm_arguments_have(words, word);
+}
+
+char *gm_request_format(const struct gm_request *request)
+{
+    if (request->arguments) {
+        return strdup(request->arguments);
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    size_t lists = 0;
+    /* what the scene's own lanes name is always written: else it would be theirs */
+    struct gm_arguments arguments = {0};
+    if (request->scene->lanes && !gm_arguments_split(&arguments, request->scene->lanes)) {
+        gm_arguments_close(&arguments);
+        fclose(stream);
+        free(text);
+        return NULL;
+    }
+    gm_arguments_put_scene(stream, request->scene);
+    format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
+    for (size_t i = 0; i < request->scene->parameter_count; i++) {
+        const struct gm_parameter *row = &request->scene->parameters[i];
+        if (!is_idle(request, row->key)) {
+            const bool told = row->required || has_key(&arguments, row->key);
+            format_key(stream, request, row->key, parameter_value, row, told ? NULL : row->standard, &lists);
+        }
+    }
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        const struct gm_parameter *row = &gm_settings_parameters[i];
+        format_key(stream, request, row->key, setting_value, row,
+                   has_key(&arguments, row->key) ? NULL : row->standard, &lists);
+    }
+    if (lists > 1) {
+        fputs(" zip=yes", stream);
+    }
+    if (request->overlay || has_key(&arguments, "overlay")) {
+        fprintf(stream, " overlay=%s", request->overlay ? "yes" : "no");
+    }
+    gm_arguments_close(&arguments);
+    fclose(stream);
+    return text;
+}
+
+char *gm_changes_format(const struct gm_request *request)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change *change = &request->changes[i];
+        fprintf(stream, "%zu %" PRId64 " %s\n", change->lane, change->step, change->text);
+    }
+    fclose(stream);
+    return text;
+}
+
+bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text)
+{
+    struct gm_change *grown =
+        realloc(request->changes, (request->change_count + 1) * sizeof *request->changes);
+    if (!grown) {
+        return false;
+    }
+    request->changes = grown;
+    char *copy = strdup(text);
+    if (!copy) {
+        return false;
+    }
+    grown[request->change_count++] = (struct gm_change){.lane = lane, .step = step, .text = copy};
+    return true;
+}
+
+/* "LANE STEP KEY=VALUE"; false if it is anything else. */
+static bool parse_change(struct gm_request *request, const char *line)
+{
+    if (!isdigit((unsigned char)*line)) {
+        return false;
+    }
+    char *end = NULL;
+    errno = 0;
+    const unsigned long lane = strtoul(line, &end, 10);
+    if (errno || *end != ' ' || !isdigit((unsigned char)end[1]) || lane >= request->count) {
+        return false;
+    }
+    const int64_t step = strtoll(end + 1, &end, 10);
+    if (errno || *end != ' ' || step > GM_MOST_STEPS || !strchr(end, '=')) {
+        return false;
+    }
+    const char *text = end + strspn(end, " ");
+    return gm_text_is_plain(text) && gm_change_add(request, lane, step, text);
+}
+
+bool gm_changes_parse(struct gm_request *request, const char *text)
+{
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        char *line = strndup(text, length);
+        const bool good = line && parse_change(request, line);
+        free(line);
+        if (!good) {
+            return false;
+        }
+        text += length + (text[length] == '\n');
+    }
+    return true;
+}
+
+/* What a change is: a scheme's name, a step, or (neither) a live parameter, which is stored. */
+struct meaning {
+    const struct gm_scheme *scheme;
+    double dt;
+};
+
+static bool understand(const struct gm_scene *scene, void *parameters, const char *text,
+                       struct meaning *meaning, char *message)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals) {
+        return gm_refuse(message, "\"%.60s\" is not of the form key=value", text);
+    }
+    char key[96];
+    snprintf(key, sizeof key, "%.*s", (int)(equals - text < 95 ? equals - text : 95), text);
+    const char *value = equals + 1;
+    *meaning = (struct meaning){.dt = NAN};
+    if (strcmp(key, "scheme") == 0) {
+        bool unreadable;
+        meaning->scheme = gm_scheme_named(value, &unreadable, message);
+        return meaning->scheme || (!message[0] && gm_refuse(message, "there is no scheme \"%.40s\"", value));
+    }
+    if (strcmp(key, "dt") == 0) {
+        /* its sign may turn, which no range in the table allows */
+        if (!gm_number_parse(value, &meaning->dt) || !isfinite(meaning->dt) || meaning->dt == 0) {
+            return gm_refuse(message, "dt=%.60s is not a step", value);
+        }
+        return true;
+    }
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    if (!row || !row->live) {
+        return gm_refuse(message, "%.60s cannot be changed in flight", text);
+    }
+    return gm_value_read(row, parameters, value, message);
+}
+
+bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message)
+{
+    const struct gm_lane_spec *spec = &request->lanes[change->lane];
+    if (change->step > spec->steps) {
+        return gm_refuse(message, "a change after %" PRId64 " step%s comes too late: lane %zu makes %" PRId64,
+                         change->step, gm_plural((double)change->step), change->lane, spec->steps);
+    }
+    void *parameters = gm_parameters_copy(request->scene, spec->parameters);
+    if (!parameters) {
+        return gm_refuse(message, "not enough memory");
+    }
+    struct meaning meaning;
+    bool good = understand(request->scene, parameters, change->text, &meaning, message);
+    const double usual = ((const struct gm_timing *)parameters)->dt;
+    if (good && !isnan(meaning.dt) && fabs(meaning.dt) != fabs(usual)) { /* its sign may turn */
+        char size[64];
+        good = gm_value_read(gm_scene_parameter(request->scene, "dt"), NULL,
+                             gm_number_format(fabs(meaning.dt), size, sizeof size), message);
+    }
+    free(parameters);
+    return good;
+}
+
+bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
+{
+    struct meaning meaning;
+    if (!understand(lane->scene, lane->parameters, text, &meaning, message)) {
+        return false;
+    }
+    if (meaning.scheme) {
+        return gm_lane_switch(lane, gm_scheme_find_for(gm_scheme_word(meaning.scheme), &lane->problem),
+                              message);
+    }
+    if (!isnan(meaning.dt)) {
+        gm_lane_set_step(lane, meaning.dt);
+    }
+    return true;
+}

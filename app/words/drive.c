@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes driven from outside any scene: steps in bursts, changes in flight; and how they ended, in words. */
+#include "app/words/drive.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/base/interrupt.h"
+#include "app/native/engine.h"
+#include "core/schemes.h"
+#include "render/clock.h"
+
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble or long formulas:
+   the first step tells what one takes, and that says how many. In single steps an ensemble that does not fit in the
+   cache would go to memory and back for each. */
+static int64_t burst_of(double each)
+{
+    static const double at_once = 0.02; /* seconds */
+    const double burst = each > 0 ? at_once / each : 1;
+    return burst < 1 ? 1 : burst > 1e5 ? 100000 : (int64_t)burst;
+}
+
+static bool make_changes(struct gm_drive *drive, char *message)
+{
+    const struct gm_request *request = drive->request;
+    while (drive->next_change < request->change_count) {
+        const struct gm_change *change = &request->changes[drive->next_change];
+        if (change->lane == drive->index && change->step > drive->lane->run->steps) {
+            return true;
+        }
+        if (change->lane == drive->index && !gm_change_apply(drive->lane, change->text, message)) {
+            return false;
+        }
+        drive->next_change++;
+    }
+    return true;
+}
+
+/* The step before which the next change is due; `step` if none is. */
+static int64_t next_stop(const struct gm_drive *drive, int64_t step)
+{
+    const struct gm_request *request = drive->request;
+    for (size_t i = drive->next_change; i < request->change_count; i++) {
+        if (request->changes[i].lane == drive->index) {
+            return request->changes[i].step < step ? request->changes[i].step : step;
+        }
+    }
+    return step;
+}
+
+static double until_of(const struct gm_drive *drive)
+{
+    return drive->stop ? *drive->stop : ((const struct gm_timing *)drive->lane->parameters)->until;
+}
+
+bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step)
+{
+    return gm_run_goes_on(drive->lane->run, step, until_of(drive)) && !gm_lane_stopped(drive->lane);
+}
+
+int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
+{
+    const int64_t end = gm_run_steps_at(drive->lane->run, until_of(drive));
+    return end < step ? end : step;
+}
+
+/* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
+   asking takes longer than a short step. One too short to be measured counts as so long for that. */
+static const double unasked = 20e-6, shortest = 20e-9;
+
+/* What asking twice takes by itself, the least of a few times: more than a short step. */
+static double asking(void)
+{
+    static _Thread_local double least = 0;
+    if (least == 0) {
+        least = INFINITY;
+        for (int i = 0; i < 8; i++) {
+            const double start = gm_clock_processor_seconds();
+            least = fmin(least, gm_clock_processor_seconds() - start);
+        }
+    }
+    return least;
+}
+
+double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *each)
+{
+    const int64_t before = lane->run->steps, left = steps - before, burst = burst_of(*each);
+    const double start = gm_clock_processor_seconds();
+    gm_lane_to(lane, before + (left < burst ? left : burst), until);
+    const double took = gm_clock_processor_seconds() - start;
+    const int64_t made = lane->run->steps - before;
+    *each = fmax(took / (double)(made > 0 ? made : 1), shortest);
+    return took;
+}
+
+/* In single steps, with a row after each. */
+static void trace_to(struct gm_drive *drive, int64_t stop)
+{
+    struct gm_lane *lane = drive->lane;
+    const struct gm_run *run = lane->run;
+    const size_t count = lane->problem.n * lane->problem.m;
+    const double until = until_of(drive);
+    while (gm_run_goes_on(run, stop, until) && gm_lane_to(lane, run->steps + 1, until) == GM_OK) {
+        drive->trace[0] = run->t;
+        memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
+        drive->trace += 1 + count;
+    }
+}
+
+/* Makes steps up to `stop` in all, which are timed. */
+static void advance(struct gm_drive *drive, int64_t stop, bool record)
+{
+    struct gm_lane *lane = drive->lane;
+    const int64_t before = lane->run->steps;
+    const bool measured = stop - before > drive->unmeasured;
+    const double start = measured ? gm_clock_processor_seconds() : 0;
+    if (record) {
+        gm_run_to(lane->run, stop, until_of(drive));
+    } else if (drive->trace) {
+        trace_to(drive, stop);
+    } else {
+        /* what it follows on the way costs less than looking at the clock */
+        gm_lane_to(lane, stop, until_of(drive));
+    }
+    const int64_t made = lane->run->steps - before;
+    if (measured) {
+        const double took = fmax(gm_clock_processor_seconds() - start - asking(), 0);
+        drive->seconds += took;
+        drive->each = made > 0 ? took / (double)made : 0;
+        drive->unmeasured = (int64_t)(unasked / fmax(drive->each, shortest));
+    } else {
+        drive->seconds += drive->each * (double)made;
+        drive->unmeasured -= made;
+    }
+}
+
+/* Steps that take long may be worth compiling. */
+static void look_for_engine(struct gm_drive *drive, int64_t step)
+{
+    static const double often = 0.05; /* seconds */
+    const struct gm_run *run = drive->lane->run;
+    if (drive->seconds >= drive->looked + often || drive->looked == 0) {
+        const bool known = !drive->lane->scheme->family->adaptive;
+        const double left = known ? (double)(gm_drive_end(drive, step) - run->steps) : 0;
+        gm_engine_look(drive->lane, drive->seconds - drive->looked, drive->each * fmax(left, 0));
+        drive->looked = drive->seconds;
+    }
+}
+
+bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *message)
+{
+    struct gm_lane *lane = drive->lane;
+    while (gm_drive_goes_on(drive, INT64_MAX) && !gm_interrupted) {
+        if (!make_changes(drive, message)) {
+            return false;
+        }
+        const int64_t before = lane->run->steps, left = next_stop(drive, step) - before;
+        if (left <= 0) {
+            break;
+        }
+        const double each = drive->unmeasured > 0 ? fmax(drive->each, shortest) : drive->each;
+        const int64_t burst = record ? 1 : burst_of(each), stop = before + (left < burst ? left : burst);
+        advance(drive, stop, record);
+        if (record && lane->run->steps > before) {
+            gm_lane_record(lane);
+        }
+        /* makes steps to and fro: what recording knows of the last one is gone */
+        look_for_engine(drive, step);
+    }
+    return true;
+}
+
+bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message)
+{
+    const struct gm_lane *lane = drive->lane; /* its run is another one after a change of scheme */
+    const int64_t end = drive->request->lanes[drive->index].steps;
+    int64_t before = -1;
+    /* until no more turn out to be due: a scheme may choose its steps, and a change have shortened them */
+    while (lane->run->steps > before) {
+        const int64_t due = gm_run_steps_by(lane->run, t);
+        before = lane->run->steps;
+        if (!gm_drive_to(drive, due < end ? due : end, record, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What the scene knows of a step that failed, `how`; false if it knows nothing. */
+static bool tell_part(const struct gm_lane *lane, const char *how, char *text, size_t size)
+{
+    char part[GM_MESSAGE / 2] = "";
+    const struct gm_view view = gm_lane_view(lane);
+    if (lane->scene->failure) {
+        lane->scene->failure(&view, part, sizeof part);
+    }
+    if (part[0]) {
+        snprintf(text, size, "the step after t = %.6g %s: %s", view.t, how, part);
+    }
+    return part[0] != '\0';
+}
+
+/* What was in the way of the implicit equations of a step, and the way out. */
+static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
+{
+    static const char *const obstacles[] = {
+        [GM_NOT_KNOWN] = " to round-off",
+        [GM_SINGULAR] = ": its matrix is singular",
+        [GM_NOT_FINITE] = ": its iteration leaves the numbers",
+        [GM_STILL_LARGE] = ": its iteration still changes by",
+    };
+    char change[40] = "";
+    if (run->unsolved.obstacle == GM_STILL_LARGE) {
+        snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
+    }
+    const char *const name = run->scheme->name;
+    const bool helps = strcmp(name, "radau5") != 0 && strcmp(name, "sdirk2") != 0 &&
+                       gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem);
+    snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s", run->t,
+             obstacles[run->unsolved.obstacle], change, run->scheme->steady ? "" : "; take a shorter dt",
+             helps ? ", or radau5" : "");
+}
+
+void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
+{
+    const struct gm_run *run = lane->run;
+    text[0] = '\0';
+    switch (run->status) {
+    case GM_OK:
+        return;
+    case GM_BLOW_UP:
+        if (tell_part(lane, "led to no number", text, size)) {
+            return;
+        }
+        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
+                 run->limit);
+        return;
+    case GM_NO_CONVERGENCE:
+        if (tell_part(lane, "led to no number", text, size)) {
+            return;
+        }
+        tell_unsolved(run, text, size);
+        return;
+    case GM_MESH_CROSSING:
+        snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
+        return;
+    case GM_STEP_COLLAPSE:
+        if (tell_part(lane, "was not found", text, size)) {
+            return;
+        }
+        snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
+        return;
+    case GM_OUT_OF_MEMORY:
+        snprintf(text, size, "there was not enough memory to go on from t = %.6g, or to look at it", run->t);
+        return;
+    }
+}
+
+/* By how much a run that is not failed ends after the end that was asked for (before it: negative); 0 for
+   round-off. */
+static double overshoot(const struct gm_drive *drive)
+{
+    const struct gm_run *run = drive->lane->run;
+    const double until = drive->request->lanes[drive->index].until; /* NAN: not asked for */
+    const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
+    return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
+}
+
+/* By more than half of the way to it. */
+static bool is_far_beyond(const struct gm_drive *drive)
+{
+    const double over = overshoot(drive);
+    return over > 0 && over > (drive->request->lanes[drive->index].until - drive->lane->run->t0) / 2;
+}
+
+void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
+{
+    gm_failure_sentence(drive->lane, text, size);
+    if (drive->lane->scheme->family->adaptive && overshoot(drive) > 0) {
+        snprintf(text, size,
+                 "the scheme chooses its steps: the first that reaches until = %.10g ends at t = %.10g",
+                 drive->request->lanes[drive->index].until, drive->lane->run->t);
+    }
+}
+
+void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (!drive->lane->scheme->family->adaptive && overshoot(drive) != 0) {
+        snprintf(text, size,
+                 "the run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
+                 drive->lane->run->t, drive->request->lanes[drive->index].until);
+    }
+    if (drive->lane->scheme->family->adaptive && is_far_beyond(drive)) {
+        snprintf(text, size, "the last step leads far beyond until = %.10g, to t = %.10g: dt is too long",
+                 drive->request->lanes[drive->index].until, drive->lane->run->t);
+    }
+}
+
+void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
+{
+    char end[GM_MESSAGE];
+    gm_drive_other_end(drive, end, sizeof end);
+    gm_lane_warning(drive->lane, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used && end[0] ? "; " : "", end);
+}
+
+double gm_drive_seconds(const struct gm_request *request, size_t index)
+{
+    static const double enough = 0.2;
+    char message[GM_MESSAGE];
+    const double started = gm_clock_seconds();
+    struct gm_drive drive = {.request = request, .index = index};
+    drive.lane = gm_request_open_lane(request, index, message);
+    if (!drive.lane) {
+        return 0;
+    }
+    const struct gm_run *state = drive.lane->run;
+    const int64_t steps = request->lanes[index].steps;
+    const double opening = gm_clock_seconds() - started;
+    for (int64_t goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
+         goal *= 2) {
+        gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
+    }
+    const double part = (state->t - drive.lane->t0) / (request->lanes[index].end - drive.lane->t0);
+    const bool on_the_way = part > 0 && part < 1 && state->status == GM_OK;
+    gm_lane_close(drive.lane);
+    return opening + (on_the_way ? drive.seconds / part : drive.seconds);
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which schemes fit a scene: a refusal names them, and so do lists and completion. */
+#include "app/words/fitting.h"
+
+#include <stdlib.h>
+
+#include "core/schemes.h"
+
+size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes)
+{
+    size_t count = 0;
+    char sentence[GM_MESSAGE];
+    struct gm_problem problem = {0};
+    void *parameters = gm_scene_defaults(scene);
+    if (!parameters) {
+        return 0;
+    }
+    if (scene->setup(parameters, &problem, sentence)) {
+        for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
+            if (gm_scheme_fits(gm_scheme_at(i), &problem)) {
+                schemes[count++] = gm_scheme_at(i);
+            }
+        }
+        if (scene->close) {
+            scene->close(&problem);
+        }
+    }
+    free(parameters);
+    return count;
+}
+
+size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes)
+{
+    size_t count = gm_fitting_schemes(scene, schemes);
+    for (size_t i = 0; scene->elsewhere && i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
+        if (scene->elsewhere(gm_scheme_at(i))) {
+            schemes[count++] = gm_scheme_at(i);
+        }
+    }
+    return count;
+}
+
+bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (gm_scheme_takes(schemes[i], row)) {
+            return true;
+        }
+    }
+    return false;
+}

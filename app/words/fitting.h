@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_FITTING_H
+#define GM_APP_REQUEST_FITTING_H
+
+#include "scenes/common/lane.h"
+
+/* Which schemes can be asked for with a scene. */
+
+enum { GM_FITTING_SCHEMES = 256 };
+
+/* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
+size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
+
+/* The same, and behind them those that the scene's own text takes on another kind of grid. */
+size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
+
+/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
+bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
+
+#endif

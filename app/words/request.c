@@ -1,0 +1,671 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From words to a scene and its lanes, with a sentence for what cannot be. */
+#include "app/words/request.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/base/arguments.h"
+#include "app/native/engine.h"
+#include "app/words/fitting.h"
+#include "app/words/lookup.h"
+#include "app/words/scheme.h"
+#include "app/words/system.h"
+#include "app/words/worded.h"
+#include "app/words/words.h"
+#include "core/expression/nearest.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+#include "scenes/common/symbol.h"
+
+static const char *scheme_name(size_t i, const void *data)
+{
+    return ((const struct gm_scheme *const *)data)[i]->name;
+}
+
+bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message)
+{
+    _Alignas(max_align_t) char place[GM_TEXT_SIZE];
+    struct gm_parameter alone = *row;
+    alone.offset = 0;
+    switch (gm_parameter_set(owner ? row : &alone, owner ? owner : place, text)) {
+    case GM_PARSED:
+        return true;
+    case GM_NOT_UNDERSTOOD:
+        if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
+            char choices[GM_MESSAGE / 2] = "no, yes";
+            size_t used = 0;
+            for (size_t i = 0; row->type == GM_CHOICE && row->choices[i] && used < sizeof choices; i++) {
+                used += (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "",
+                                         row->choices[i]);
+            }
+            return gm_refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
+        }
+        return gm_refuse(message, "%s=%.60s is not %s", row->key, text,
+                         row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
+                         : row->type == GM_INTEGER ? "a whole number"
+                                                   : "a number");
+    case GM_OUT_OF_RANGE:
+        break;
+    }
+    char low[40], high[40], nearest[64] = "";
+    double value = NAN;
+    gm_number_parse(text, &value);
+    gm_number_format(row->lowest, low, sizeof low);
+    gm_number_format(row->highest, high, sizeof high);
+    if (!isnan(value)) {
+        snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
+    }
+    return gm_refuse(message, "%s=%.60s is out of range: it lies between %s and %s%s", row->key, text, low,
+                     high, nearest);
+}
+
+static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, const char *name, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    bool unreadable = false;
+    spec->scheme = gm_scheme_named(name, &unreadable, message);
+    if (!spec->scheme && message[0]) {
+        request->refusal = unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        return false;
+    }
+    if (!spec->scheme) {
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const char *near = gm_scheme_known_as(name);
+        near = near ? near : gm_nearest(name, gm_fitting_elsewhere(scene, fitting), scheme_name, fitting);
+        char words[256];
+        gm_arguments_tell_scene(scene, words, sizeof words);
+        return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,
+                         near ? "; did you mean " : "; see geomint list ", near ? near : words);
+    }
+    return true;
+}
+
+/* Applies value `index` of a list to a lane; some common keys are not the lane's. */
+static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const struct gm_word *list,
+                  size_t index, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    char formatted[GM_TEXT_SIZE];
+    const char *text = gm_word_value(list, index, formatted);
+    if (strcmp(list->key, "scheme") == 0) {
+        return set_scheme(request, spec, text, message);
+    }
+    if (strcmp(list->key, "steps") == 0) {
+        double steps = 0;
+        if (!gm_number_parse(text, &steps) || !(steps >= 0 && steps <= (double)GM_MOST_STEPS) ||
+            steps != floor(steps)) {
+            return gm_refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
+        }
+        spec->steps = (int64_t)steps;
+        return true;
+    }
+    const struct gm_parameter *parameter = gm_scene_parameter(scene, list->key);
+    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
+    void *owner = parameter ? spec->parameters : (void *)&spec->settings;
+    if (!row || gm_value_read(row, owner, text, message)) {
+        return true;
+    }
+    char number[48];
+    if (row->type == GM_REAL && list->piece_count == list->count &&
+        gm_words_decimal_comma(list, index, number, sizeof number)) {
+        const size_t used = strlen(message);
+        snprintf(message + used, GM_MESSAGE - used, "; " GM_DECIMAL_POINT, number);
+    }
+    return false;
+}
+
+/* Adds "Δt = 0.1" for a key and its value, or a scheme's title, to what a name says already. */
+static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
+                     size_t size)
+{
+    const size_t length = strlen(name);
+    char value[GM_TEXT_SIZE];
+    const char *comma = length ? ", " : "";
+    if (strcmp(list->key, "scheme") == 0) {
+        snprintf(name + length, size - length, "%s%s", comma, scheme->title);
+    } else {
+        snprintf(name + length, size - length, "%s%s = %s", comma, gm_key_symbol(list->key),
+                 gm_word_name(list, index, value));
+    }
+}
+
+static const char all_lanes[] = "all lanes";
+
+void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay)
+{
+    const char *panel = strcmp(shown->panel_name, all_lanes) == 0 ? "" : shown->panel_name;
+    const char *colour = shown->colour_name;
+    const bool untitled = !panel[0] && strncmp(colour, scheme->title, strlen(scheme->title)) != 0;
+    char name[2 * sizeof shown->panel_name + sizeof ", "];
+    snprintf(name, sizeof name, "%s%s%s", untitled ? scheme->title : panel,
+             (untitled || panel[0]) && colour[0] ? ", " : "", colour);
+    *shown = (struct gm_shown){.panel = overlay ? 0 : lane, .colour = lane, .dash = lane};
+    memcpy(overlay ? shown->colour_name : shown->panel_name, name,
+           strnlen(name, sizeof shown->panel_name - 1)); /* the rest is zero */
+    if (overlay) {
+        snprintf(shown->panel_name, sizeof shown->panel_name, "%s", all_lanes);
+    } else if (strcmp(shown->panel_name, scheme->title) == 0) {
+        shown->panel_name[0] = '\0';
+    }
+}
+
+/* The first list of several values gives the panels, the others the colours; zipped, a lane has a panel named
+   after all of them. */
+static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec *spec)
+{
+    struct gm_shown *shown = &spec->shown;
+    *shown = (struct gm_shown){.panel = lane, .colour = lane};
+    bool panels = false, colours = false; /* named already */
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_word *list = &words->list[i];
+        if (list->count == 1) {
+            continue;
+        }
+        const size_t index = gm_words_choice(words, i, lane);
+        if (!panels || words->zip) {
+            panels = true;
+            add_name(list, index, spec->scheme, shown->panel_name, sizeof shown->panel_name);
+            shown->panel = words->zip ? lane : index;
+        } else {
+            shown->colour = colours ? shown->colour * list->count + index : index;
+            colours = true;
+            add_name(list, index, spec->scheme, shown->colour_name, sizeof shown->colour_name);
+        }
+    }
+    shown->dash = colours ? shown->panel : shown->colour;
+    if (strcmp(shown->panel_name, spec->scheme->title) == 0) {
+        shown->panel_name[0] = '\0'; /* which is what "" stands for */
+    }
+}
+
+/* dt and until, or steps, to whole steps; with `steps` until follows. */
+static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
+                        char *message)
+{
+    struct gm_timing *timing = spec->parameters;
+    const bool adaptive = spec->scheme && spec->scheme->family->adaptive;
+    const double t0 = gm_scene_t0(scene, spec->parameters);
+    spec->until = steps_given ? NAN : timing->until;
+    if (adaptive) {
+        timing->until = steps_given ? GM_NEVER : timing->until;
+        spec->steps = steps_given ? spec->steps : GM_MOST_STEPS;
+        spec->end = timing->until;
+        return true;
+    }
+    if (!steps_given) {
+        const double steps = round((timing->until - t0) / timing->dt);
+        if (steps < 0) {
+            return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+        }
+        if (!(steps <= (double)GM_MOST_STEPS)) {
+            return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
+        }
+        spec->steps = (int64_t)steps;
+    }
+    spec->end = t0 + (double)spec->steps * timing->dt;
+    timing->until = steps_given ? spec->end : timing->until;
+    return true;
+}
+
+/* A parameter that a scheme brings is told to a scheme that has it. */
+static bool check_settings(const struct gm_request *request, const struct gm_words *words, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_parameter *row = gm_setting_find(words->list[i].key);
+        bool used = !row || gm_scene_parameter(scene, words->list[i].key);
+        for (size_t k = 0; k < request->count && !used; k++) {
+            used = gm_scheme_takes(request->lanes[k].scheme, row);
+        }
+        if (used) {
+            continue;
+        }
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const size_t count = gm_fitting_schemes(scene, fitting);
+        const char *between = "; those that do: ";
+        size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
+        for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
+            if (gm_scheme_takes(fitting[k], row)) {
+                told +=
+                    (size_t)snprintf(message + told, GM_MESSAGE - told, "%s%s", between, fitting[k]->name);
+                between = ", ";
+                used = true;
+            }
+        }
+        return used ? false
+                    : gm_refuse(message, "no scheme that fits scene %s takes %s=", scene->name, row->key);
+    }
+    return true;
+}
+
+/* A key that has no effect in any lane is not taken: whoever types it expects one. */
+static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
+{
+    for (size_t i = 0; i < words->count; i++) {
+        const char *key = words->list[i].key, *why = NULL;
+        for (size_t k = 0; k < request->count; k++) {
+            why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
+            if (!why) {
+                break;
+            }
+        }
+        if (why) {
+            snprintf(request->refused, sizeof request->refused, "%s", key);
+            return gm_refuse(message, "%s= has no effect here: %s", key, why);
+        }
+    }
+    return true;
+}
+
+/* The lane that differs from `lane` in its scheme alone, and has the first one. */
+static size_t first_scheme(const struct gm_words *words, size_t lane)
+{
+    if (words->zip) {
+        return 0;
+    }
+    for (size_t other = 0; other < lane; other++) {
+        bool same = true;
+        for (size_t i = 0; i < words->count; i++) {
+            same = same && (strcmp(words->list[i].key, "scheme") == 0 ||
+                            gm_words_choice(words, i, other) == gm_words_choice(words, i, lane));
+        }
+        if (same) {
+            return other;
+        }
+    }
+    return lane;
+}
+
+/* Whether an earlier lane has the same problem. */
+static bool is_repeated(const struct gm_request *request, size_t lane)
+{
+    for (size_t i = 0; i < lane; i++) {
+        if (memcmp(request->lanes[i].parameters, request->lanes[lane].parameters, request->scene->size) ==
+            0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Of the schemes of a name those that fit; a problem is set up once for all its lanes. */
+static bool find_schemes(struct gm_request *request, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    const struct gm_scheme *unfit = NULL;
+    const char *lacks = NULL, *known = NULL;
+    for (size_t i = 0; i < request->count && !unfit; i++) {
+        struct gm_problem problem = {0};
+        if (is_repeated(request, i)) {
+            continue;
+        }
+        if (!scene->setup(request->lanes[i].parameters, &problem, message)) {
+            char sentence[GM_MESSAGE];
+            if (scene->readable && !scene->readable(request->lanes[i].parameters, sentence)) {
+                request->refusal = GM_EXIT_FILE;
+            }
+            return false;
+        }
+        for (size_t k = i; k < request->count && !unfit; k++) {
+            struct gm_lane_spec *spec = &request->lanes[k];
+            if (memcmp(spec->parameters, request->lanes[i].parameters, scene->size) == 0) {
+                spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
+                unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
+                lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
+                known = unfit ? gm_scheme_known_as(unfit->name) : NULL;
+                known = known && gm_scheme_fits(gm_scheme_find(known), &problem) ? known : NULL;
+            }
+        }
+        if (scene->close) {
+            scene->close(&problem);
+        }
+    }
+    char words[256];
+    gm_arguments_tell_scene(scene, words, sizeof words);
+    return !unfit || gm_refuse(message, "scheme %s does not fit scene %s%s%s; %s%s%s", unfit->name,
+                               scene->name, lacks ? ": it needs " : "", lacks ? lacks : "",
+                               known ? "did you mean " : "geomint list ", known ? known : words,
+                               known ? "" : " names those that do");
+}
+
+/* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
+static double rate_of(const struct gm_request *request, size_t index, char *message)
+{
+    enum { STEPS = 32 };
+    struct gm_lane *lane = gm_request_open_lane(request, index, message);
+    if (!lane) {
+        return NAN;
+    }
+    /* starting a scheme with memory may cost evaluations that no later step does */
+    gm_run_advance(lane->run, 1);
+    const unsigned long before = lane->run->evaluations;
+    const double t = lane->run->t;
+    gm_run_advance(lane->run, STEPS);
+    const double rate = (double)(lane->run->evaluations - before) / fabs(lane->run->t - t);
+    if (!(rate > 0) || !isfinite(rate)) {
+        gm_refuse(message, "equal=cost compares evaluations, and %s counts none over its first %d steps",
+                  lane->scheme->name, STEPS);
+    }
+    gm_lane_close(lane);
+    return rate > 0 && isfinite(rate) ? rate : NAN;
+}
+
+/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured over
+   some steps from its start, and names the step where the lane is named. False with a sentence if a scheme
+   counts no evaluations or the step leaves its range. */
+static bool equal_cost(struct gm_request *request, size_t index, size_t like, char *message)
+{
+    struct gm_lane_spec *spec = &request->lanes[index];
+    struct gm_timing *timing = spec->parameters;
+    const struct gm_parameter *row = gm_scene_parameter(request->scene, "dt");
+    const double wanted = rate_of(request, like, message);
+    /* an implicit scheme's evaluations a step depend on the step */
+    enum { ROUNDS = 4 };
+    for (int round = 0; round < ROUNDS && index != like; round++) {
+        const double rate = rate_of(request, index, message);
+        if (isnan(rate) || isnan(wanted)) {
+            return false;
+        }
+        timing->dt *= rate / wanted;
+        if (!(timing->dt >= row->lowest && timing->dt <= row->highest)) {
+            return gm_refuse(message, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
+                             timing->dt, spec->scheme->name, row->lowest, row->highest);
+        }
+    }
+    struct gm_shown *shown = &spec->shown;
+    char *name = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
+    const size_t size = shown->colour_name[0] ? sizeof shown->colour_name : sizeof shown->panel_name;
+    char text[sizeof shown->panel_name];
+    const int length =
+        snprintf(text, sizeof text, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
+    if (length > 0 && (size_t)length < size) { /* else the name alone says more than half of both */
+        memcpy(name, text, (size_t)length + 1);
+    }
+    return !isnan(wanted);
+}
+
+/* The lanes of the product, each with the parameters that its choice of the words gives. */
+static bool apply_words(struct gm_request *request, const struct gm_words *words, size_t count, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    const bool steps_given = gm_words_find(words, "steps") != NULL;
+    const char *keys[GM_MOST_WORDS] = {NULL};
+    for (size_t i = 0; i < words->count && i < GM_MOST_WORDS; i++) {
+        keys[i] = words->list[i].key;
+    }
+    for (size_t k = 0; k < count; k++) {
+        struct gm_lane_spec *spec = &request->lanes[k];
+        spec->parameters = gm_scene_defaults(scene);
+        request->count++;
+        if (!spec->parameters) {
+            return gm_refuse(message, "not enough memory");
+        }
+        gm_parameters_reset(gm_settings_parameters, gm_settings_parameter_count, &spec->settings);
+        for (size_t i = 0; i < words->count; i++) {
+            if (!apply(request, spec, &words->list[i], gm_words_choice(words, i, k), message)) {
+                snprintf(request->refused, sizeof request->refused, "%s", words->list[i].key);
+                return false;
+            }
+        }
+        if (scene->settle && !scene->settle(spec->parameters, keys, words->count, message)) {
+            return false;
+        }
+        if (!settle_time(scene, spec, steps_given, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* equal=cost: the steps of all lanes so that each pays what the first scheme pays. */
+static bool equalise(struct gm_request *request, const struct gm_words *words, char *message)
+{
+    if (gm_words_find(words, "steps")) {
+        return gm_refuse(message, "equal=cost scales the steps up to until=; steps= cannot be given with it");
+    }
+    for (size_t k = 0; k < request->count; k++) {
+        if (!equal_cost(request, k, first_scheme(words, k), message) ||
+            !settle_time(request->scene, &request->lanes[k], false, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Both steps= and until= were typed; the step that both mean, where each is one number. */
+static bool refuse_two_ends(const struct gm_scene *scene, const struct gm_words *words, char *message)
+{
+    char text[2][GM_TEXT_SIZE], both[128] = "";
+    const struct gm_word *ends[] = {gm_words_find(words, "steps"), gm_words_find(words, "until")};
+    const char *const typed[] = {gm_word_value(ends[0], 0, text[0]), gm_word_value(ends[1], 0, text[1])};
+    double steps, until;
+    void *usual = gm_scene_defaults(scene);
+    if (usual && ends[0]->count == 1 && ends[1]->count == 1 && gm_number_parse(typed[0], &steps) &&
+        gm_number_parse(typed[1], &until)) {
+        snprintf(both, sizeof both, ", or until=%.40s dt=%.6g for both", typed[1],
+                 (until - gm_scene_t0(scene, usual)) / steps);
+    }
+    free(usual);
+    return gm_refuse(message, "steps=%.40s and until=%.40s are both given; type one of them%s", typed[0],
+                     typed[1], both);
+}
+
+static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
+{
+    size_t count = 0;
+    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
+        return false;
+    }
+    if (request->overlay && count > GM_LANE_COLOURS) {
+        return gm_refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                         GM_LANE_COLOURS, count);
+    }
+    request->lanes = calloc(count, sizeof *request->lanes);
+    if (!request->lanes) {
+        return gm_refuse(message, "not enough memory");
+    }
+    if (gm_words_find(words, "steps") && gm_words_find(words, "until")) {
+        return refuse_two_ends(request->scene, words, message);
+    }
+    if (!apply_words(request, words, count, message) ||
+        !(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
+        return false;
+    }
+    for (size_t k = 0; k < count; k++) {
+        struct gm_lane_spec *spec = &request->lanes[k];
+        show(words, k, spec); /* rows of one name may have different titles */
+        if (request->overlay) {
+            gm_show_in_order(&spec->shown, k, spec->scheme, true);
+        }
+    }
+    if (gm_words_chosen(words, "equal") && !equalise(request, words, message)) {
+        return false;
+    }
+    return check_settings(request, words, message);
+}
+
+const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message)
+{
+    const struct gm_scene *scene = gm_scene_find(words[0]);
+    *status = GM_EXIT_USAGE;
+    if (!scene && gm_system_is(words[0])) {
+        return gm_system_scene(count, words, status, message);
+    }
+    if (!scene && gm_worded_is_formula(words[0])) {
+        gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
+    } else if (!scene) {
+        char found[GM_NEAR], folder[4096];
+        const char *near = gm_system_near(words[0], found);
+        if (near) {
+            gm_refuse(message, "there is no scene \"%.40s\"; did you mean %.200s", words[0], near);
+        } else if (gm_system_folder(folder, sizeof folder)) {
+            gm_refuse(message, "there is no scene \"%.40s\"; see geomint list", words[0]);
+        } else {
+            gm_refuse(message, "there is no scene \"%.40s\", and no folder of systems %.200s", words[0],
+                      folder);
+        }
+    }
+    return scene;
+}
+
+/* `scene`: the one that the first word names; NULL: it is found. */
+static bool parse(struct gm_request *request, const struct gm_scene *scene, int count, char *const typed[],
+                  size_t schemes, bool recalled, char *message)
+{
+    *request = (struct gm_request){0};
+    if (count == 0) {
+        return gm_refuse(message, "which scene? geomint list names them");
+    }
+    request->scene = scene ? scene : gm_request_scene(count, typed, &request->refusal, message);
+    if (!request->scene) {
+        return false;
+    }
+    /* a scene is shown by its own lanes, but for what is typed */
+    struct gm_arguments arguments = {0};
+    const struct gm_arguments given = {.words = (char **)typed, .count = count};
+    const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;
+    if (shown && !gm_words_complete(&arguments, request->scene, &given, request->scene->lanes)) {
+        gm_arguments_close(&arguments);
+        return gm_refuse(message, "not enough memory");
+    }
+    char *const *read = shown ? arguments.words : typed;
+    struct gm_words words;
+    const unsigned long refusals = gm_memory_refusals();
+    bool good = gm_words_read(&words, request->scene, (shown ? arguments.count : count) - 1, read + 1,
+                              schemes, message);
+    if (!good && words.count > 0) {
+        snprintf(request->refused, sizeof request->refused, "%s", words.list[words.count - 1].key);
+    }
+    size_t lanes;
+    if (good && shown && !gm_arguments_have(&given, "overlay=") &&
+        !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
+        good = gm_words_separate(&words) || gm_refuse(message, "not enough memory");
+    }
+    request->overlay = good && gm_words_chosen(&words, "overlay");
+    good = good && make_lanes(request, &words, recalled, message);
+    if (good) {
+        request->arguments = gm_words_join(request->scene, &words);
+        good = request->arguments || gm_refuse(message, "not enough memory");
+    }
+    if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
+        good = gm_refuse(message, "not enough memory");
+        request->refusal = GM_EXIT_FILE;
+    }
+    gm_words_close(&words);
+    gm_arguments_close(&arguments);
+    char key[sizeof request->refused + 1];
+    snprintf(key, sizeof key, "%s=", request->refused);
+    if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
+        char sentence[GM_MESSAGE]; /* what nobody typed stands in a file */
+        snprintf(sentence, sizeof sentence, "%s", message);
+        gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
+    }
+    if (!good) {
+        const struct gm_request refused = *request;
+        gm_request_close(request);
+        request->refusal = refused.refusal;
+        memcpy(request->refused, refused.refused, sizeof refused.refused);
+    }
+    return good;
+}
+
+bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
+                      char *message)
+{
+    return parse(request, NULL, count, words, schemes, false, message);
+}
+
+bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
+                          char *const words[], size_t schemes, char *message)
+{
+    return parse(request, scene, count, words, schemes, false, message);
+}
+
+bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
+{
+    struct gm_arguments words = {0};
+    *request = (struct gm_request){0};
+    const bool good = gm_arguments_split(&words, arguments)
+                          ? parse(request, NULL, words.count, words.words, 1, true, message)
+                          : gm_refuse(message, "not enough memory");
+    gm_arguments_close(&words);
+    return good;
+}
+
+bool gm_request_ends_together(const struct gm_request *request, char *message)
+{
+    for (size_t i = 1; i < request->count; i++) {
+        if (isnan(request->lanes[i].until) && request->lanes[i].end != request->lanes[0].end) {
+            return gm_refuse(message,
+                             "steps= ends the runs at t = %.6g and t = %.6g; until= ends them together",
+                             request->lanes[0].end, request->lanes[i].end);
+        }
+    }
+    return true;
+}
+
+int gm_request_refusal(const struct gm_request *request)
+{
+    return request->refusal ? request->refusal : GM_EXIT_USAGE;
+}
+
+void gm_changes_drop(struct gm_request *request,
+                     bool (*drops)(const struct gm_change *change, const void *data), const void *data)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change change = request->changes[i];
+        if (!drops || drops(&change, data)) {
+            free(change.text);
+        } else {
+            request->changes[kept++] = change;
+        }
+    }
+    request->change_count = kept;
+    if (!drops) {
+        free(request->changes);
+        request->changes = NULL;
+    }
+}
+
+void gm_request_close(struct gm_request *request)
+{
+    for (size_t i = 0; i < request->count; i++) {
+        free(request->lanes[i].parameters);
+    }
+    free(request->lanes);
+    gm_changes_drop(request, NULL, NULL);
+    free(request->arguments);
+    *request = (struct gm_request){0};
+}
+
+void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters)
+{
+    void *copy = malloc(scene->size);
+    if (copy) {
+        memcpy(copy, parameters, scene->size);
+    }
+    return copy;
+}
+
+double gm_request_steps(const struct gm_request *request, size_t index)
+{
+    const struct gm_lane_spec *spec = &request->lanes[index];
+    const bool adaptive = spec->scheme && spec->scheme->family->adaptive;
+    return adaptive ? 0 : (double)spec->steps;
+}
+
+struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)
+{
+    const struct gm_lane_spec *spec = &request->lanes[index];
+    struct gm_lane *lane =
+        gm_lane_open(request->scene, spec->parameters, &spec->settings, spec->scheme, message);
+    if (lane) {
+        gm_lane_show(lane, &spec->shown);
+        gm_engine_meet(lane);
+    }
+    return lane;
+}

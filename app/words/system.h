@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scenes that are made of systems that somebody wrote. Sentences may have three lines: what is wrong, the
+   text, a caret below the place. */
+#ifndef GM_APP_OWN_SYSTEM_H
+#define GM_APP_OWN_SYSTEM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "app/base/place.h"
+
+struct gm_user_system;
+struct gm_scene;
+struct gm_system_value;
+
+extern const char gm_system_typed[]; /* "system": what stands before a formula */
+
+/* Opens the system of a file. Returns 0, or an exit status with a sentence. To be closed in both cases. */
+int gm_system_open(struct gm_user_system *system, const char *path, const struct gm_system_value *values,
+                   size_t count, char *message);
+
+/* The same of what words "system H=... key=value ..." say. */
+int gm_system_open_typed(struct gm_user_system *system, int count, char *const words[], char *message);
+
+/* Whether the first of some words means a system: one of a file, or `system` with a formula behind it; or a
+   room of a file (app/words/room.h), which is opened the same way. */
+bool gm_system_is(const char *word);
+/* The keys that say, or replace, the formulas of some words whose first means a system, until NULL. */
+const char *const *gm_system_keys(const char *word);
+/* The scene of the system that words "NAME key=value ..." mean; a parameter that the equations are built on
+   has the value that is given there, and formulas behind a file's name take the place of its own. It lives as
+   long as the program, and the same words mean the same scene. NULL with a sentence, and then an exit
+   status. */
+const struct gm_scene *gm_system_scene(int count, char *const words[], int *status, char *message);
+
+/* A scene of words that are still being typed: nothing is kept of it, unless it was there before. */
+struct gm_system_trial {
+    const struct gm_scene *scene;
+    int status; /* where there is none: an exit status, and a place */
+    struct gm_word_place place;
+    struct gm_made_system *made; /* its own */
+};
+/* False with a sentence. To be closed in both cases, before which it may be kept: from then on the same words
+   mean this scene, as long as the program lives. */
+bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message);
+void gm_system_trial_keep(struct gm_system_trial *trial);
+void gm_system_trial_close(struct gm_system_trial *trial);
+
+/* From now on that word means this text, and no file: as where a picture tells how it was made. False: no
+   memory. */
+bool gm_system_recall(const char *word, const char *text);
+
+#endif

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A typed line as words, and what is wrong with it. */
+#include "app/words/typed.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/words/scheme.h"
+#include "app/words/system.h"
+#include "app/words/words.h"
+#include "core/memory.h"
+
+/* ---- words ---- */
+
+/* A walk through the letters of a line's words. */
+struct walk {
+    const char *line;
+    size_t at; /* of the letter */
+    int word, depth;
+    char quote;
+    bool inside;  /* a word has begun */
+    bool behind;  /* an equals sign, where blanks mean nothing */
+    bool has_key; /* of the word */
+};
+
+/* Whether a word begins here: NAME= or NAME[index]=. */
+static bool is_key(const char *text)
+{
+    size_t length = 0;
+    while (isalnum((unsigned char)text[length]) || text[length] == '_') {
+        length++;
+    }
+    if (length > 0 && text[length] == '[') {
+        const size_t index = strcspn(text + length, "] ");
+        length += index + (text[length + index] == ']');
+    }
+    return length > 0 && !isdigit((unsigned char)text[0]) && text[length] == '=';
+}
+
+/* The next letter of a word; 0 at the end. `walk->at` is behind it then. */
+static char next_letter(struct walk *walk)
+{
+    for (char c; (c = walk->line[walk->at]) != '\0';) {
+        walk->at++;
+        if (walk->quote ? c == walk->quote : c == '\'' || c == '"') {
+            walk->quote = walk->quote ? '\0' : c;
+            walk->word += !walk->inside;
+            walk->inside = true;
+            continue;
+        }
+        if (c == ' ' && !walk->quote) {
+            const char *rest = walk->line + walk->at + strspn(walk->line + walk->at, " ");
+            const char *plain = rest + (*rest == '\'' || *rest == '"');
+            const bool ends = walk->depth <= 0 && (is_key(plain) || !walk->has_key);
+            if (ends || *rest == '\0') {
+                walk->inside = false;
+            }
+            if (!walk->inside || walk->behind) {
+                walk->at = (size_t)(rest - walk->line);
+                continue;
+            }
+        }
+        if (!walk->inside) {
+            walk->inside = true;
+            walk->word++;
+            walk->depth = 0;
+            walk->has_key = false;
+        }
+        walk->depth += (c == '(' || c == '[') - (c == ')' || c == ']');
+        walk->behind = c == '=' && !walk->has_key;
+        walk->has_key = walk->has_key || c == '=';
+        return c;
+    }
+    return '\0';
+}
+
+bool gm_typed_split(struct gm_arguments *words, const char *line)
+{
+    struct walk walk = {.line = line, .word = -1};
+    char *word = malloc(strlen(line) + 1);
+    size_t length = 0;
+    int number = 0;
+    bool good = word != NULL;
+    for (char c; good && (c = next_letter(&walk)) != '\0'; word[length++] = c) {
+        if (walk.word != number) {
+            word[length] = '\0';
+            good = gm_arguments_add(words, word);
+            number = walk.word;
+            length = 0;
+        }
+    }
+    if (good && length > 0) {
+        word[length] = '\0';
+        good = gm_arguments_add(words, word);
+    }
+    free(word);
+    return good;
+}
+
+/* Where in a line a letter of a word stands. */
+static size_t place_of(const char *line, int word, size_t offset)
+{
+    struct walk walk = {.line = line, .word = -1};
+    while (next_letter(&walk) != '\0') {
+        if (walk.word == word && offset-- == 0) {
+            return walk.at - 1;
+        }
+        if (walk.word > word) {
+            break;
+        }
+    }
+    /* behind its last letter */
+    struct walk again = {.line = line, .word = -1};
+    size_t at = 0;
+    while (next_letter(&again) != '\0' && again.word <= word) {
+        at = again.at;
+    }
+    return at;
+}
+
+/* Whether a word is split by what it holds, or loses it. */
+static bool needs_quotes(const char *word)
+{
+    struct gm_arguments alone = {0};
+    const bool same = gm_typed_split(&alone, word) && alone.count == 1 && strcmp(alone.words[0], word) == 0;
+    gm_arguments_close(&alone);
+    return !same;
+}
+
+char *gm_typed_join(const struct gm_arguments *words)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    for (int i = 0; stream && i < words->count; i++) {
+        const char *word = words->words[i];
+        const char *quote = !needs_quotes(word) ? "" : strchr(word, '\'') ? "\"" : "'";
+        fprintf(stream, "%s%s%s%s", i > 0 ? " " : "", quote, word, quote);
+    }
+    return stream && fclose(stream) == 0 ? text : NULL;
+}
+
+/* ---- what they mean ---- */
+
+/* The words of a line with the scene in front, which a formula does without; `shift` is how many were put
+   there, or below 0 left out, as what a command line begins with is. */
+static bool read_words(struct gm_arguments *words, const char *line, int *shift)
+{
+    struct gm_arguments typed = {0};
+    bool good = gm_typed_split(&typed, line);
+    int from = typed.count > 0 && strcmp(typed.words[0], "geomint") == 0;
+    from += from < typed.count && from > 0 && strcmp(typed.words[from], "tui") == 0;
+    *shift = -from;
+    if (good && (from == typed.count || strchr(typed.words[from], '='))) {
+        good = gm_arguments_add(words, "system");
+        ++*shift;
+    }
+    for (int i = from; good && i < typed.count; i++) {
+        good = gm_arguments_add(words, typed.words[i]);
+    }
+    gm_arguments_close(&typed);
+    return good;
+}
+
+/* The first line of a message is what is wrong; what follows shows the place. */
+static bool fail(struct gm_typed_fault *fault, const char *message)
+{
+    const size_t length = strcspn(message, "\n");
+    memcpy(fault->sentence, message, length);
+    fault->sentence[length] = '\0';
+    return false;
+}
+
+/* The word that has the key: its value, or, of a key that there is not, the key. */
+static struct gm_word_place word_of(const struct gm_arguments *words, const struct gm_scene *scene,
+                                    const char *key)
+{
+    const bool known = gm_scene_parameter(scene, key) || gm_common_key_find(key) || gm_setting_find(key);
+    const size_t length = strlen(key);
+    for (int i = 1; i < words->count && length > 0; i++) {
+        if (strncmp(words->words[i], key, length) == 0 && words->words[i][length] == '=') {
+            return (struct gm_word_place){i, known && words->words[i][length + 1] ? length + 1 : 0};
+        }
+    }
+    return (struct gm_word_place){-1, 0};
+}
+
+/* `trial`: what was made is left to it, and no request. */
+static bool read_line(struct gm_request *request, struct gm_system_trial *trial, const char *line,
+                      size_t schemes, struct gm_typed_fault *fault)
+{
+    struct gm_arguments words = {0};
+    struct gm_word_place place = {-1, 0};
+    char message[GM_MESSAGE] = "";
+    int shift = 0, status;
+    *fault = (struct gm_typed_fault){.at = -1};
+    *trial = (struct gm_system_trial){0};
+    *request = (struct gm_request){0};
+    bool good = read_words(&words, line, &shift) || gm_refuse(message, "not enough memory");
+    const struct gm_scene *scene = NULL;
+    if (good && !gm_scene_find(words.words[0]) && gm_system_is(words.words[0])) {
+        good = gm_system_try(trial, words.count, words.words, message);
+        scene = trial->scene;
+        place = trial->place;
+        place.word = !good && trial->status == GM_EXIT_FILE ? 0 : place.word; /* its name */
+    } else if (good) {
+        scene = gm_request_scene(words.count, words.words, &status, message);
+        good = scene != NULL;
+        place.word = good ? -1 : 0;
+    }
+    if (good) {
+        good = gm_request_parse_for(request, scene, words.count, words.words, schemes, message);
+        place = good ? place : word_of(&words, scene, request->refused);
+    }
+    if (!good) {
+        fail(fault, message);
+        const bool shown = place.word >= 0 && place.word >= shift;
+        fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;
+    }
+    gm_arguments_close(&words);
+    return good;
+}
+
+bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
+                      struct gm_typed_fault *fault)
+{
+    struct gm_system_trial trial;
+    const bool good = read_line(request, &trial, line, schemes, fault);
+    if (good) {
+        gm_system_trial_keep(&trial);
+    }
+    gm_system_trial_close(&trial);
+    return good;
+}
+
+bool gm_typed_check(const char *line, struct gm_typed_fault *fault)
+{
+    struct gm_request request;
+    struct gm_system_trial trial;
+    const bool good = read_line(&request, &trial, line, 1, fault);
+    gm_request_close(&request);
+    gm_system_trial_close(&trial);
+    return good;
+}
+
+/* ---- schemes ---- */
+
+/* Without blanks around it; a key may stand in front. malloc'ed. */
+static char *scheme_of(const char *line, size_t *begin)
+{
+    static const char key[] = "scheme=";
+    size_t from = strspn(line, " "), to = strlen(line);
+    from += strncmp(line + from, key, sizeof key - 1) == 0 ? sizeof key - 1 : 0;
+    while (to > from && line[to - 1] == ' ') {
+        to--;
+    }
+    if (to > from + 1 && (line[from] == '\'' || line[from] == '"') && line[to - 1] == line[from]) {
+        from++;
+        to--;
+    }
+    *begin = from;
+    return strndup(line + from, to - from);
+}
+
+const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)
+{
+    size_t begin = 0;
+    char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "";
+    bool unreadable;
+    *fault = (struct gm_typed_fault){.at = -1};
+    const struct gm_scheme *scheme = name ? gm_scheme_named(name, &unreadable, message) : NULL;
+    if (!scheme) {
+        fail(fault, message[0] ? message : "there is no such scheme");
+    }
+    free(name);
+    return scheme;
+}
+
+bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
+{
+    size_t begin = 0, at = 0;
+    char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "";
+    *fault = (struct gm_typed_fault){.at = -1};
+    const bool good = name && gm_scheme_check(name, &at, message);
+    if (!good) {
+        fail(fault, name ? message : "not enough memory");
+        fault->at = (long)(begin + at);
+    }
+    free(name);
+    return good;
+}

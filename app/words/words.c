@@ -1,0 +1,484 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The words behind a scene's name: keys with lists of values, and their product. */
+#include "app/words/words.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/expression/nearest.h"
+#include "core/schemes.h"
+#include "render/cells/text.h"
+#include "render/message.h"
+
+const struct gm_common_key gm_common_keys[] = {
+    {"scheme", "NAME,...", "a scheme or several; without it the scene's preferred ones", {NULL}},
+    {"steps", "N", "instead of until: so many steps", {NULL}},
+    {"zip", "yes", "lists of equal length are paired, instead of multiplied", {"no", "yes", NULL}},
+    {"overlay", "yes", "all lanes in one panel", {"no", "yes", NULL}},
+    {"equal",
+     "cost",
+     "every lane's dt is scaled so that all use as many evaluations as the first scheme",
+     {"no", "cost", NULL}},
+};
+const size_t gm_common_key_count = GM_COUNT(gm_common_keys);
+
+const struct gm_common_key *gm_common_key_find(const char *name)
+{
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        if (strcmp(gm_common_keys[i].name, name) == 0) {
+            return &gm_common_keys[i];
+        }
+    }
+    return NULL;
+}
+
+static const char *key_name(size_t i, const void *data)
+{
+    const struct gm_scene *scene = data;
+    if (i < scene->parameter_count) {
+        return scene->parameters[i].key;
+    }
+    i -= scene->parameter_count;
+    return i < gm_common_key_count ? gm_common_keys[i].name
+                                   : gm_settings_parameters[i - gm_common_key_count].key;
+}
+
+void gm_words_close(struct gm_words *words)
+{
+    for (size_t i = 0; i < words->count; i++) {
+        free(words->list[i].key);
+        for (size_t k = 0; k < words->list[i].piece_count; k++) {
+            free(words->list[i].pieces[k].text);
+        }
+    }
+    words->count = 0;
+}
+
+static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
+{
+    if (length == 0) {
+        return gm_refuse(message, "%s= has an empty value", list->key);
+    }
+    if (list->piece_count == GM_MOST_PIECES) {
+        return gm_refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
+                         GM_MOST_PIECES, 2 * GM_MOST_PIECES);
+    }
+    struct gm_word_piece *piece = &list->pieces[list->piece_count];
+    *piece = (struct gm_word_piece){.text = strndup(text, length)};
+    if (!piece->text) {
+        return gm_refuse(message, "not enough memory");
+    }
+    list->piece_count++;
+    list->count++;
+    return true;
+}
+
+/* Where the last piece of a number's list is a range, it stands for its values. */
+static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
+{
+    struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
+    const struct gm_parameter *parameter = gm_scene_parameter(scene, list->key);
+    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
+    const bool steps = strcmp(list->key, "steps") == 0;
+    if (!gm_range_is(piece->text) || !(steps || (row && (row->type == GM_REAL || row->type == GM_INTEGER)))) {
+        return true;
+    }
+    const bool whole = steps || row->type == GM_INTEGER;
+    if (!gm_range_read(&piece->range, list->key, piece->text, whole, message)) {
+        return false;
+    }
+    list->count += piece->range.count - 1;
+    return true;
+}
+
+/* The piece that value `index` belongs to, and the index within it. */
+static const struct gm_word_piece *piece_of(const struct gm_word *list, size_t *index)
+{
+    const struct gm_word_piece *piece = list->pieces;
+    for (;; piece++) {
+        const size_t count = piece->range.count ? piece->range.count : 1;
+        if (*index < count) {
+            return piece;
+        }
+        *index -= count;
+    }
+}
+
+const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
+{
+    const struct gm_word_piece *piece = piece_of(list, &index);
+    if (piece->range.count == 0) {
+        return piece->text;
+    }
+    const double value = gm_range_at(&piece->range, index);
+    for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
+        snprintf(text, GM_TEXT_SIZE, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
+}
+
+const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
+{
+    enum { SHORT = 8 };
+    const struct gm_word_piece *piece = piece_of(list, &index);
+    if (piece->range.count == 0) {
+        return piece->text;
+    }
+    const double value = gm_range_at(&piece->range, index);
+    if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
+        snprintf(text, GM_TEXT_SIZE, "%.6g", value);
+    }
+    return text;
+}
+
+static bool has_digits_alone(const char *text)
+{
+    return text[strspn(text, "0123456789")] == '\0';
+}
+
+/* Nobody writes a number of a list as 05. */
+static bool begins_with_zero(const char *text)
+{
+    return text[0] == '0' && text[1] != '\0' && has_digits_alone(text);
+}
+
+bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size)
+{
+    const size_t first = index > 0 ? index - 1 : 0;
+    if (first + 1 >= list->piece_count) {
+        return false;
+    }
+    const char *typed = list->pieces[first].text;
+    const char *before = typed + (typed[0] == '-');
+    const char *behind = list->pieces[first + 1].text;
+    if (!has_digits_alone(before) || !has_digits_alone(behind) ||
+        (strcmp(before, "0") != 0 && !begins_with_zero(behind))) {
+        return false;
+    }
+    snprintf(number, size, "%.20s.%.20s", typed, behind);
+    return true;
+}
+
+static bool known_key(const struct gm_scene *scene, const char *key)
+{
+    return gm_common_key_find(key) || gm_scene_parameter(scene, key) || gm_setting_find(key);
+}
+
+/* Whether a terminal would obey some of it. Bytes that are no UTF-8 (U+FFFD here) are not among that: a file
+   may be called so. */
+static bool has_orders(const char *word)
+{
+    for (uint32_t code; (code = gm_text_next(&word)) != 0;) {
+        if (code != 0xFFFD && !gm_text_is_shown(code)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The next comma outside of parentheses; NULL. */
+static const char *next_comma(const char *text)
+{
+    int depth = 0;
+    for (; *text; text++) {
+        depth += (*text == '(') - (*text == ')');
+        if (*text == ',' && depth <= 0) {
+            return text;
+        }
+    }
+    return NULL;
+}
+
+/* Whether the scene was made of that word already. */
+static bool is_of_scene(const struct gm_scene *scene, const char *word)
+{
+    for (const char *const *own = scene->words; own && *own; own++) {
+        if (strcmp(*own, word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether commas in the value are its own. */
+static bool is_whole(const struct gm_parameter *row, const char *value)
+{
+    bool choices = row && row->choices;
+    for (const char *at = value; choices && at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        const size_t length = strcspn(at, ",");
+        bool met = false;
+        for (size_t i = 0; row->choices[i]; i++) {
+            met |= strncmp(row->choices[i], at, length) == 0 && strlen(row->choices[i]) == length;
+        }
+        choices = met;
+    }
+    return row && row->names && !choices;
+}
+
+static bool read_word(struct gm_words *words, const struct gm_scene *scene, const char *word, char *message)
+{
+    const char *equals = strchr(word, '=');
+    if (!equals || equals == word) {
+        return gm_refuse(message, "\"%.60s\" is not of the form key=value", word);
+    }
+    if (has_orders(word)) {
+        return gm_refuse(message, "\"%.60s\" holds a character that cannot be shown", word);
+    }
+    if (words->count == GM_MOST_WORDS) {
+        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
+    }
+    struct gm_word *list = &words->list[words->count];
+    *list = (struct gm_word){.key = strndup(word, (size_t)(equals - word))};
+    if (!list->key) {
+        return gm_refuse(message, "not enough memory");
+    }
+    words->count++;
+    if (!known_key(scene, list->key)) {
+        const size_t names = gm_common_key_count + scene->parameter_count + gm_settings_parameter_count;
+        const char *near = gm_nearest(list->key, names, key_name, scene);
+        char typed[256];
+        gm_arguments_tell_scene(scene, typed, sizeof typed);
+        return gm_refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
+                         near ? "; did you mean " : "; see geomint list ", near ? near : typed);
+    }
+    for (size_t i = 0; i + 1 < words->count; i++) {
+        if (strcmp(words->list[i].key, list->key) == 0) {
+            return gm_refuse(message, "%s= is given twice", list->key);
+        }
+    }
+    const char *at = equals + 1;
+    const bool whole = is_whole(gm_scene_parameter(scene, list->key), at);
+    for (;;) {
+        const char *comma = whole ? NULL : next_comma(at);
+        if (!add_value(list, at, comma ? (size_t)(comma - at) : strlen(at), message)) {
+            return false;
+        }
+        char number[48];
+        const size_t last = list->piece_count - 1;
+        if (begins_with_zero(list->pieces[last].text) &&
+            gm_words_decimal_comma(list, last, number, sizeof number)) {
+            return gm_refuse(message, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
+        }
+        if (!read_range(list, scene, message)) {
+            return false;
+        }
+        if (!comma) {
+            return true;
+        }
+        at = comma + 1;
+    }
+}
+
+const struct gm_word *gm_words_find(const struct gm_words *words, const char *key)
+{
+    for (size_t i = 0; i < words->count; i++) {
+        if (strcmp(words->list[i].key, key) == 0) {
+            return &words->list[i];
+        }
+    }
+    return NULL;
+}
+
+size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane)
+{
+    if (words->list[i].count == 1) {
+        return 0;
+    }
+    if (words->zip) {
+        return lane;
+    }
+    for (size_t k = words->count - 1; k > i; k--) {
+        lane /= words->list[k].count;
+    }
+    return lane % words->list[i].count;
+}
+
+bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, char *message)
+{
+    *runs = 1;
+    for (size_t i = 0; i < words->count; i++) {
+        const size_t count = words->list[i].count;
+        if (count == 1) {
+            continue;
+        }
+        if (words->zip && *runs > 1 && *runs != count) {
+            return gm_refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
+                             words->list[i].key, count, *runs);
+        }
+        const bool many = count > most || (!words->zip && *runs > most / count);
+        if (many) {
+            return gm_refuse(message, "that makes more than %zu %s", most,
+                             most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
+        }
+        *runs = words->zip ? count : *runs * count;
+    }
+    return true;
+}
+
+/* Whether "key=value" is among the words, that value alone. */
+static bool says(const struct gm_words *words, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_word *word = &words->list[i];
+        if (strlen(word->key) == (size_t)(equals - text) &&
+            strncmp(word->key, text, (size_t)(equals - text)) == 0) {
+            return word->count == 1 && strcmp(word->pieces[0].text, equals + 1) == 0;
+        }
+    }
+    return false;
+}
+
+/* Whether the typed words leave a usual one without effect, as a mesh file does rows, or bring schemes. */
+static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
+{
+    char key[64];
+    void *self = gm_scene_defaults(scene);
+    bool idle = false;
+    for (int i = 1; self && i < typed->count; i++) {
+        const char *value = strchr(typed->words[i], '=');
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
+        const struct gm_parameter *row = gm_scene_parameter(scene, key);
+        if (row && value) {
+            gm_parameter_set(row, self, value + 1); /* a list, or nonsense, is the request's to judge */
+        }
+        for (const struct gm_preference *preference = scene->preferences; preference && preference->word;
+             preference++) {
+            idle |= strcmp(preference->word, typed->words[i]) == 0 && strncmp(word, "scheme=", 7) == 0;
+        }
+    }
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    idle |= self && gm_scene_idle(scene, self, key);
+    free(self);
+    return idle;
+}
+
+bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
+                       const struct gm_arguments *typed, const char *usual)
+{
+    struct gm_arguments arguments = {0};
+    bool good = gm_arguments_split(&arguments, usual) && gm_arguments_add(words, typed->words[0]);
+    for (int i = 0; good && i < arguments.count; i++) {
+        const char *word = gm_arguments_find(typed, arguments.words[i]);
+        good = (!word && is_idle(scene, typed, arguments.words[i])) ||
+               gm_arguments_add(words, word ? word : arguments.words[i]);
+    }
+    for (int i = 1; good && i < typed->count; i++) { /* those without a place yet, or given twice */
+        const bool placed = gm_arguments_have(&arguments, typed->words[i]) &&
+                            gm_arguments_find(typed, typed->words[i]) == typed->words[i];
+        good = placed || gm_arguments_add(words, typed->words[i]);
+    }
+    gm_arguments_close(&arguments);
+    return good;
+}
+
+/* The schemes that a scene prefers where these words are typed. */
+static const char *const *preferred(const struct gm_words *words, const struct gm_scene *scene)
+{
+    for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
+        if (says(words, row->word)) {
+            return row->schemes;
+        }
+    }
+    return scene->schemes;
+}
+
+/* The first `schemes` of the scene's preferred ones, as if they had been typed in front. */
+static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t schemes, char *message)
+{
+    if (gm_words_find(words, "scheme")) {
+        return true;
+    }
+    if (words->count == GM_MOST_WORDS) {
+        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
+    }
+    struct gm_word list = {.key = strdup("scheme")};
+    const char *const *names = preferred(words, scene);
+    bool good = list.key != NULL;
+    for (size_t i = 0; good && i < schemes && names[i]; i++) {
+        good = add_value(&list, names[i], strlen(names[i]), message);
+    }
+    memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
+    words->list[0] = list;
+    words->count++;
+    return good || gm_refuse(message, "not enough memory");
+}
+
+/* Those of the common keys that are not the lane's have one value, of their choices. */
+static bool check_choices(const struct gm_words *words, char *message)
+{
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        const struct gm_common_key *key = &gm_common_keys[i];
+        const struct gm_word *word = key->choices[0] ? gm_words_find(words, key->name) : NULL;
+        if (word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
+                                         strcmp(word->pieces[0].text, key->choices[1]) != 0))) {
+            return gm_refuse(message, "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
+        }
+    }
+    return true;
+}
+
+bool gm_words_separate(struct gm_words *words)
+{
+    char *no = strdup("no");
+    for (size_t i = 0; no && i < words->count; i++) {
+        struct gm_word *word = &words->list[i];
+        if (strcmp(word->key, "overlay") == 0) {
+            free(word->pieces[0].text);
+            word->pieces[0].text = no;
+            return true;
+        }
+    }
+    free(no);
+    return no != NULL;
+}
+
+bool gm_words_chosen(const struct gm_words *words, const char *key)
+{
+    const struct gm_word *word = gm_words_find(words, key);
+    return word && strcmp(word->pieces[0].text, gm_common_key_find(key)->choices[1]) == 0;
+}
+
+bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
+                   size_t schemes, char *message)
+{
+    memset(words, 0, sizeof *words);
+    for (int i = 0; i < count; i++) {
+        if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], message)) {
+            return false;
+        }
+    }
+    if (!check_choices(words, message) || !prefer(words, scene, schemes, message)) {
+        return false;
+    }
+    words->zip = gm_words_chosen(words, "zip");
+    return true;
+}
+
+char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    gm_arguments_put_scene(stream, scene);
+    for (size_t i = 0; i < words->count; i++) {
+        const bool is_scheme = strcmp(words->list[i].key, "scheme") == 0;
+        fprintf(stream, " %s=", words->list[i].key);
+        for (size_t k = 0; k < words->list[i].piece_count; k++) {
+            fputs(k ? "," : "", stream);
+            const char *typed = words->list[i].pieces[k].text;
+            const struct gm_scheme *scheme = is_scheme ? gm_scheme_find(typed) : NULL;
+            gm_arguments_put(stream, scheme ? gm_scheme_word(scheme) : typed);
+        }
+    }
+    fclose(stream);
+    return text;
+}

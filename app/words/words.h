@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_WORDS_H
+#define GM_APP_REQUEST_WORDS_H
+
+#include "app/base/arguments.h"
+#include "app/words/range.h"
+#include "scenes/common/scene.h"
+
+/* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
+
+enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64 };
+
+/* What stands between two commas: a value, or a range of them. */
+struct gm_word_piece {
+    char *text;
+    struct gm_range range; /* count 0: none */
+};
+
+struct gm_word {
+    char *key;
+    struct gm_word_piece pieces[GM_MOST_PIECES];
+    size_t piece_count;
+    size_t count; /* of values */
+};
+
+struct gm_words {
+    struct gm_word list[GM_MOST_WORDS];
+    size_t count;
+    bool zip;
+};
+
+/* The keys that every scene has beside its parameters and its schemes'. */
+struct gm_common_key {
+    const char *name, *value, *help;
+    const char *choices[3]; /* NULL-terminated; none: any value */
+};
+extern const struct gm_common_key gm_common_keys[];
+extern const size_t gm_common_key_count;
+/* NULL if there is none of that name */
+const struct gm_common_key *gm_common_key_find(const char *name);
+
+/* Reads `count` words "key=value,value" for a scene; without scheme= the first `schemes` that it prefers are
+   put in front. False with a sentence (GM_MESSAGE bytes). In both cases to be closed. */
+bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
+                   size_t schemes, char *message);
+void gm_words_close(struct gm_words *words);
+
+/* Fills an empty list with a scene's words, "SCENE key=value": those of the text `usual`, but for those that the
+   typed ones replace or leave without effect, and the typed ones. False when memory is short. */
+bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
+                       const struct gm_arguments *typed, const char *usual);
+
+/* NULL if the key was not typed. */
+const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
+
+/* Value `index` of a list: as typed, or, of a range, in `text` (GM_TEXT_SIZE bytes) as it would be. */
+const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
+/* The same as a name of it: a value of a range with 6 digits. */
+const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
+
+/* Makes an overlay=yes among them overlay=no: there are more lanes than colours. False when memory is short. */
+bool gm_words_separate(struct gm_words *words);
+
+/* Whether a common key that has choices was given its second one: yes, cost. */
+bool gm_words_chosen(const struct gm_words *words, const char *key);
+
+/* Whether piece `index` of a list and the one before it (of the first: behind it) are probably one number
+   with a comma as its decimal mark: 0,5 or 1,05. Writes it with a point. */
+bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size);
+#define GM_DECIMAL_POINT "the decimal mark is a point (%s), a comma separates the values of a list"
+
+/* How many runs they make: the product of the lists' lengths, or, zipped, their length. False with a
+   sentence, which more than `most` make too. */
+bool gm_words_count(const struct gm_words *words, size_t most, size_t *count, char *message);
+
+/* Which value of list i run number `lane` takes. The first list changes slowest. */
+size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
+
+/* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */
+char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words);
+
+#endif

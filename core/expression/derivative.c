@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Differentiation of the graph, by the partial derivatives of operations.def: upwards along a vector,
+   downwards for a gradient. */
+#include "core/expression/derivative.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/reader.h"
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    const gm_node_id *operands = data;
+    (void)sentence;
+    *node = operands[name->text[0] == 'a' ? 0 : name->text[0] == 'b' ? 1 : 2];
+    return GM_KNOWN;
+}
+
+/* d node / d operand number i */
+static gm_node_id partial(struct gm_formula *graph, gm_node_id node, int i)
+{
+    gm_node_id operands[3] = {graph->nodes[node].a, graph->nodes[node].b, node}, result;
+    const char *text = gm_operation_rows[graph->nodes[node].operation].partials[i];
+    const struct gm_scope scope = {.find = find, .data = operands, .derives = true};
+    struct gm_fault fault;
+    gm_formula_read(graph, text, 0, strlen(text), &scope, &result, &fault);
+    return result;
+}
+
+/* sum + factor * d node / d operand i */
+static gm_node_id add_product(struct gm_formula *graph, gm_node_id sum, gm_node_id factor, gm_node_id node,
+                              int i)
+{
+    const gm_node_id slope = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, factor, partial(graph, node, i));
+    return sum == GM_NO_NODE ? slope : gm_formula_apply(graph, GM_OPERATION_ADD, sum, slope);
+}
+
+gm_node_id gm_derivative_along(struct gm_formula *graph, gm_node_id root, const gm_node_id *direction,
+                               size_t variables)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count), slope = GM_NO_NODE;
+    gm_node_id *slopes = malloc((root + (size_t)1) * sizeof *slopes); /* of the parts alone */
+    if (!parts || !slopes) {
+        free(parts);
+        free(slopes);
+        graph->failed = true;
+        return GM_NO_NODE;
+    }
+    graph->simplifies = true;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const gm_node_id i = parts[k];
+        const struct gm_node node = graph->nodes[i];
+        slopes[i] = node.operation == GM_VARIABLE && node.a < variables ? direction[node.a] : zero;
+        if (node.operation > GM_VARIABLE) {
+            slope = GM_NO_NODE;
+            graph->origin = gm_formula_origin(graph, i);
+            if (slopes[node.a] != zero) {
+                slope = add_product(graph, slope, slopes[node.a], i, 0);
+            }
+            if (gm_operation_rows[node.operation].arity == 2 && slopes[node.b] != zero) {
+                slope = add_product(graph, slope, slopes[node.b], i, 1);
+            }
+            slopes[i] = slope == GM_NO_NODE ? zero : slope;
+        }
+    }
+    graph->origin = GM_NO_PLACE;
+    graph->simplifies = false;
+    slope = graph->failed ? GM_NO_NODE : slopes[root];
+    free(parts);
+    free(slopes);
+    return slope;
+}
+
+bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, size_t variables,
+                 gm_node_id *gradient)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count);
+    gm_node_id *adjoint = malloc((root + (size_t)1) * sizeof *adjoint); /* of the parts alone */
+    bool *active = malloc(root + (size_t)1);
+    if (parts && adjoint && active) {
+        graph->simplifies = true;
+        const gm_node_id zero = gm_formula_constant(graph, 0);
+        for (size_t i = 0; i < variables; i++) {
+            gradient[i] = zero;
+        }
+        for (size_t k = 0; k < count; k++) {
+            const struct gm_node *node = &graph->nodes[parts[k]];
+            adjoint[parts[k]] = GM_NO_NODE;
+            active[parts[k]] = node->operation == GM_VARIABLE
+                                   ? node->a < variables && marked[node->a]
+                                   : node->operation > GM_VARIABLE &&
+                                         (active[node->a] ||
+                                          (gm_operation_rows[node->operation].arity == 2 && active[node->b]));
+        }
+        adjoint[root] = gm_formula_constant(graph, 1);
+        for (size_t k = count; k-- > 0 && !graph->failed;) {
+            const gm_node_id i = parts[k];
+            const struct gm_node node = graph->nodes[i];
+            if (adjoint[i] == GM_NO_NODE || adjoint[i] == zero || !active[i]) {
+                continue;
+            }
+            if (node.operation == GM_VARIABLE) {
+                gradient[node.a] = adjoint[i];
+                continue;
+            }
+            graph->origin = gm_formula_origin(graph, i);
+            if (active[node.a]) {
+                adjoint[node.a] = add_product(graph, adjoint[node.a], adjoint[i], i, 0);
+            }
+            if (gm_operation_rows[node.operation].arity == 2 && active[node.b]) {
+                adjoint[node.b] = add_product(graph, adjoint[node.b], adjoint[i], i, 1);
+            }
+        }
+        graph->origin = GM_NO_PLACE;
+        graph->simplifies = false;
+    } else {
+        graph->failed = true;
+    }
+    free(parts);
+    free(active);
+    free(adjoint);
+    return !graph->failed;
+}
+
+bool gm_sparse_jacobian(struct gm_formula *graph, const gm_node_id *nodes, size_t rows, const bool *marked,
+                        size_t variables, struct gm_sparse *jacobian)
+{
+    gm_node_id *gradient = malloc((variables + 1) * sizeof *gradient);
+    size_t capacity = 0;
+    *jacobian = (struct gm_sparse){0};
+    bool good = gradient != NULL;
+    for (size_t row = 0; good && row < rows; row++) {
+        good = gm_gradient(graph, nodes[row], marked, variables, gradient);
+        for (size_t column = 0; good && column < variables; column++) {
+            if (gm_is_constant(graph, gradient[column], 0)) {
+                continue;
+            }
+            if (jacobian->count == capacity) {
+                capacity = capacity ? 2 * capacity : 64;
+                struct gm_sparse_entry *more = realloc(jacobian->entries, capacity * sizeof *more);
+                if (!more) {
+                    good = false;
+                    break;
+                }
+                jacobian->entries = more;
+            }
+            jacobian->entries[jacobian->count++] = (struct gm_sparse_entry){row, column, gradient[column]};
+        }
+    }
+    free(gradient);
+    graph->failed |= !good;
+    return good;
+}

@@ -1,0 +1,764 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The graph of a formula: every node once, constants folded by the running library, derivatives
+   simplified. */
+#include "core/expression/graph.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const struct gm_operation_row gm_operation_rows[GM_OPERATIONS] = {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
+    [GM_OPERATION_##constant] = {name, latex, arity, smooth, #value, {over_a, over_b}},
+#include "core/expression/operations.def"
+#undef GM_OPERATION
+};
+
+double gm_operation_value(enum gm_operation operation, double a, double b)
+{
+    switch (operation) {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
+    case GM_OPERATION_##constant:                                                                            \
+        return value;
+#include "core/expression/operations.def"
+#undef GM_OPERATION
+    case GM_CONSTANT:
+    case GM_VARIABLE:
+    case GM_OPERATIONS:
+        break;
+    }
+    return NAN;
+}
+
+void gm_formula_open(struct gm_formula *graph)
+{
+    *graph = (struct gm_formula){.place = GM_NO_PLACE, .origin = GM_NO_PLACE};
+}
+
+void gm_formula_close(struct gm_formula *graph)
+{
+    free(graph->nodes);
+    free(graph->places);
+    free(graph->origins);
+    free(graph->table);
+    *graph = (struct gm_formula){0};
+}
+
+/* a + b and b + a are the same bits, and one node */
+static bool commutes(const struct gm_node *node)
+{
+    return node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_MULTIPLY;
+}
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static uint32_t hash_of(const struct gm_node *node)
+{
+    const bool constant = node->operation == GM_CONSTANT, turned = commutes(node) && node->a > node->b;
+    const uint64_t a = constant ? bits_of(node->value)
+                       : turned ? node->b
+                                : node->a,
+                   b = constant ? 0
+                       : turned ? node->a
+                                : node->b;
+    uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15);
+    hash = (hash ^ a) * UINT64_C(0xbf58476d1ce4e5b9);
+    hash = (hash ^ (hash >> 29) ^ b) * UINT64_C(0x94d049bb133111eb);
+    return (uint32_t)(hash ^ (hash >> 32));
+}
+
+static bool is_same(const struct gm_node *x, const struct gm_node *y)
+{
+    if (x->operation != y->operation || x->operation == GM_CONSTANT) {
+        return x->operation == y->operation && bits_of(x->value) == bits_of(y->value);
+    }
+    return (x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x));
+}
+
+static gm_node_id number_in(uint64_t entry)
+{
+    return (gm_node_id)entry - 1;
+}
+
+/* The entry of the table that holds such a node, or the free one where it belongs. Of large graphs most of the time
+   is that of looking at a place in memory: nodes are looked at where all bits of the hash are theirs. */
+static uint64_t *entry_of(const struct gm_formula *graph, const struct gm_node *node, uint32_t hash)
+{
+    size_t slot = hash & (graph->slots - 1);
+    while (graph->table[slot] && (graph->table[slot] >> 32 != hash ||
+                                  !is_same(&graph->nodes[number_in(graph->table[slot])], node))) {
+        slot = (slot + 1) & (graph->slots - 1);
+    }
+    return &graph->table[slot];
+}
+
+/* Such a node; GM_NO_NODE: there is none. */
+static gm_node_id find(const struct gm_formula *graph, struct gm_node node)
+{
+    return number_in(*entry_of(graph, &node, hash_of(&node)));
+}
+
+static bool grow(struct gm_formula *graph)
+{
+    const size_t capacity = graph->capacity ? 2 * graph->capacity : 32;
+    struct gm_node *nodes = realloc(graph->nodes, capacity * sizeof *nodes);
+    graph->nodes = nodes ? nodes : graph->nodes;
+    uint32_t *places = realloc(graph->places, capacity * sizeof *places);
+    graph->places = places ? places : graph->places;
+    uint32_t *origins = realloc(graph->origins, capacity * sizeof *origins);
+    graph->origins = origins ? origins : graph->origins;
+    uint64_t *table = calloc(2 * capacity, sizeof *table);
+    if (!nodes || !places || !origins || !table || graph->count >= GM_MOST_NODES) {
+        free(table);
+        return false;
+    }
+    for (size_t i = 0; i < graph->slots; i++) {
+        size_t slot = graph->table[i] >> 32 & (2 * capacity - 1);
+        while (graph->table[i] && table[slot]) {
+            slot = (slot + 1) & (2 * capacity - 1);
+        }
+        table[slot] = graph->table[i] ? graph->table[i] : table[slot];
+    }
+    free(graph->table);
+    graph->table = table;
+    graph->capacity = capacity;
+    graph->slots = 2 * capacity;
+    return true;
+}
+
+static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
+{
+    if (graph->failed || (graph->count == graph->capacity && !grow(graph))) {
+        graph->failed = true;
+        return 0;
+    }
+    const uint32_t hash = hash_of(&node);
+    uint64_t *entry = entry_of(graph, &node, hash);
+    if (!*entry) {
+        graph->nodes[graph->count] = node;
+        graph->places[graph->count] = graph->simplifies ? GM_NO_PLACE : graph->place;
+        graph->origins[graph->count] = GM_NO_PLACE;
+        *entry = (uint64_t)hash << 32 | ++graph->count;
+    }
+    const gm_node_id number = number_in(*entry);
+    if (graph->simplifies && graph->origins[number] == GM_NO_PLACE) {
+        graph->origins[number] = graph->origin;
+    }
+    return number;
+}
+
+gm_node_id gm_formula_constant(struct gm_formula *graph, double value)
+{
+    /* all that are no number are one */
+    return intern(graph, (struct gm_node){.operation = GM_CONSTANT, .value = isnan(value) ? NAN : value});
+}
+
+gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number)
+{
+    return intern(graph, (struct gm_node){.operation = GM_VARIABLE, .a = (gm_node_id)number});
+}
+
+static bool is_operation(const struct gm_formula *graph, gm_node_id node, enum gm_operation operation)
+{
+    return graph->nodes[node].operation == operation;
+}
+
+static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
+{
+    return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
+}
+
+/* node = coefficient * rest; false where no coefficient is written */
+static bool scaled(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+{
+    const struct gm_node *product = &graph->nodes[node];
+    const bool is_scaled =
+        product->operation == GM_OPERATION_MULTIPLY && is_operation(graph, product->a, GM_CONSTANT);
+    *coefficient = is_scaled ? graph->nodes[product->a].value : 1;
+    *rest = is_scaled ? product->b : node;
+    return is_scaled;
+}
+
+static gm_node_id scale(struct gm_formula *graph, double coefficient, gm_node_id rest)
+{
+    return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, gm_formula_constant(graph, coefficient), rest);
+}
+
+static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double of_a, of_b;
+    gm_node_id rest_a, rest_b;
+    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 0)) {
+        *simple = gm_is_constant(graph, a, 0) ? b : a;
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, a, graph->nodes[b].a);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b, graph->nodes[a].a);
+    } else if (scaled(graph, a, &of_a, &rest_a), scaled(graph, b, &of_b, &rest_b), rest_a == rest_b) {
+        *simple = scale(graph, of_a + of_b, rest_a);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static bool simple_difference(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    if (a == b) {
+        *simple = gm_formula_constant(graph, 0);
+    } else if (gm_is_constant(graph, b, 0)) {
+        *simple = a;
+    } else if (gm_is_constant(graph, a, 0)) {
+        *simple = negative(graph, b);
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_ADD, a, graph->nodes[b].a);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_ADD, graph->nodes[a].a, b));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* node = c / denominator, c a constant */
+static bool is_reciprocal(const struct gm_formula *graph, gm_node_id node)
+{
+    return is_operation(graph, node, GM_OPERATION_DIVIDE) &&
+           is_operation(graph, graph->nodes[node].a, GM_CONSTANT);
+}
+
+/* (c / y) * factor as (c factor) / y, where the constants are gathered above */
+static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, double factor)
+{
+    const struct gm_node node = graph->nodes[quotient];
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
+                            gm_formula_constant(graph, graph->nodes[node.a].value * factor), node.b);
+}
+
+/* A reciprocal times what is not one: it stays a factor, which other products share, and takes constants
+   up. */
+static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotient, gm_node_id other,
+                                    gm_node_id *simple)
+{
+    double coefficient;
+    gm_node_id rest;
+    if (is_reciprocal(graph, other)) {
+        const double above = graph->nodes[graph->nodes[other].a].value;
+        const gm_node_id below =
+            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].b, graph->nodes[other].b);
+        *simple = gm_formula_apply(
+            graph, GM_OPERATION_DIVIDE,
+            gm_formula_constant(graph, graph->nodes[graph->nodes[quotient].a].value * above), below);
+    } else if (scaled(graph, other, &coefficient, &rest)) {
+        *simple =
+            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, times_above(graph, quotient, coefficient), rest);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double coefficient;
+    gm_node_id rest;
+    if (a == b && is_operation(graph, a, GM_OPERATION_SQRT)) {
+        *simple = graph->nodes[a].a;
+    } else if (a == b && !is_operation(graph, a, GM_CONSTANT)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_WHOLE_POWER, a, gm_formula_constant(graph, 2));
+    } else if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
+    } else if (gm_is_constant(graph, a, 0)) {
+        *simple = a;
+    } else if (gm_is_constant(graph, a, 1)) {
+        *simple = b;
+    } else if (gm_is_constant(graph, a, -1)) {
+        *simple = negative(graph, b);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].a, b));
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, graph->nodes[b].a));
+    } else if (is_reciprocal(graph, a)) {
+        return product_with_reciprocal(graph, a, b, simple);
+    } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
+        *simple = times_above(graph, b, graph->nodes[a].value);
+    } else if (is_reciprocal(graph, b)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
+    } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
+        *simple = scale(graph, graph->nodes[a].value * coefficient, rest);
+    } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
+        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, rest));
+    } else if (scaled(graph, a, &coefficient, &rest)) {
+        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, rest, b));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* node = coefficient * rest; false where nothing is left: it is a constant */
+static bool divided(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+{
+    scaled(graph, node, coefficient, rest);
+    const bool constant = is_operation(graph, node, GM_CONSTANT);
+    *coefficient = constant ? graph->nodes[node].value : *coefficient;
+    return !constant;
+}
+
+static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double of_a, of_b;
+    gm_node_id rest_a, rest_b;
+    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 1)) {
+        *simple = a;
+        return true;
+    }
+    if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, b));
+        return true;
+    }
+    if (is_operation(graph, a, GM_OPERATION_DIVIDE)) {
+        const gm_node_id below = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].b, b);
+        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, below);
+        return true;
+    }
+    const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
+    const double ratio = of_a / of_b;
+    const bool exact = isnormal(ratio) && fma(ratio, of_b, -of_a) == 0;
+    if (exact && of_b != 1) {
+        const gm_node_id top = above ? rest_a : gm_formula_constant(graph, ratio);
+        const gm_node_id rest = below ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b) : top;
+        *simple = above ? scale(graph, ratio, rest) : rest;
+        return true;
+    }
+    if (above && of_a != 1) {
+        *simple = scale(graph, of_a, gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
+        return true;
+    }
+    return false;
+}
+
+static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b,
+                     gm_node_id *simple)
+{
+    switch (operation) {
+    case GM_OPERATION_ADD:
+        return simple_sum(graph, a, b, simple);
+    case GM_OPERATION_SUBTRACT:
+        return simple_difference(graph, a, b, simple);
+    case GM_OPERATION_MULTIPLY:
+        return simple_product(graph, a, b, simple);
+    case GM_OPERATION_DIVIDE:
+        return simple_quotient(graph, a, b, simple);
+    case GM_OPERATION_NEGATE:
+        *simple = graph->nodes[a].a;
+        if (is_operation(graph, a, GM_OPERATION_SUBTRACT)) {
+            *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, graph->nodes[a].b, graph->nodes[a].a);
+            return true;
+        }
+        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) &&
+            is_operation(graph, graph->nodes[a].a, GM_OPERATION_NEGATE)) {
+            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[graph->nodes[a].a].a,
+                                       graph->nodes[a].b);
+            return true;
+        }
+        if (is_reciprocal(graph, a)) {
+            *simple = times_above(graph, a, -1);
+            return true;
+        }
+        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, graph->nodes[a].a)) {
+            const gm_node_id other = graph->nodes[a].b;
+            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
+                                       times_above(graph, graph->nodes[a].a, -1), other);
+            return true;
+        }
+        return is_operation(graph, a, GM_OPERATION_NEGATE);
+    case GM_OPERATION_WHOLE_POWER:
+        *simple = gm_is_constant(graph, b, 0) ? gm_formula_constant(graph, 1) : a;
+        return gm_is_constant(graph, b, 0) || gm_is_constant(graph, b, 1);
+    default:
+        return false;
+    }
+}
+
+gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    const bool single = gm_operation_rows[operation].arity == 1;
+    b = single ? 0 : b;
+    if (graph->failed || a >= graph->count || b >= graph->count) {
+        return 0; /* an operand that could not be read */
+    }
+    const double exponent = graph->nodes[b].value;
+    if (operation == GM_OPERATION_POWER && is_operation(graph, b, GM_CONSTANT) &&
+        exponent == floor(exponent) && fabs(exponent) <= GM_MOST_CHAINED) {
+        operation = GM_OPERATION_WHOLE_POWER;
+    }
+    if (!graph->keeps && is_operation(graph, a, GM_CONSTANT) &&
+        (single || is_operation(graph, b, GM_CONSTANT))) {
+        return gm_formula_constant(graph, gm_operation_value(operation, graph->nodes[a].value, exponent));
+    }
+    gm_node_id simple;
+    if (graph->simplifies && simplify(graph, operation, a, b, &simple)) {
+        return simple;
+    }
+    return intern(graph, (struct gm_node){.operation = operation, .a = a, .b = b});
+}
+
+gm_node_id gm_simplified(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    graph->simplifies = true;
+    const gm_node_id node = gm_formula_apply(graph, operation, a, b);
+    graph->simplifies = false;
+    return node;
+}
+
+void gm_formula_evaluate_parts(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                               const double *variables, double *values)
+{
+    for (size_t k = 0; k < count; k++) {
+        const gm_node_id i = parts ? parts[k] : (gm_node_id)k;
+        const struct gm_node *node = &graph->nodes[i];
+        const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
+        values[i] = node->operation == GM_CONSTANT ? node->value
+                    : node->operation == GM_VARIABLE
+                        ? variables[node->a]
+                        : gm_operation_value(node->operation, values[node->a], values[b]);
+    }
+}
+
+void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
+                         double *values)
+{
+    gm_formula_evaluate_parts(graph, NULL, count, variables, values);
+}
+
+enum { WORD = 64 };
+
+/* A bit for each node, and one for each word of these that is not 0: the parts of a node are few of a large graph, and
+   no more is cleared than has them. */
+struct marks {
+    uint64_t *bits, *words;
+    size_t word_count; /* of `words` */
+};
+
+static inline void mark(const struct marks *marks, gm_node_id node)
+{
+    const size_t word = node / WORD;
+    const uint64_t bit = UINT64_C(1) << word % WORD;
+    if (!(marks->words[word / WORD] & bit)) {
+        marks->words[word / WORD] |= bit;
+        marks->bits[word] = 0;
+    }
+    marks->bits[word] |= UINT64_C(1) << node % WORD;
+}
+
+static inline unsigned highest(uint64_t word)
+{
+    return WORD - 1 - (unsigned)__builtin_clzll(word);
+}
+
+static inline unsigned lowest(uint64_t word)
+{
+    return (unsigned)__builtin_ctzll(word);
+}
+
+/* Marks what the nodes of a word are made of, its highest bit first, for that stands below. Returns how many there
+   are. */
+static size_t mark_operands(const struct gm_formula *graph, const struct marks *marks, size_t word)
+{
+    size_t count = 0;
+    for (uint64_t below = UINT64_MAX; marks->bits[word] & below; count++) {
+        const unsigned bit = highest(marks->bits[word] & below);
+        const struct gm_node *node = &graph->nodes[word * WORD + bit];
+        below = (UINT64_C(1) << bit) - 1;
+        if (node->operation > GM_VARIABLE) {
+            mark(marks, node->a);
+            mark(marks, gm_operation_rows[node->operation].arity == 2 ? node->b : node->a);
+        }
+    }
+    return count;
+}
+
+gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
+                                size_t *count)
+{
+    const size_t bits = graph->count / WORD + (size_t)1;
+    struct marks marks = {.word_count = bits / WORD + 1};
+    marks.bits = malloc((bits + marks.word_count) * sizeof *marks.bits);
+    marks.words = marks.bits ? memset(marks.bits + bits, 0, marks.word_count * sizeof *marks.words) : NULL;
+    *count = 0;
+    for (size_t k = 0; marks.bits && k < root_count; k++) {
+        mark(&marks, roots[k]);
+    }
+    for (size_t i = marks.bits ? marks.word_count : 0; i-- > 0;) {
+        for (uint64_t below = UINT64_MAX; marks.words[i] & below;) {
+            const unsigned bit = highest(marks.words[i] & below);
+            *count += mark_operands(graph, &marks, i * WORD + bit);
+            below = (UINT64_C(1) << bit) - 1;
+        }
+    }
+    gm_node_id *parts = marks.bits ? malloc((*count + 1) * sizeof *parts) : NULL, *next = parts;
+    for (size_t i = 0; parts && i < marks.word_count; i++) {
+        for (uint64_t words = marks.words[i]; words; words &= words - 1) {
+            const size_t word = i * WORD + lowest(words);
+            for (uint64_t left = marks.bits[word]; left; left &= left - 1) {
+                *next++ = (gm_node_id)(word * WORD + lowest(left));
+            }
+        }
+    }
+    *count = parts ? *count : 0;
+    free(marks.bits);
+    return parts;
+}
+
+bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count && parts && !found; i++) {
+        const struct gm_node *part = &graph->nodes[parts[i]];
+        found = part->operation == GM_VARIABLE && part->a < variables && marked[part->a];
+    }
+    graph->failed |= !parts;
+    free(parts);
+    return found;
+}
+
+gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const bool *marked, size_t variables)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, formula, &count), kink = GM_NO_NODE;
+    for (size_t i = 0; parts && i < count && kink == GM_NO_NODE; i++) {
+        const struct gm_operation_row *row = &gm_operation_rows[graph->nodes[parts[i]].operation];
+        if (row->name && !row->smooth && gm_formula_holds(graph, parts[i], marked, variables)) {
+            kink = parts[i];
+        }
+    }
+    graph->failed |= !parts;
+    free(parts);
+    return kink;
+}
+
+gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count)
+{
+    return gm_formula_parts_of(graph, &node, 1, count);
+}
+
+bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
+                           const gm_node_id *replacement, size_t variables)
+{
+    const gm_node_id before = graph->count;
+    gm_node_id *others = malloc((before + (size_t)1) * sizeof *others);
+    for (gm_node_id i = 0; others && i < before; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    for (size_t k = 0; others && k < count && !graph->failed; k++) {
+        size_t size = 0;
+        gm_node_id *parts = gm_formula_parts(graph, nodes[k], &size);
+        graph->failed |= !parts;
+        for (size_t p = 0; p < size && !graph->failed; p++) {
+            const gm_node_id i = parts[p];
+            const struct gm_node node = graph->nodes[i];
+            if (others[i] != GM_NO_NODE) {
+                continue;
+            }
+            others[i] = i;
+            if (node.operation == GM_VARIABLE) {
+                const bool stays = node.a >= variables || replacement[node.a] == GM_NO_NODE;
+                others[i] = stays ? i : replacement[node.a];
+            } else if (node.operation > GM_VARIABLE) {
+                const bool single = gm_operation_rows[node.operation].arity == 1;
+                const gm_node_id a = others[node.a], b = single ? node.b : others[node.b];
+                graph->simplifies = true;
+                graph->origin = gm_formula_origin(graph, i);
+                others[i] = a == node.a && b == node.b ? i : gm_formula_apply(graph, node.operation, a, b);
+                graph->origin = GM_NO_PLACE;
+                graph->simplifies = false;
+            }
+        }
+        nodes[k] = parts ? others[nodes[k]] : nodes[k];
+        free(parts);
+    }
+    graph->failed |= !others;
+    free(others);
+    return !graph->failed;
+}
+
+/* node = y sqrt(y) */
+static bool is_power_three_halves(const struct gm_formula *graph, gm_node_id node, gm_node_id *y,
+                                  gm_node_id *root)
+{
+    const struct gm_node *product = &graph->nodes[node];
+    if (product->operation != GM_OPERATION_MULTIPLY) {
+        return false;
+    }
+    *root = is_operation(graph, product->a, GM_OPERATION_SQRT) ? product->a : product->b;
+    *y = *root == product->a ? product->b : product->a;
+    return is_operation(graph, *root, GM_OPERATION_SQRT) && graph->nodes[*root].a == *y;
+}
+
+static gm_node_id quicker(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    gm_node_id y, root;
+    if (operation != GM_OPERATION_DIVIDE || !is_power_three_halves(graph, b, &y, &root)) {
+        return gm_formula_apply(graph, operation, a, b);
+    }
+    const gm_node_id one = gm_formula_constant(graph, 1),
+                     inverse = gm_formula_apply(graph, GM_OPERATION_DIVIDE, one, y),
+                     square = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, inverse, inverse),
+                     power = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, root, square);
+    return gm_is_constant(graph, a, 1)    ? power
+           : gm_is_constant(graph, a, -1) ? negative(graph, power)
+                                          : gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, power);
+}
+
+/* Marks the parts, ascending, of which something else than sums and products is made: there a quotient that
+   is infinite may lead to a finite value, and one that is no number does not. */
+static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, size_t size, bool *harsh)
+{
+    for (size_t k = size; k-- > 0;) {
+        const struct gm_node *node = &graph->nodes[parts[k]];
+        const bool gentle = node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_SUBTRACT ||
+                            node->operation == GM_OPERATION_MULTIPLY ||
+                            node->operation == GM_OPERATION_NEGATE;
+        if (node->operation > GM_VARIABLE && (!gentle || harsh[parts[k]])) {
+            harsh[node->a] = true;
+            harsh[gm_operation_rows[node->operation].arity == 1 ? node->a : node->b] = true;
+        }
+    }
+}
+
+/* The part that was met and is this one with the other sign, c / x of -c / x; GM_NO_NODE: there is none. */
+static gm_node_id twin_of(const struct gm_formula *graph, gm_node_id i, const bool *met)
+{
+    const struct gm_node *node = &graph->nodes[i];
+    if ((node->operation != GM_OPERATION_MULTIPLY && node->operation != GM_OPERATION_DIVIDE) ||
+        !is_operation(graph, node->a, GM_CONSTANT)) {
+        return GM_NO_NODE;
+    }
+    const gm_node_id constant =
+        find(graph, (struct gm_node){.operation = GM_CONSTANT, .value = -graph->nodes[node->a].value});
+    const gm_node_id twin =
+        constant == GM_NO_NODE
+            ? GM_NO_NODE
+            : find(graph, (struct gm_node){.operation = node->operation, .a = constant, .b = node->b});
+    return twin != GM_NO_NODE && met[twin] ? twin : GM_NO_NODE;
+}
+
+/* A node, or what this node is with the other sign. */
+struct signed_node {
+    gm_node_id node;
+    bool negative;
+};
+
+static gm_node_id with_sign(struct gm_formula *graph, struct signed_node x)
+{
+    return x.negative ? negative(graph, x.node) : x.node;
+}
+
+/* An operation that leaves signs to what is made of it, as long as no bit changes, not even of 0. */
+static struct signed_node apply_signed(struct gm_formula *graph, bool quick, enum gm_operation operation,
+                                       struct signed_node a, struct signed_node b)
+{
+    const bool sum = operation == GM_OPERATION_ADD, difference = operation == GM_OPERATION_SUBTRACT;
+    bool negative = false;
+    if (operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE) {
+        negative = a.negative != b.negative;
+        a.negative = b.negative = false;
+    } else if (operation == GM_OPERATION_NEGATE && a.negative) {
+        return (struct signed_node){.node = a.node};
+    } else if (sum && a.negative && !b.negative) {
+        return (struct signed_node){.node = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b.node, a.node)};
+    } else if ((sum || difference) && b.negative) {
+        operation = sum ? GM_OPERATION_SUBTRACT : GM_OPERATION_ADD;
+        b.negative = false;
+    }
+    const gm_node_id first = with_sign(graph, a), second = with_sign(graph, b);
+    return (struct signed_node){.node = (quick ? quicker : gm_formula_apply)(graph, operation, first, second),
+                                .negative = negative};
+}
+
+bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count)
+{
+    enum { MANY = 4096 }; /* parts, of which some can always be computed while others wait */
+    size_t size = 0;
+    gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
+    struct signed_node *others = malloc((graph->count + (size_t)1) * sizeof *others);
+    bool *harsh = calloc(graph->count + (size_t)1, sizeof *harsh),
+         *met = calloc(graph->count + (size_t)1, sizeof *met);
+    graph->failed |= !parts || !others || !harsh || !met;
+    if (!graph->failed) {
+        mark_harsh(graph, parts, size, harsh);
+    }
+    for (size_t k = 0; k < size && !graph->failed; k++) {
+        const gm_node_id i = parts[k], twin = twin_of(graph, i, met);
+        const struct gm_node node = graph->nodes[i];
+        met[i] = true;
+        if (twin != GM_NO_NODE) {
+            others[i] = (struct signed_node){others[twin].node, !others[twin].negative};
+        } else if (node.operation > GM_VARIABLE) {
+            const bool single = gm_operation_rows[node.operation].arity == 1;
+            others[i] = apply_signed(graph, size < MANY && !harsh[i], node.operation, others[node.a],
+                                     others[single ? node.a : node.b]);
+        } else {
+            others[i] = (struct signed_node){.node = i};
+        }
+    }
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        nodes[k] = with_sign(graph, others[nodes[k]]);
+    }
+    free(harsh);
+    free(met);
+    free(parts);
+    free(others);
+    return !graph->failed;
+}
+
+gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *other, gm_node_id root,
+                            size_t inputs, const double *values)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(other, root, &count);
+    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* of the parts alone */
+    graph->failed |= !parts || !made;
+    graph->simplifies = true;
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const struct gm_node *node = &other->nodes[parts[k]];
+        if (node->operation == GM_CONSTANT) {
+            made[parts[k]] = gm_formula_constant(graph, node->value);
+        } else if (node->operation == GM_VARIABLE) {
+            made[parts[k]] = node->a < inputs ? gm_formula_variable(graph, node->a)
+                                              : gm_formula_constant(graph, values[node->a]);
+        } else {
+            const bool single = gm_operation_rows[node->operation].arity == 1;
+            made[parts[k]] =
+                gm_formula_apply(graph, node->operation, made[node->a], made[single ? node->a : node->b]);
+        }
+    }
+    graph->simplifies = false;
+    const gm_node_id node = graph->failed ? GM_NO_NODE : made[root];
+    free(parts);
+    free(made);
+    return node;
+}
+
+bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables)
+{
+    bool *dependent = malloc(graph->count + (size_t)1);
+    for (gm_node_id i = 0; dependent && i < graph->count; i++) {
+        const struct gm_node *node = &graph->nodes[i];
+        if (node->operation <= GM_VARIABLE) {
+            dependent[i] = node->operation == GM_VARIABLE && node->a < variables && marked[node->a];
+        } else {
+            dependent[i] =
+                dependent[node->a] || (gm_operation_rows[node->operation].arity == 2 && dependent[node->b]);
+        }
+    }
+    return dependent;
+}

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Identities, by random points in a prime field and, where that says nothing, in doubles. J. T. Schwartz, J.
+   ACM 27 (1980) 701; W. A. Martin, J. Symb. Comp. 18 (1994) 1, for functions other than rational ones. */
+#include "core/expression/identity.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef uint64_t residue;
+__extension__ typedef unsigned __int128 wide;
+
+static const residue PRIME = (UINT64_C(1) << 61) - 1; /* 3 modulo 4: roots are powers */
+
+enum {
+    PROOFS = 3,
+    PROOFS_BY_SIGN = 30,
+    TESTS = 20,
+    TRIES = 1000,
+    LEAST_TRIES = PROOFS_BY_SIGN,
+    WORK = 1 << 22 /* values of nodes: of a long formula fewer points are tried */
+};
+
+/* Steele, Lea, Flood: SplitMix64 */
+static uint64_t mix(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
+static residue times(residue a, residue b)
+{
+    const wide product = (wide)a * b;
+    const residue sum = (residue)(product & PRIME) + (residue)(product >> 61);
+    return sum >= PRIME ? sum - PRIME : sum;
+}
+
+static residue plus(residue a, residue b)
+{
+    return a + b >= PRIME ? a + b - PRIME : a + b;
+}
+
+static residue minus(residue a)
+{
+    return a ? PRIME - a : 0;
+}
+
+static residue power(residue a, uint64_t n)
+{
+    residue result = 1;
+    for (; n; n /= 2, a = times(a, a)) {
+        result = n % 2 ? times(result, a) : result;
+    }
+    return result;
+}
+
+static residue inverse(residue a)
+{
+    return power(a, PRIME - 2);
+}
+
+/* m 2^e, where 2^61 = 1 */
+static residue of_double(double value)
+{
+    int exponent = 0;
+    const double whole = ldexp(frexp(fabs(value), &exponent), 53);
+    exponent = ((exponent - 53) % 61 + 61) % 61;
+    const residue result = times((residue)whole % PRIME, (residue)1 << exponent);
+    return value < 0 ? minus(result) : result;
+}
+
+static bool is_square(residue a)
+{
+    return power(a, (PRIME - 1) / 2) <= 1;
+}
+
+/* A number for f(a, b) of which nothing is known. */
+static residue unrelated(uint64_t seed, unsigned operation, residue a, residue b)
+{
+    return mix(mix(mix(seed ^ operation) ^ a) ^ b) % PRIME;
+}
+
+/* f(-x) is made of f(x): which of the two a is, and a number of |x| for the operation that is its
+   parameter. */
+static bool is_turned(residue a)
+{
+    return a > PRIME / 2;
+}
+
+static residue parameter(uint64_t seed, unsigned operation, residue a)
+{
+    return unrelated(seed, operation, is_turned(a) ? minus(a) : a, 0);
+}
+
+static residue exponential(uint64_t seed, residue a)
+{
+    const residue t = parameter(seed, GM_OPERATION_EXP, a);
+    return a == 0 ? 1 : is_turned(a) ? inverse(t) : t;
+}
+
+/* A point of the circle: cos, or sin, times 1 + t^2. */
+static residue on_circle(uint64_t seed, residue a, bool is_sine, residue *scale)
+{
+    const residue t = parameter(seed, GM_OPERATION_SIN, a), square = times(t, t);
+    *scale = a == 0 ? 1 : plus(1, square);
+    if (is_sine) {
+        return a == 0 ? 0 : times(2, is_turned(a) ? minus(t) : t);
+    }
+    return a == 0 ? 1 : plus(1, minus(square));
+}
+
+/* sinh or cosh, of the exponential */
+static residue hyperbolic(residue up, bool is_sine)
+{
+    const residue down = inverse(up);
+    return times(inverse(2), plus(up, is_sine ? minus(down) : down));
+}
+
+static bool is_below(uint64_t seed, residue a, residue b)
+{
+    return a != b && (a < b) == (unrelated(seed, GM_OPERATION_BELOW, a < b ? a : b, a < b ? b : a) & 1);
+}
+
+/* The value of a node; false where there is none at this point. */
+static bool value_of(const struct gm_node *node, residue a, residue b, double exponent, uint64_t seed,
+                     residue *value)
+{
+    residue scale;
+    bool exists = true;
+    switch (node->operation) {
+    case GM_OPERATION_ADD:
+        *value = plus(a, b);
+        break;
+    case GM_OPERATION_SUBTRACT:
+        *value = plus(a, minus(b));
+        break;
+    case GM_OPERATION_MULTIPLY:
+        *value = times(a, b);
+        break;
+    case GM_OPERATION_DIVIDE:
+        exists = b != 0;
+        *value = times(a, inverse(b));
+        break;
+    case GM_OPERATION_NEGATE:
+        *value = minus(a);
+        break;
+    case GM_OPERATION_WHOLE_POWER:
+        exists = exponent >= 0 || a != 0;
+        *value = power(exponent < 0 ? inverse(a) : a, (uint64_t)fabs(exponent));
+        break;
+    case GM_OPERATION_SQRT:
+        exists = is_square(a);
+        *value = power(a, (PRIME + 1) / 4);
+        break;
+    case GM_OPERATION_EXP:
+        *value = exponential(seed, a);
+        break;
+    case GM_OPERATION_SINH:
+        *value = hyperbolic(exponential(seed, a), true);
+        break;
+    case GM_OPERATION_COSH:
+        *value = hyperbolic(exponential(seed, a), false);
+        break;
+    case GM_OPERATION_TANH:
+        *value =
+            times(hyperbolic(exponential(seed, a), true), inverse(hyperbolic(exponential(seed, a), false)));
+        break;
+    case GM_OPERATION_SIN:
+        *value = on_circle(seed, a, true, &scale);
+        *value = times(*value, inverse(scale));
+        break;
+    case GM_OPERATION_COS:
+        *value = on_circle(seed, a, false, &scale);
+        *value = times(*value, inverse(scale));
+        break;
+    case GM_OPERATION_TAN:
+        *value = times(on_circle(seed, a, true, &scale), inverse(on_circle(seed, a, false, &scale)));
+        break;
+    case GM_OPERATION_ABS:
+        *value = is_square(a) ? a : minus(a);
+        break;
+    case GM_OPERATION_MIN:
+        *value = is_below(seed, a, b) ? a : b;
+        break;
+    case GM_OPERATION_MAX:
+        *value = is_below(seed, b, a) ? a : b;
+        break;
+    case GM_OPERATION_BELOW:
+        *value = is_below(seed, a, b);
+        break;
+    default:
+        *value = unrelated(seed, node->operation, a, b);
+    }
+    return exists;
+}
+
+/* Whether the node is 0 at a random point; false in *exists where it has no value. */
+static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                          uint64_t seed, residue *values, bool *exists)
+{
+    *exists = true;
+    for (size_t k = 0; k < count && *exists; k++) {
+        const gm_node_id i = parts[k];
+        const struct gm_node *node = &graph->nodes[i];
+        if (node->operation == GM_CONSTANT) {
+            *exists = isfinite(node->value);
+            values[i] = *exists ? of_double(node->value) : 0;
+        } else if (node->operation == GM_VARIABLE) {
+            values[i] = unrelated(seed, GM_VARIABLE, node->a, 0);
+        } else {
+            const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
+            *exists = value_of(node, values[node->a], values[b], graph->nodes[b].value, seed, &values[i]);
+        }
+    }
+    return *exists && values[parts[count - 1]] == 0;
+}
+
+/* Whether a part has one of two values, as a sign or a root, so that a point more is half a proof at most. */
+static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
+{
+    bool found = false;
+    for (size_t k = 0; k < count; k++) {
+        const enum gm_operation operation = graph->nodes[parts[k]].operation;
+        found |= operation > GM_VARIABLE &&
+                 (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
+    }
+    return found;
+}
+
+/* A value, and the size of all that was added up for it. */
+struct sized {
+    double value, size;
+};
+
+static struct sized size_of(enum gm_operation operation, struct sized a, struct sized b)
+{
+    const double slight = 1e-6, value = gm_operation_value(operation, a.value, b.value);
+    double size = fabs(value);
+    size += fabs(gm_operation_value(operation, a.value + slight * a.size, b.value) - value) / slight;
+    if (gm_operation_rows[operation].arity == 2 && operation != GM_OPERATION_WHOLE_POWER) {
+        size += fabs(gm_operation_value(operation, a.value, b.value + slight * b.size) - value) / slight;
+    }
+    return (struct sized){value, size};
+}
+
+static struct sized size_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                               uint64_t seed, const double *fixed, size_t variables, struct sized *values)
+{
+    for (size_t k = 0; k < count; k++) {
+        const gm_node_id i = parts[k];
+        const struct gm_node *node = &graph->nodes[i];
+        double value = node->value;
+        if (node->operation == GM_VARIABLE) {
+            const uint64_t random = mix(seed ^ mix(node->a));
+            value = ((double)(random >> 12) * 0x1p-52 * 1.8 + .2) * (random & 1 && seed % 2 ? -1 : 1);
+            value *= seed % 4 == 3 ? 10 : 1; /* beyond a bound that a formula may have */
+            value = node->a < variables && !isnan(fixed[node->a]) ? fixed[node->a] : value;
+        }
+        values[i] = node->operation > GM_VARIABLE ? size_of(node->operation, values[node->a], values[node->b])
+                                                  : (struct sized){value, fabs(value)};
+    }
+    return values[parts[count - 1]];
+}
+
+enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
+                                size_t variables)
+{
+    if (graph->failed) {
+        return GM_UNTESTED;
+    }
+    if (graph->nodes[node].operation == GM_CONSTANT) {
+        return graph->nodes[node].value == 0 ? GM_ZERO_PROVED : GM_NOT_ZERO;
+    }
+    union {
+        residue exact;
+        struct sized sized;
+    } *memory = malloc((node + (size_t)1) * sizeof *memory);
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
+    enum gm_identity found = GM_UNTESTED;
+    if (memory && parts) {
+        const int enough = has_signs(graph, parts, count) ? PROOFS_BY_SIGN : PROOFS;
+        const uint64_t most = WORK / count, tries = most > TRIES         ? TRIES
+                                                    : most > LEAST_TRIES ? most
+                                                                         : LEAST_TRIES;
+        int proofs = 0, tests = 0;
+        for (uint64_t i = 0; i < tries && proofs >= 0 && proofs < enough; i++) {
+            bool exists;
+            const bool is_zero = is_zero_there(graph, parts, count, mix(i), &memory->exact, &exists);
+            proofs = !exists ? proofs : is_zero ? proofs + 1 : -1;
+        }
+        for (uint64_t i = 0; i < tries && tests >= 0 && tests < TESTS && proofs < enough; i++) {
+            const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
+            if (isfinite(there.value) && isfinite(there.size)) {
+                tests = fabs(there.value) <= 1e-12 * there.size ? tests + 1 : -1;
+            }
+        }
+        found = proofs == enough ? GM_ZERO_PROVED
+                : tests > 0      ? GM_ZERO_TESTED
+                : tests < 0      ? GM_NOT_ZERO
+                                 : GM_UNTESTED;
+    }
+    free(memory);
+    free(parts);
+    return found;
+}

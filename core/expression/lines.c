@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts of words and values, taken apart. */
+#include "core/expression/lines.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_blank(char character)
+{
+    return character == ' ' || character == '\t' || character == '\n' || character == '\r';
+}
+
+struct gm_span gm_span_trimmed(const char *text, struct gm_span span)
+{
+    while (span.begin < span.end && (is_blank(text[span.begin]) || text[span.begin] == '#')) {
+        if (text[span.begin] == '#') {
+            const char *newline = memchr(text + span.begin, '\n', span.end - span.begin);
+            span.begin = newline ? (size_t)(newline - text) : span.end;
+        } else {
+            span.begin++;
+        }
+    }
+    while (span.end > span.begin && is_blank(text[span.end - 1])) {
+        span.end--;
+    }
+    return span;
+}
+
+bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault)
+{
+    const size_t valid = gm_text_valid(text, length);
+    if (valid < length) {
+        return gm_fail(fault, valid,
+                       text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
+                       (unsigned char)text[valid]);
+    }
+    for (size_t i = 0; i + 1 < length; i++) {
+        if (text[i] == '\r' && text[i + 1] != '\n' && text[i + 1] != '\r') {
+            return gm_fail(fault, i, "a carriage return alone ends no line: lines end with a newline");
+        }
+    }
+    return true;
+}
+
+static bool split(const char *text, struct gm_span span, struct gm_text_line *line, struct gm_fault *fault)
+{
+    size_t colon = span.begin;
+    while (colon < span.end && text[colon] != ':' && !is_blank(text[colon]) && text[colon] != '#') {
+        colon++;
+    }
+    if (memchr(text + span.begin, '\'', colon - span.begin)) {
+        return gm_fail(fault, span.begin, "x' = -x is written rate: x = -x");
+    }
+    if (colon == span.end || text[colon] != ':') {
+        return gm_fail(fault, colon,
+                       "a line begins with a word and a colon, or with a blank where it goes on");
+    }
+    line->word = (struct gm_span){span.begin, colon};
+    line->value = gm_span_trimmed(text, (struct gm_span){colon + 1, span.end});
+    return true;
+}
+
+bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_line *line,
+                   struct gm_fault *fault)
+{
+    *fault = (struct gm_fault){0};
+    *at += *at == 0 && gm_text_has_mark(text, length) ? GM_TEXT_MARK : 0;
+    while (*at < length) {
+        const size_t begin = *at;
+        size_t end = begin;
+        /* a line, and those behind it that begin with a blank */
+        do {
+            const char *newline = memchr(text + end, '\n', length - end);
+            end = newline ? (size_t)(newline - text) + 1 : length;
+        } while (end < length && (text[end] == ' ' || text[end] == '\t'));
+        const struct gm_span span = gm_span_trimmed(text, (struct gm_span){begin, end});
+        *at = end;
+        if (span.begin == span.end) {
+            continue;
+        }
+        if (span.begin > begin && (text[begin] == ' ' || text[begin] == '\t')) {
+            return gm_fail(fault, span.begin, "this line goes on, but there is none before it");
+        }
+        return split(text, (struct gm_span){span.begin, end}, line, fault);
+    }
+    return false;
+}
+
+size_t gm_span_until(const char *text, struct gm_span span, const char *separator)
+{
+    int depth = 0;
+    const size_t width = strlen(separator);
+    for (size_t i = span.begin; i < span.end; i++) {
+        const char here = text[i];
+        if (here == '#') {
+            const char *newline = memchr(text + i, '\n', span.end - i);
+            i = newline ? (size_t)(newline - text) : span.end - 1;
+        } else if (depth == 0 && i + width <= span.end && memcmp(text + i, separator, width) == 0) {
+            return i;
+        }
+        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
+    }
+    return span.end;
+}
+
+bool gm_span_take(const char *text, struct gm_span *rest, const char *separator, struct gm_span *piece)
+{
+    if (rest->begin >= rest->end) {
+        *piece = (struct gm_span){rest->begin, rest->begin};
+        return false;
+    }
+    const size_t end = gm_span_until(text, *rest, separator);
+    *piece = gm_span_trimmed(text, (struct gm_span){rest->begin, end});
+    rest->begin = end < rest->end ? end + strlen(separator) : end;
+    return true;
+}
+
+char *gm_span_words(const char *text, struct gm_span span)
+{
+    char *words = malloc(span.end - span.begin + 1), *out = words;
+    if (!words) {
+        return NULL;
+    }
+    for (struct gm_span rest = gm_span_trimmed(text, span); rest.begin < rest.end;
+         rest = gm_span_trimmed(text, rest)) {
+        while (rest.begin < rest.end && !is_blank(text[rest.begin]) && text[rest.begin] != '#') {
+            *out++ = text[rest.begin++];
+        }
+        *out++ = ' ';
+    }
+    out[out > words ? -1 : 0] = '\0';
+    return words;
+}

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The writer of formulas. */
+#include "core/expression/writer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/number.h"
+#include "core/expression/reader.h"
+
+/* How strongly a node holds its parts together: as in the reader's table. */
+enum { SUM = 10, PRODUCT = 11, SIGN = 12, RAISED = 14, WHOLE = 20 };
+
+struct writer {
+    const struct gm_formula *graph;
+    const struct gm_naming *naming;
+    FILE *out;
+    gm_node_id root;
+    bool latex;
+};
+
+static const char *name_of(const struct gm_naming *naming, gm_node_id node, gm_node_id root)
+{
+    return node != root && naming->part ? naming->part(node, naming->data) : NULL;
+}
+
+/* How many operations and operands are written out for a node, at most SIZE_MAX; a part with a name is one,
+   but not the node itself. */
+static size_t written_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
+{
+    size_t count = 0, size = SIZE_MAX;
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
+    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* of the parts alone */
+    for (size_t k = 0; parts && sizes && k < count; k++) {
+        const struct gm_node *here = &graph->nodes[parts[k]];
+        size = 1;
+        if (here->operation > GM_VARIABLE && !name_of(naming, parts[k], node)) {
+            const size_t b = gm_operation_rows[here->operation].arity == 2 ? sizes[here->b] : 0;
+            const bool is_small = sizes[here->a] < SIZE_MAX / 4 && b < SIZE_MAX / 4;
+            size = is_small ? 1 + sizes[here->a] + b : SIZE_MAX;
+        }
+        sizes[parts[k]] = size;
+    }
+    free(parts);
+    free(sizes);
+    return size;
+}
+
+static int priority_of(const struct writer *writer, gm_node_id node)
+{
+    const struct gm_node *here = &writer->graph->nodes[node];
+    if (name_of(writer->naming, node, writer->root)) {
+        return WHOLE;
+    }
+    switch (here->operation) {
+    case GM_CONSTANT:
+        return signbit(here->value) ? SIGN : WHOLE;
+    case GM_OPERATION_ADD:
+    case GM_OPERATION_SUBTRACT:
+        return SUM;
+    case GM_OPERATION_MULTIPLY:
+        return PRODUCT;
+    case GM_OPERATION_DIVIDE:
+        return writer->latex ? WHOLE : PRODUCT;
+    case GM_OPERATION_NEGATE:
+        return SIGN;
+    case GM_OPERATION_POWER:
+    case GM_OPERATION_WHOLE_POWER:
+        return RAISED;
+    default:
+        return WHOLE;
+    }
+}
+
+/* Whether what is written begins with a minus. */
+static bool leads_with_minus(const struct writer *writer, gm_node_id node)
+{
+    int priority = priority_of(writer, node);
+    while (priority == SUM || priority == PRODUCT) {
+        node = writer->graph->nodes[node].a;
+        const int inner = priority_of(writer, node);
+        if (inner < priority) {
+            return false;
+        }
+        priority = inner;
+    }
+    return priority == SIGN;
+}
+
+static void write_node(const struct writer *writer, gm_node_id node);
+
+static void write_enclosed(const struct writer *writer, gm_node_id node, bool is_enclosed)
+{
+    fputs(!is_enclosed ? "" : writer->latex ? "\\left(" : "(", writer->out);
+    write_node(writer, node);
+    fputs(!is_enclosed ? "" : writer->latex ? "\\right)" : ")", writer->out);
+}
+
+static void write_operand(const struct writer *writer, gm_node_id node, int limit, bool is_first)
+{
+    write_enclosed(writer, node,
+                   priority_of(writer, node) < limit || (!is_first && leads_with_minus(writer, node)));
+}
+
+/* sums and products */
+static void write_binary(const struct writer *writer, const struct gm_node *here, const char *sign,
+                         int priority)
+{
+    write_operand(writer, here->a, priority, true);
+    fputs(sign, writer->out);
+    write_operand(writer, here->b, priority + 1, false);
+}
+
+static void write_power(const struct writer *writer, const struct gm_node *here)
+{
+    const bool simple =
+        priority_of(writer, here->b) >= RAISED || writer->graph->nodes[here->b].operation == GM_CONSTANT;
+    /* a base that LaTeX writes as a fraction or a function needs parentheses */
+    const bool is_leaf = name_of(writer->naming, here->a, writer->root) ||
+                         writer->graph->nodes[here->a].operation <= GM_VARIABLE;
+    write_enclosed(writer, here->a, priority_of(writer, here->a) < WHOLE || (writer->latex && !is_leaf));
+    fputs(writer->latex ? "^{" : "^", writer->out);
+    write_enclosed(writer, here->b, !simple && !writer->latex);
+    fputs(writer->latex ? "}" : "", writer->out);
+}
+
+/* Iverson's bracket, as of the derivative of |x|: 1 where it is true, else 0. */
+static void write_bracket(const struct writer *writer, const struct gm_node *here)
+{
+    fputs("\\left[", writer->out);
+    write_node(writer, here->a);
+    fputs(" < ", writer->out);
+    write_node(writer, here->b);
+    fputs("\\right]", writer->out);
+}
+
+static void write_call(const struct writer *writer, const struct gm_node *here)
+{
+    const struct gm_operation_row *row = &gm_operation_rows[here->operation];
+    if (writer->latex && here->operation == GM_OPERATION_BELOW) {
+        write_bracket(writer, here);
+        return;
+    }
+    const bool root = writer->latex && here->operation == GM_OPERATION_SQRT,
+               bars = writer->latex && here->operation == GM_OPERATION_ABS;
+    fprintf(writer->out, "%s%s", writer->latex ? row->latex : row->name,
+            root            ? "{"
+            : bars          ? ""
+            : writer->latex ? "\\left("
+                            : "(");
+    write_node(writer, here->a);
+    if (row->arity == 2) {
+        fputs(", ", writer->out);
+        write_node(writer, here->b);
+    }
+    fputs(root ? "}" : bars ? "\\right|" : writer->latex ? "\\right)" : ")", writer->out);
+}
+
+static void write_constant(const struct writer *writer, double value)
+{
+    char text[64];
+    gm_number_format(value, text, sizeof text);
+    const char *exponent = writer->latex ? strchr(text, 'e') : NULL;
+    if (isinf(value)) {
+        fputs(value > 0 ? "1e999" : "-1e999", writer->out);
+    } else if (isnan(value)) {
+        fputs("0/0", writer->out);
+    } else if (exponent) {
+        fprintf(writer->out, "%.*s \\cdot 10^{%s}", (int)(exponent - text), text, exponent + 1);
+    } else if (writer->latex && strstr(text, "pi")) {
+        const char *pi = strstr(text, "pi");
+        const int before = (int)(pi - text);
+        fprintf(writer->out, "%.*s\\pi{}%s", before > 0 && pi[-1] == '*' ? before - 1 : before, text, pi + 2);
+    } else {
+        /* what is divided by a multiple of pi would be divided by pi alone */
+        fprintf(writer->out, !writer->latex && strpbrk(text, "*/") ? "(%s)" : "%s", text);
+    }
+}
+
+static void write_name(FILE *out, const char *name);
+
+static void write_node(const struct writer *writer, gm_node_id node)
+{
+    const struct gm_node *here = &writer->graph->nodes[node];
+    const char *name = name_of(writer->naming, node, writer->root);
+    if (!name && here->operation == GM_VARIABLE) {
+        name = writer->naming->variable(here->a, writer->naming->data);
+    }
+    if (name && writer->latex) {
+        write_name(writer->out, name);
+        return;
+    }
+    if (name) {
+        fputs(name, writer->out);
+        return;
+    }
+    switch (here->operation) {
+    case GM_CONSTANT:
+        write_constant(writer, here->value);
+        break;
+    case GM_OPERATION_ADD:
+        write_binary(writer, here, " + ", SUM);
+        break;
+    case GM_OPERATION_SUBTRACT:
+        write_binary(writer, here, " - ", SUM);
+        break;
+    case GM_OPERATION_MULTIPLY:
+        write_binary(writer, here, writer->latex ? "\\," : "*", PRODUCT);
+        break;
+    case GM_OPERATION_DIVIDE:
+        if (writer->latex) {
+            fputs("\\frac{", writer->out);
+            write_node(writer, here->a);
+            fputs("}{", writer->out);
+            write_node(writer, here->b);
+            fputs("}", writer->out);
+        } else {
+            write_binary(writer, here, "/", PRODUCT);
+        }
+        break;
+    case GM_OPERATION_NEGATE:
+        fputs("-", writer->out);
+        write_operand(writer, here->a, PRODUCT, false);
+        break;
+    case GM_OPERATION_POWER:
+    case GM_OPERATION_WHOLE_POWER:
+        write_power(writer, here);
+        break;
+    default:
+        write_call(writer, here);
+    }
+}
+
+static char *text_of(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming,
+                     bool latex)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = written_size(graph, node, naming) <= GM_LONGEST_FORMULA ? open_memstream(&text, &size) : NULL;
+    if (!out) {
+        return NULL;
+    }
+    write_node(&(struct writer){graph, naming, out, node, latex}, node);
+    return fclose(out) == 0 ? text : NULL;
+}
+
+char *gm_formula_text(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
+{
+    return text_of(graph, node, naming, false);
+}
+
+char *gm_formula_latex(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
+{
+    return text_of(graph, node, naming, true);
+}
+
+/* A word of a name: a letter, a Greek one, one letter repeated as derivatives have it, or upright. */
+static void write_word(FILE *out, const char *word, size_t length)
+{
+    static const char greek[] =
+        " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma "
+        "tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega ";
+    char wanted[16];
+    size_t same = 1;
+    while (same < length && word[same] == word[0]) {
+        same++;
+    }
+    if (length < 12) {
+        snprintf(wanted, sizeof wanted, " %.*s ", (int)length, word);
+    }
+    if (length > 1 && length < 12 && strstr(greek, wanted)) {
+        fprintf(out, "\\%.*s", (int)length, word);
+    } else {
+        fprintf(out, same < length && gm_is_letter(word[0]) ? "\\mathrm{%.*s}" : "%.*s", (int)length, word);
+    }
+}
+
+static void write_name(FILE *out, const char *name)
+{
+    size_t length = strcspn(name, "_[");
+    while (length > 1 && name[length - 1] >= '0' && name[length - 1] <= '9') {
+        length--;
+    }
+    write_word(out, name, length);
+    const char *rest = name + length;
+    fputs(*rest ? "_{" : "", out);
+    for (const char *comma = ""; *rest; comma = ",") {
+        rest += strspn(rest, "_[]");
+        const size_t word = strcspn(rest, "_[]");
+        fputs(word ? comma : "", out);
+        write_word(out, rest, word);
+        rest += word;
+    }
+    fputs(name[length] ? "}" : "", out);
+}
+
+char *gm_name_latex(const char *name)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return NULL;
+    }
+    write_name(out, name);
+    return fclose(out) == 0 ? text : NULL;
+}

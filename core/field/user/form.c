@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A multisymplectic form that somebody wrote: S, its gradient and its second derivatives are formulas. A component
+   that S does not hold and whose slope an equation without K tells is a potential: it is integrated from the others,
+   and what it gains around the ring is its jump. */
+#include "core/field/user/form.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/linear/sine.h"
+#include "core/tape.h"
+
+struct own {
+    struct gm_field facets;
+    struct gm_form form;
+    const struct gm_user_form *source;
+    double k[GM_MOST_OF_FORM * GM_MOST_OF_FORM], l[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
+    double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* what lines say of it; NAN: nothing */
+    const char *names[GM_MOST_OF_FORM];
+    struct gm_form_potential potentials[GM_MOST_OF_FORM];
+    struct gm_tape function, gradient, hessian, starts, exact;
+    bool has_exact;
+};
+
+static const struct own *own_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+static double function(const void *parameters, const double *s)
+{
+    const struct own *self = parameters;
+    double value;
+    gm_tape_values(&self->function, s, &value, 1);
+    return value;
+}
+
+static void gradient(const void *parameters, const double *s, double *to)
+{
+    gm_tape_values(&((const struct own *)parameters)->gradient, s, to, 1);
+}
+
+static void gradients(const void *parameters, const double *s, double *to, size_t count)
+{
+    gm_tape_values(&((const struct own *)parameters)->gradient, s, to, count);
+}
+
+static void hessians(const void *parameters, const double *s, double *to, size_t count)
+{
+    gm_tape_values(&((const struct own *)parameters)->hessian, s, to, count);
+}
+
+/* ---- what is derived ---- */
+
+bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system)
+{
+    const size_t n = system->n;
+    struct gm_sparse hessian = {0};
+    bool *marked = calloc(system->variable_count, sizeof *marked), told = true;
+    *form = (struct gm_user_form){.system = system};
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < n; i++) {
+        form->starts[i] = system->variables[i].start;
+        form->exact[i] = system->variables[i].exact;
+        told &= form->exact[i] != GM_NO_NODE;
+    }
+    for (size_t i = 0; marked && i < n; i++) {
+        marked[i] = true;
+    }
+    const bool good = marked && gm_sparse_jacobian(&system->graph, system->rates, n, marked,
+                                                   system->variable_count, &hessian);
+    for (size_t i = 0; i < n * n; i++) {
+        form->hessian[i] = zero;
+    }
+    for (size_t i = 0; i < hessian.count; i++) {
+        form->hessian[hessian.entries[i].row * n + hessian.entries[i].column] = hessian.entries[i].node;
+    }
+    free(hessian.entries);
+    free(marked);
+    form->exact[0] = told ? form->exact[0] : GM_NO_NODE;
+    return good && gm_system_place(system, form->starts, n) &&
+           (!told || gm_system_place(system, form->exact, n)) && !system->graph.failed;
+}
+
+/* The potentials, and their jumps; false: out of memory. */
+static bool find_potentials(struct gm_problem *problem, struct own *self)
+{
+    const struct gm_user_system *system = self->source->system;
+    const size_t n = system->n, points = problem->line.points;
+    self->form.potentials = self->potentials;
+    for (size_t c = 0; c < n; c++) {
+        for (size_t row = 0; row < n && gm_is_constant(&system->graph, system->rates[c], 0); row++) {
+            bool alone = self->l[row * n + c] != 0;
+            for (size_t e = 0; e < n; e++) {
+                alone = alone && self->k[row * n + e] == 0 && (e == c || self->l[row * n + e] == 0);
+            }
+            if (alone) {
+                self->potentials[self->form.potential_count++] = (struct gm_form_potential){c, row};
+                break;
+            }
+        }
+    }
+    double *y = self->form.potential_count > 0 ? malloc(n * points * sizeof *y) : NULL;
+    if (y) {
+        gm_user_form_start(problem, y);
+        for (size_t i = 0; i < points; i++) {
+            double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+            const size_t right = i + 1 < points ? i + 1 : 0;
+            for (size_t c = 0; c < n; c++) {
+                s[c] = (y[c * points + i] + y[c * points + right] + (right == 0 ? self->jump[c] : 0)) / 2;
+            }
+            gradient(self, s, slope);
+            for (size_t p = 0; p < self->form.potential_count; p++) {
+                const struct gm_form_potential *potential = &self->potentials[p];
+                self->jump[potential->component] += (i == 0 ? -self->jump[potential->component] : 0) +
+                                                    problem->line.dx * slope[potential->row] /
+                                                        self->l[potential->row * n + potential->component];
+            }
+        }
+    }
+    const bool good = self->form.potential_count == 0 || y;
+    free(y);
+    return good;
+}
+
+bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
+                       const struct gm_grid1 *grid)
+{
+    const struct gm_user_system *system = form->system;
+    const size_t n = system->n;
+    struct own *self = calloc(1, sizeof *self);
+    *problem = (struct gm_problem){.name = "multisymplectic equation",
+                                   .kind = &gm_kind_field,
+                                   .m = 1,
+                                   .n = n * grid->points,
+                                   .line = *grid};
+    if (!self) {
+        return false;
+    }
+    double *all = malloc((system->graph.count + (size_t)1) * sizeof *all);
+    problem->parameters = self;
+    problem->facets = &self->facets;
+    self->source = form;
+    self->has_exact = form->exact[0] != GM_NO_NODE;
+    self->form = (struct gm_form){.dimension = n,
+                                  .m = self->k,
+                                  .k = self->l,
+                                  .gradient = gradient,
+                                  .function = function,
+                                  .gradients = gradients,
+                                  .hessians = hessians,
+                                  .jump = self->jump,
+                                  .names = self->names};
+    for (size_t c = 0; c < n; c++) {
+        self->names[c] = system->variables[c].name;
+    }
+    self->facets.form = &self->form;
+    bool good = all && gm_tape_open(&self->function, &system->graph, &system->energy, 1, n, values) &&
+                gm_tape_open(&self->gradient, &system->graph, system->rates, n, n, values) &&
+                gm_tape_open(&self->hessian, &system->graph, form->hessian, n * n, n, values) &&
+                gm_tape_open(&self->starts, &system->graph, form->starts, n, 1, values) &&
+                (!self->has_exact || gm_tape_open(&self->exact, &system->graph, form->exact, n, 2, values));
+    self->gradient.sines = gm_sines; /* no other engine computes forms */
+    if (good) {
+        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+        for (size_t i = 0; i < n * n; i++) {
+            self->k[i] = all[system->matrices[i]];
+            self->l[i] = all[system->matrices[n * n + i]];
+        }
+        for (size_t i = 0; i < n; i++) {
+            self->told[i] = system->variables[i].jump == GM_NO_NODE ? NAN : all[system->variables[i].jump];
+            self->jump[i] = isnan(self->told[i]) ? 0 : self->told[i];
+        }
+        good = find_potentials(problem, self);
+    }
+    free(all);
+    return good;
+}
+
+void gm_user_form_close(struct gm_problem *problem)
+{
+    struct own *self = (struct own *)problem->parameters;
+    if (self) {
+        struct gm_tape *const tapes[] = {&self->function, &self->gradient, &self->hessian, &self->starts,
+                                         &self->exact};
+        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
+            gm_tape_close(tapes[i]);
+        }
+    }
+    free(self);
+    problem->parameters = problem->facets = NULL;
+}
+
+/* ---- the start ---- */
+
+void gm_user_form_start(const struct gm_problem *problem, double *y)
+{
+    const struct own *self = own_of(problem);
+    const size_t n = self->form.dimension, points = problem->line.points;
+    double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    for (size_t i = 0; i < points; i++) {
+        const double x = gm_grid1_node(&problem->line, i);
+        gm_tape_values(&self->starts, &x, s, 1);
+        for (size_t c = 0; c < n; c++) {
+            y[c * points + i] = s[c];
+        }
+    }
+    /* Gauss's formula of three points in every cell */
+    static const double weights[] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
+    const double apart = sqrt(0.15);
+    for (size_t i = 0; i + 1 < points && self->form.potential_count > 0; i++) {
+        for (size_t p = 0; p < self->form.potential_count; p++) {
+            double *at = y + self->potentials[p].component * points + i;
+            at[1] = at[0];
+        }
+        for (size_t k = 0; k < GM_COUNT(weights); k++) {
+            const double x =
+                gm_grid1_node(&problem->line, i) + problem->line.dx * (0.5 + apart * ((double)k - 1));
+            gm_tape_values(&self->starts, &x, s, 1);
+            gradient(self, s, slope);
+            for (size_t p = 0; p < self->form.potential_count; p++) {
+                const struct gm_form_potential *potential = &self->potentials[p];
+                y[potential->component * points + i + 1] +=
+                    weights[k] * problem->line.dx * slope[potential->row] /
+                    self->l[potential->row * n + potential->component];
+            }
+        }
+    }
+}
+
+double gm_user_form_exact(const struct gm_problem *problem, size_t component, double x, double t)
+{
+    const struct own *self = own_of(problem);
+    const double at[] = {x, t};
+    double s[GM_MOST_OF_FORM];
+    if (!self->has_exact) {
+        return NAN;
+    }
+    gm_tape_values(&self->exact, at, s, 1);
+    return s[component];
+}
+
+bool gm_user_form_is_potential(const struct gm_problem *problem, size_t component)
+{
+    const struct own *self = own_of(problem);
+    for (size_t p = 0; p < self->form.potential_count; p++) {
+        if (self->potentials[p].component == component) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool component_closes(const struct gm_problem *problem, size_t c, char *sentence, size_t size)
+{
+    const struct own *self = own_of(problem);
+    const struct gm_grid1 *grid = &problem->line;
+    const char *name = self->source->system->variables[c].name;
+    const bool is_potential = gm_user_form_is_potential(problem, c);
+    double low = INFINITY, high = -INFINITY, s[GM_MOST_OF_FORM], other[GM_MOST_OF_FORM];
+    for (size_t i = 0; i < grid->points; i++) {
+        const double x = gm_grid1_node(grid, i);
+        gm_tape_values(&self->starts, &x, s, 1);
+        if (!isfinite(s[c])) {
+            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name, x);
+            return false;
+        }
+        low = fmin(low, s[c]);
+        high = fmax(high, s[c]);
+    }
+    const double end = -grid->first;
+    gm_tape_values(&self->starts, &grid->first, s, 1);
+    gm_tape_values(&self->starts, &end, other, 1);
+    const double least = 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high)));
+    if (is_potential && fabs(self->told[c] - self->jump[c]) > 1e-3 * fmax(fabs(self->jump[c]), high - low)) {
+        snprintf(
+            sentence, size,
+            "%.60s gains %.6g around the ring, which follows from the others at the start, and not %.6g as jump "
+            "says",
+            name, self->jump[c], self->told[c]);
+        return false;
+    }
+    if (!is_potential && !(fabs(other[c] - s[c] - self->jump[c]) <= least)) {
+        snprintf(
+            sentence, size,
+            "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other (jump: "
+            "tells by how much they differ)",
+            name, s[c], other[c]);
+        return false;
+    }
+    return true;
+}
+
+static bool is_zero(const double *matrix, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += fabs(matrix[i]);
+    }
+    return sum == 0;
+}
+
+bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size)
+{
+    const struct own *self = own_of(problem);
+    const size_t n = self->form.dimension;
+    if (is_zero(self->k, n * n) || is_zero(self->l, n * n)) {
+        snprintf(sentence, size, "%s is 0 with these values, and nothing changes in %s",
+                 is_zero(self->k, n * n) ? "K" : "L", is_zero(self->k, n * n) ? "time" : "space");
+        return false;
+    }
+    for (size_t c = 0; c < n; c++) {
+        if (!component_closes(problem, c, sentence, size)) {
+            return false;
+        }
+    }
+    for (size_t i = 0; i < problem->line.points; i++) {
+        double s[GM_MOST_OF_FORM], here[GM_MOST_OF_FORM], further[GM_MOST_OF_FORM];
+        const double x = gm_grid1_node(&problem->line, i);
+        gm_tape_values(&self->starts, &x, s, 1);
+        gradient(self, s, here);
+        for (size_t c = 0; c < n; c++) {
+            s[c] += gm_user_form_is_potential(problem, c) ? 0 : self->jump[c];
+        }
+        gradient(self, s, further);
+        for (size_t c = 0; c < n; c++) {
+            if (!isfinite(here[c])) {
+                snprintf(sentence, size, "the gradient of S is not finite at the start where x = %.6g", x);
+                return false;
+            }
+            if (!(fabs(further[c] - here[c]) <= 1e-9 * fmax(1, fabs(here[c])))) {
+                snprintf(sentence, size, "the derivative of S over %.60s does not repeat after the jumps",
+                         self->source->system->variables[c].name);
+                return false;
+            }
+        }
+    }
+    return true;
+}

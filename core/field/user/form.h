@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* K z_t + L z_x = grad S(z) with matrices and a function that somebody wrote. */
+#ifndef GM_CORE_FIELD_OWN_FORM_H
+#define GM_CORE_FIELD_OWN_FORM_H
+
+#include "core/field/field.h"
+#include "core/model/system.h"
+
+/* Its formulas, of its system's graph. */
+struct gm_user_form {
+    const struct gm_user_system *system;
+    gm_node_id hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
+    /* in x, which is variable 0 there, and t, variable 1; exact[0] GM_NO_NODE: none is told */
+    gm_node_id starts[GM_MOST_OF_FORM], exact[GM_MOST_OF_FORM];
+};
+
+/* Derives them; false where memory was refused. The graph grows. */
+bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system);
+
+/* The problem with these values of all variables (gm_equations_start) on that ring. False where memory was refused.
+   To be closed in both cases. */
+bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
+                       const struct gm_grid1 *grid);
+void gm_user_form_close(struct gm_problem *problem);
+
+/* The state at t = 0; potentials (gm_form) as their slopes say, from their value at the left end on. */
+void gm_user_form_start(const struct gm_problem *problem, double *y);
+
+/* Whether neither matrix is 0, the start is finite and closes on the ring but for its jumps and a thousandth of its range, and whether the
+   gradient of S is the same further by the jumps. A sentence if not. */
+bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size);
+
+/* Whether a component follows from the others but for a constant (gm_form). */
+bool gm_user_form_is_potential(const struct gm_problem *problem, size_t component);
+
+/* A component of the exact solution as the file tells it; NaN where it does not. */
+double gm_user_form_exact(const struct gm_problem *problem, size_t component, double x, double t);
+
+#endif

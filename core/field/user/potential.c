@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Waves in a potential that somebody wrote: V, V' and V'' are formulas. The quotient of V is the mean of its
+   slope,
+       [V(a) - V(b)] / (a - b) = integral of V'(b + s (a - b)) over 0 < s < 1,
+   by Gauss's formula of six points on one, two, four .. pieces, until two results agree: nothing cancels,
+   however near a and b are. Where they do not, the quotient is taken as it stands if rounding leaves more of
+   it. */
+#include "core/field/user/potential.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/problems/wave.h"
+#include "core/tape.h"
+
+enum { ROOM = 128 }; /* of numbers that a tape computes together */
+
+struct own {
+    struct gm_field facets;
+    struct gm_form form;
+    struct gm_tape potential, slope, curvature, start, exact;
+    bool has_exact, brief; /* brief: Gauss's formula on one piece is exact for V' */
+};
+
+static const struct own *own_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+static double value_of(const struct gm_tape *tape, double u)
+{
+    double value;
+    gm_tape_values(tape, &u, &value, 1);
+    return value;
+}
+
+static double potential(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->potential, u);
+}
+
+static double slope(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->slope, u);
+}
+
+static double curvature(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->curvature, u);
+}
+
+static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
+{
+    double values[ROOM]; /* u and slope may be the same, inputs and outputs of a tape not */
+    for (size_t first = 0; first < count; first += ROOM) {
+        const size_t some = count - first < ROOM ? count - first : ROOM;
+        gm_tape_values(&own_of(problem)->slope, u + first, values, some);
+        memcpy(slope + first, values, some * sizeof *values);
+    }
+}
+
+/* Gauss's points and weights on (-1, 1), those above 0: exact for polynomials of degree EXACT and less. */
+enum { HALF = 3, EXACT = 4 * HALF - 1, MOST_PIECES = 16 };
+static const double abscissas[HALF] = {0.238619186083196908630501721680712,
+                                       0.661209386466264513661399595019905,
+                                       0.932469514203152027812301554493995};
+static const double weights[HALF] = {0.467913934572691047389870343989551, 0.360761573048138607569833513837716,
+                                     0.171324492379170345040296142172733};
+
+/* The mean of a formula over so many pieces of what lies between a and b; weighted by s, which is 1 at a and
+   0 at b, where that is asked for. *size is the largest value. Exchanging a and b changes no bit of what is
+   not weighted. */
+static double mean_of(const struct gm_tape *tape, double a, double b, size_t pieces, bool weighted,
+                      double *size)
+{
+    const double middle = (a + b) / 2, half = (a - b) / 2;
+    double sum = 0;
+    for (size_t piece = 0; piece < pieces; piece++) {
+        /* pairs that lie as far from the middle on either side are added first */
+        double from[HALF], at[2 * HALF], value[2 * HALF];
+        for (size_t k = 0; k < HALF; k++) {
+            from[k] = (2 * (double)piece + 1 - (double)pieces + abscissas[k]) / (double)pieces;
+            at[2 * k] = middle + half * from[k];
+            at[2 * k + 1] = middle - half * from[k];
+        }
+        gm_tape_values(tape, at, value, 2 * HALF);
+        for (size_t k = 0; k < HALF; k++) {
+            const double near_a = value[2 * k], near_b = value[2 * k + 1];
+            sum += weights[k] *
+                   (weighted ? (near_a * (1 + from[k]) + near_b * (1 - from[k])) / 2 : near_a + near_b);
+            *size = fmax(*size, fmax(fabs(near_a), fabs(near_b)));
+        }
+    }
+    return sum / (2 * (double)pieces);
+}
+
+static double quotient(const struct gm_problem *problem, double a, double b)
+{
+    const struct own *self = own_of(problem);
+    double size = 0, last = mean_of(&self->slope, a, b, 1, false, &size), differ = INFINITY;
+    if (self->brief) {
+        return last;
+    }
+    for (size_t pieces = 2; pieces <= MOST_PIECES; pieces *= 2) {
+        const double mean = mean_of(&self->slope, a, b, pieces, false, &size), before = differ;
+        differ = fabs(mean - last);
+        last = mean;
+        if (!(differ > 8 * DBL_EPSILON * size)) {
+            return mean;
+        }
+        if (differ >= before) {
+            break;
+        }
+    }
+    /* Near an extremum of V what is left of V' may be rounding alone, and means differ by that for ever;
+       between points that lie far apart they may differ by more than rounding leaves of the quotient. */
+    const double at_a = potential(problem, a), at_b = potential(problem, b);
+    const double rounding = DBL_EPSILON * fmax(fabs(at_a), fabs(at_b)) / fabs(a - b);
+    return differ > rounding ? (at_a - at_b) / (a - b) : last;
+}
+
+static double quotient_slope(const struct gm_problem *problem, double a, double b)
+{
+    double size = 0;
+    return mean_of(&own_of(problem)->curvature, a, b, own_of(problem)->brief ? 1 : 2, true, &size);
+}
+
+static const struct gm_wave formulas = {
+    .potential = potential,
+    .slope = slope,
+    .curvature = curvature,
+    .slopes = slopes,
+    .quotient = quotient,
+    .quotient_slope = quotient_slope,
+};
+
+static void gradient(const void *parameters, const double *s, double *gradient)
+{
+    gradient[0] = value_of(&((const struct own *)parameters)->slope, s[0]);
+    gradient[1] = s[1];
+    gradient[2] = -s[2];
+}
+
+bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values)
+{
+    struct own *self = calloc(1, sizeof *self);
+    const struct gm_user_system *system = wave->system;
+    *problem = (struct gm_problem){.name = "wave equation", .kind = &gm_kind_field, .m = 1};
+    if (!self) {
+        return false;
+    }
+    self->form = (struct gm_form){.dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient};
+    self->facets = (struct gm_field){.form = &self->form, .wave = &formulas};
+    problem->facets = &self->facets;
+    problem->parameters = self;
+    self->has_exact = wave->exact != GM_NO_NODE;
+    self->brief = wave->degree <= EXACT;
+    return gm_tape_open(&self->potential, &system->graph, &system->energy, 1, 1, values) &&
+           gm_tape_open(&self->slope, &system->graph, &wave->by_u[0], 1, 1, values) &&
+           gm_tape_open(&self->curvature, &system->graph, &wave->by_u[1], 1, 1, values) &&
+           gm_tape_open(&self->start, &system->graph, wave->start, GM_TYPED_START, 1, values) &&
+           (!self->has_exact || gm_tape_open(&self->exact, &system->graph, &wave->exact, 1, 2, values));
+}
+
+void gm_user_wave_close(struct gm_problem *problem)
+{
+    struct own *self = (struct own *)problem->parameters;
+    if (self) {
+        struct gm_tape *const tapes[] = {&self->potential, &self->slope, &self->curvature, &self->start,
+                                         &self->exact};
+        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
+            gm_tape_close(tapes[i]);
+        }
+    }
+    free(self);
+    problem->parameters = problem->facets = NULL;
+}
+
+/* ---- the start ---- */
+
+/* u(t) by Taylor's formula about t = 0, of rates that lie apart. */
+static double taylor(const double *rates, size_t apart, double t)
+{
+    double u = 0;
+    for (size_t k = GM_TYPED_START; k-- > 0;) {
+        u = rates[k * apart] + u * t / (double)(k + 1);
+    }
+    return u;
+}
+
+static double near_start(const struct own *self, double x, double t)
+{
+    double rates[GM_TYPED_START];
+    gm_tape_values(&self->start, &x, rates, 1);
+    return taylor(rates, 1, t);
+}
+
+/* What the tape tells of nodes from number `first` on, at most ROOM, [k * that many + i]: how many. */
+static size_t rates_of(const struct own *self, const struct gm_grid1 *grid, size_t first,
+                       double rates[GM_TYPED_START * ROOM])
+{
+    const size_t some = grid->points - first < ROOM ? grid->points - first : ROOM;
+    double x[ROOM];
+    for (size_t i = 0; i < some; i++) {
+        x[i] = gm_grid1_node(grid, first + i);
+    }
+    gm_tape_values(&self->start, x, rates, some);
+    return some;
+}
+
+double gm_user_wave_exact(const struct gm_problem *problem, double x, double t)
+{
+    const struct own *self = own_of(problem);
+    const double place[] = {x, t};
+    double u = NAN;
+    if (self->has_exact) {
+        gm_tape_values(&self->exact, place, &u, 1);
+    }
+    return u;
+}
+
+void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y)
+{
+    const struct own *self = own_of(problem);
+    const size_t points = problem->line.points;
+    double rates[GM_TYPED_START * ROOM];
+    for (size_t first = 0, some; first < points; first += some) {
+        some = rates_of(self, &problem->line, first, rates);
+        for (size_t i = 0; i < some; i++) {
+            const double x = gm_grid1_node(&problem->line, first + i);
+            y[first + i] = rates[i];
+            y[points + first + i] =
+                self->has_exact ? gm_user_wave_exact(problem, x, gap) : taylor(rates + i, some, gap);
+        }
+    }
+    y[2 * points] = gap;
+}
+
+bool gm_user_wave_closes(const struct gm_problem *problem, const char *name, char *sentence, size_t size)
+{
+    const struct gm_grid1 *grid = &problem->line;
+    const struct own *self = own_of(problem);
+    double low = INFINITY, high = -INFINITY;
+    double rates[GM_TYPED_START * ROOM];
+    for (size_t i = 0, first = 0, some = 0; i < grid->points; i++) {
+        if (i == first + some) {
+            first = i;
+            some = rates_of(self, grid, first, rates);
+        }
+        for (size_t k = 0; k < GM_TYPED_START; k++) {
+            if (!isfinite(rates[k * some + i - first])) {
+                static const char *const which[] = {"", "_t", "_tt", "_ttt", "_tttt"};
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, which[k],
+                         gm_grid1_node(grid, i));
+                return false;
+            }
+        }
+        low = fmin(low, rates[i - first]);
+        high = fmax(high, rates[i - first]);
+    }
+    const double left = near_start(self, grid->first, 0), right = near_start(self, -grid->first, 0);
+    if (grid->walls && grid->jump != 0) {
+        snprintf(sentence, size, "a field between walls has no jump");
+        return false;
+    }
+    if (!grid->walls &&
+        !(fabs(right - left - grid->jump) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
+        snprintf(sentence, size,
+                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other "
+                 "(jump: tells by how much they differ)",
+                 name, left, right);
+        return false;
+    }
+    for (int i = 0; i <= 8 && grid->jump != 0; i++) {
+        const double u = low + (high - low) * i / 8, force = slope(problem, u),
+                     further = slope(problem, u + grid->jump);
+        if (!(fabs(further - force) <= 1e-9 * fmax(1, fabs(force)))) {
+            snprintf(sentence, size,
+                     "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
+                     force, name, u, further, grid->jump);
+            return false;
+        }
+    }
+    return true;
+}

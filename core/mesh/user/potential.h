@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* u_tt = u_xx - V'(u) with a potential that somebody wrote, between ends that hold u, on a moving mesh. */
+#ifndef GM_CORE_MESH_OWN_POTENTIAL_H
+#define GM_CORE_MESH_OWN_POTENTIAL_H
+
+#include "core/mesh/moving_mesh.h"
+#include "core/model/potential.h"
+
+struct gm_user_mesh {
+    double half_length; /* -half_length <= x <= half_length */
+    long points;        /* nodes between the ends */
+    double alpha;       /* NaN: one that the start allows for */
+    enum gm_mesh_density density;
+};
+
+/* By how many of Gauss's points the mean of V over an element is taken: as many as make it exact where V is a
+   polynomial of degree 19 or less in u, else 10. */
+size_t gm_user_mesh_order(const struct gm_user_wave *wave);
+
+/* The problem with these values of all variables (gm_equations_start). False where memory was refused. To be closed
+   in both cases. */
+bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
+                       const struct gm_user_mesh *chosen);
+void gm_user_mesh_close(struct gm_problem *problem);
+
+/* alpha, resolved */
+double gm_user_mesh_alpha(const struct gm_problem *problem);
+
+/* Whether the start is finite, and rests at both ends but for a thousandth of its largest rate. A sentence if not. */
+bool gm_user_mesh_rests(const struct gm_problem *problem, const char *name, char *sentence, size_t size);
+
+#endif

@@ -1,0 +1,504 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a system declares: its kind, its parameters, the names of its state, its lets. */
+#include "core/model/declarations.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/number.h"
+
+/* A variable of which nothing is told yet. */
+static const struct gm_system_variable unsaid = {.value = NAN,
+                                                 .low = NAN,
+                                                 .high = NAN,
+                                                 .start = GM_NO_NODE,
+                                                 .force = GM_NO_NODE,
+                                                 .exact = GM_NO_NODE,
+                                                 .jump = GM_NO_NODE};
+
+static struct gm_system_variable *add_variable(struct gm_reading *reading, const struct gm_entry *entry)
+{
+    struct gm_user_system *system = reading->system;
+    if (!gm_reading_reserve(reading, (void **)&system->variables, system->variable_count,
+                            sizeof *system->variables)) {
+        return NULL;
+    }
+    struct gm_system_variable *variable = &system->variables[system->variable_count];
+    *variable = unsaid;
+    const int made =
+        entry->indexed ? asprintf(&variable->name, "%.*s[%ld]", (int)entry->length, entry->name, entry->index)
+                       : asprintf(&variable->name, "%.*s", (int)entry->length, entry->name);
+    if (made < 0) {
+        variable->name = NULL;
+        gm_fail_memory(&reading->fault);
+        return NULL;
+    }
+    system->variable_count++;
+    return variable;
+}
+
+/* A name, or all elements of a list, in a role; they are numbered on from *count. */
+static bool add_names(struct gm_reading *reading, const struct gm_target *target, enum gm_entry_role role,
+                      size_t *count)
+{
+    struct gm_entry entry = gm_reading_entry_for(reading, target, role);
+    long low = 0, high = 0;
+    entry.indexed = target->index.begin < target->index.end;
+    if (entry.indexed && !gm_reading_bounds(reading, target->index, "elements of a list", &low, &high)) {
+        return gm_fail_first(&reading->fault, target->index.begin,
+                             "the bounds of a list were expected, as in %.*s[1..3]",
+                             (int)(entry.length < 60 ? entry.length : 60), entry.name);
+    }
+    if (high < low) {
+        return gm_fail_first(&reading->fault, target->index.begin, "a list has at least one element");
+    }
+    for (long i = low; i <= high && !reading->fault.failed; i++) {
+        entry.index = i;
+        entry.number = (*count)++;
+        if (gm_reading_add(reading, entry)) {
+            add_variable(reading, &entry);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* Names that are separated by blanks or commas. */
+static bool add_all_names(struct gm_reading *reading, struct gm_span rest, enum gm_entry_role role,
+                          size_t *count)
+{
+    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end && !reading->fault.failed;
+         rest = gm_span_trimmed(reading->text, rest)) {
+        struct gm_target target;
+        if (reading->text[rest.begin] == ',') {
+            rest.begin++;
+        } else if (gm_reading_target(reading, &rest, &target)) {
+            add_names(reading, &target, role, count);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* p_NAME or v_NAME for every coordinate, or NAME_t of a field */
+static bool add_derived(struct gm_reading *reading, const char *before, const char *behind,
+                        enum gm_entry_role role, size_t *count, size_t n)
+{
+    for (size_t i = 0, made = 0; made < n && !reading->fault.failed; i++) {
+        struct gm_entry entry = reading->entries[i];
+        if (entry.role != GM_ENTRY_COMPONENT) {
+            continue;
+        }
+        char *name = NULL;
+        if (asprintf(&name, "%s%s%s", before, entry.name, behind) < 0) {
+            return gm_fail_memory(&reading->fault);
+        }
+        entry.name = name;
+        entry.length = strlen(name);
+        entry.role = role;
+        entry.number = (*count)++;
+        if (gm_reading_add(reading, entry)) {
+            add_variable(reading, &entry);
+        }
+        free(name);
+        made++;
+    }
+    return !reading->fault.failed;
+}
+
+/* parameter: NAME = value; low .. high; meaning; unit */
+static bool add_parameter(struct gm_reading *reading, const struct gm_system_line *line, bool lists)
+{
+    struct gm_span rest = line->value, piece, range = {0, 0}, meaning = {0, 0}, unit = {0, 0};
+    struct gm_target target;
+    gm_span_take(reading->text, &rest, ";", &piece);
+    if (!gm_reading_assignment(reading, piece, &target)) {
+        return false;
+    }
+    const bool is_list = target.index.begin < target.index.end;
+    if (is_list != lists) {
+        return true;
+    }
+    (void)(gm_span_take(reading->text, &rest, ";", &range) &&
+           gm_span_take(reading->text, &rest, ";", &meaning) &&
+           gm_span_take(reading->text, &rest, ";", &unit));
+    const size_t first = reading->parameter_count, entries = reading->entry_count;
+    if (!add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count)) {
+        return false;
+    }
+    struct gm_span values = target.value, value = values;
+    size_t pieces = 0;
+    for (size_t i = first; i < reading->parameter_count && !reading->fault.failed; i++) {
+        struct gm_entry *entry = &reading->entries[entries + i - first];
+        struct gm_system_variable *variable = &reading->system->variables[i];
+        pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
+        entry->value = value;
+        variable->meaning = gm_reading_text(reading, meaning);
+        variable->unit = gm_reading_text(reading, unit);
+    }
+    if (is_list &&
+        (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first))) {
+        return gm_fail_first(&reading->fault, target.value.begin, "%zu values were expected, or one for all",
+                             reading->parameter_count - first);
+    }
+    const size_t dots = gm_span_until(reading->text, range, "..");
+    if (range.begin < range.end && dots == range.end) {
+        return gm_fail_first(&reading->fault, range.begin, "a range was expected, low .. high");
+    }
+    if (range.begin < range.end) {
+        double low, high;
+        if (!gm_reading_number(reading, gm_span_trimmed(reading->text, (struct gm_span){range.begin, dots}),
+                               &low) ||
+            !gm_reading_number(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, range.end}),
+                               &high)) {
+            return false;
+        }
+        if (!(low <= high)) {
+            return gm_fail_first(&reading->fault, range.begin,
+                                 "a range's lower end comes first, and %g is above %g", low, high);
+        }
+        for (size_t i = first; i < reading->parameter_count; i++) {
+            reading->system->variables[i].low = low;
+            reading->system->variables[i].high = high;
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* Values that were given take the place of those in the file. */
+static void give(struct gm_reading *reading)
+{
+    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+        struct gm_entry *entry = &reading->entries[i];
+        const char *name = reading->system->variables[entry->number].name;
+        double given = NAN;
+        for (size_t k = 0; k < reading->value_count && !entry->read; k++) {
+            if (strcmp(reading->values[k].name, name) == 0 &&
+                gm_number_parse(reading->values[k].text, &given)) {
+                entry->node = gm_formula_constant(&reading->system->graph, given);
+                entry->read = true;
+                entry->value.end = entry->value.begin;
+                if (entry->node == GM_NO_NODE) {
+                    gm_fail_memory(&reading->fault);
+                }
+            }
+        }
+    }
+}
+
+/* Lists after the numbers that say how long they are; then all formulas, which may hold both. */
+bool gm_declared_parameters(struct gm_reading *reading)
+{
+    for (int lists = 0; lists < 2; lists++) {
+        for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+            if (reading->lines[i].word == GM_WORD_PARAMETER) {
+                add_parameter(reading, &reading->lines[i], lists);
+            }
+        }
+        give(reading);
+    }
+    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+        const struct gm_entry *entry = &reading->entries[i];
+        struct gm_system_variable *variable = &reading->system->variables[entry->number];
+        if (entry->read || gm_reading_define(reading, (uint32_t)i)) {
+            variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
+        }
+        if (!reading->fault.failed && !isfinite(variable->value)) {
+            gm_fail_first(&reading->fault, entry->place, "%s is no finite number", variable->name);
+        } else if (!reading->fault.failed &&
+                   (variable->value < variable->low || variable->value > variable->high)) {
+            gm_fail_first(&reading->fault, entry->place, "%s = %g lies outside of its range, %g .. %g",
+                          variable->name, variable->value, variable->low, variable->high);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+bool gm_declared_kind(struct gm_reading *reading)
+{
+    const struct gm_system_line *energy = gm_reading_line(reading, GM_WORD_HAMILTONIAN),
+                                *lagrange = gm_reading_line(reading, GM_WORD_LAGRANGE),
+                                *rate = gm_reading_line(reading, GM_WORD_RATE),
+                                *bracket = gm_reading_line(reading, GM_WORD_BRACKET),
+                                *field = gm_reading_line(reading, GM_WORD_FIELD),
+                                *potential = gm_reading_line(reading, GM_WORD_POTENTIAL),
+                                *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX);
+    enum gm_system_kind kind = matrix                        ? GM_MATRICES
+                               : field && rate && !potential ? GM_EVOLUTION
+                               : field                       ? GM_FIELD
+                               : lagrange                    ? GM_LAGRANGIAN
+                               : rate                        ? GM_RATES
+                               : bracket                     ? GM_POISSON
+                                                             : GM_CANONICAL;
+    static const char *const called[] = {"with H",         "with L",       "with rates",
+                                         "with a bracket", "with a field", "with a field and its rate",
+                                         "with K-matrix"};
+    if (!matrix &&
+        (gm_reading_line(reading, GM_WORD_L_MATRIX) || gm_reading_line(reading, GM_WORD_S_FUNCTION))) {
+        return gm_fail_first(&reading->fault, 0,
+                             "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
+    }
+    if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential) {
+        return gm_fail_first(&reading->fault, 0,
+                             "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
+                             "or K-matrix, L-matrix and S");
+    }
+    if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES) {
+        return field ? gm_fail_first(
+                           &reading->fault, field->place,
+                           "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x")
+                     : gm_fail_first(&reading->fault, potential->place,
+                                     "V is of a field, which a line \"field\" names");
+    }
+    if (kind == GM_POISSON && !energy) {
+        return gm_fail_first(&reading->fault, bracket->place, "a system with a bracket needs H");
+    }
+    for (size_t i = 0; i < reading->line_count; i++) {
+        const struct gm_system_line *line = &reading->lines[i];
+        if (!(gm_system_words[line->word].kinds & 1u << kind)) {
+            return gm_fail_first(&reading->fault, line->place, "a system %s has no line \"%s\"", called[kind],
+                                 gm_system_words[line->word].word);
+        }
+    }
+    static const enum gm_system_word needed[] = {GM_WORD_COMPONENTS, GM_WORD_L_MATRIX, GM_WORD_S_FUNCTION};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed && kind == GM_MATRICES; i++) {
+        if (!gm_reading_line(reading, needed[i])) {
+            return gm_fail_first(&reading->fault, matrix->place, "a system with K-matrix needs a line \"%s\"",
+                                 gm_system_words[needed[i]].word);
+        }
+    }
+    if (kind <= GM_LAGRANGIAN && !gm_reading_line(reading, GM_WORD_COORDINATES)) {
+        return gm_fail_first(&reading->fault, (kind ? lagrange : energy)->place,
+                             "a system %s needs a line \"coordinates\"", called[kind]);
+    }
+    reading->system->kind = kind;
+    return true;
+}
+
+/* The components that stand on the left side of a rate or a bracket and are new. */
+static bool add_components_of(struct gm_reading *reading, struct gm_span piece)
+{
+    struct gm_span rest = {piece.begin, gm_span_until(reading->text, piece, "=")};
+    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end;
+         rest = gm_span_trimmed(reading->text, rest)) {
+        struct gm_target target;
+        if (!gm_reading_target(reading, &rest, &target)) {
+            return false;
+        }
+        if (target.index.begin < target.index.end) {
+            return gm_fail_first(&reading->fault, target.name.begin,
+                                 "a system with lists needs a line \"components\"");
+        }
+        if (!gm_reading_entry(reading, reading->text + target.name.begin, target.name.end - target.name.begin,
+                              false, 0)) {
+            add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* Components in the order in which rates and brackets name them. */
+static bool add_components_in_order(struct gm_reading *reading, enum gm_system_word word)
+{
+    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+        struct gm_span rest = reading->lines[i].value, piece;
+        while (reading->lines[i].word == word && !reading->fault.failed &&
+               gm_span_take(reading->text, &rest, ",", &piece)) {
+            add_components_of(reading, piece);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* variables: parameters, components, velocities as they were met become components, t, parameters,
+   velocities, components at the start */
+static bool arrange(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
+    struct gm_system_variable *all = calloc(2 * n + 1 + p + v, sizeof *all), *met = system->variables;
+    char *t = strdup("t");
+    if (!all || !t) {
+        free(all);
+        free(t);
+        return gm_fail_memory(&reading->fault);
+    }
+    all[n] = unsaid;
+    all[n].name = t;
+    /* a text that declares nothing has met nothing, and its sentence comes later */
+    if (met) {
+        memcpy(all, met + p, n * sizeof *all);
+        memcpy(all + n + 1, met, p * sizeof *all);
+        memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
+        free(met);
+    }
+    system->variables = all;
+    system->n = n;
+    system->parameters = n + 1;
+    system->velocities = n + 1 + p;
+    system->initial = system->velocities + v;
+    system->variable_count = system->initial;
+    for (size_t i = 0; i < n; i++) {
+        struct gm_system_variable *initial = &all[system->initial + i];
+        *initial = all[n];
+        if (asprintf(&initial->name, "%s(0)", all[i].name) < 0) {
+            initial->name = NULL;
+            return gm_fail_memory(&reading->fault);
+        }
+        system->variable_count++;
+    }
+    return true;
+}
+
+/* The place x, which is none of the components; that line says them. */
+static bool add_place(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    char x[] = "x";
+    const struct gm_entry place = {.name = x,
+                                   .length = 1,
+                                   .place = line->place,
+                                   .role = GM_ENTRY_VELOCITY,
+                                   .number = reading->velocity_count++};
+    return gm_reading_add(reading, place) && add_variable(reading, &place);
+}
+
+/* Fields, x, and their derivatives over it */
+static bool add_fields(struct gm_reading *reading, const struct gm_system_line *field)
+{
+    static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
+    if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    const size_t n = reading->component_count;
+    if (n == 0 || n > GM_MOST_FIELDS) {
+        return gm_fail_first(&reading->fault, field->value.begin,
+                             "there are 1 to %d fields, as in field: u v", GM_MOST_FIELDS);
+    }
+    if (!add_place(reading, field)) {
+        return false;
+    }
+    for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
+        if (!add_derived(reading, "", derivatives[k], GM_ENTRY_VELOCITY, &reading->velocity_count, n)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The components of a system of matrices, and x */
+static bool add_components(struct gm_reading *reading, const struct gm_system_line *components)
+{
+    if (!add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    const size_t n = reading->component_count;
+    if (n < 2 || n > GM_MOST_OF_MATRICES) {
+        return gm_fail_first(&reading->fault, components->value.begin,
+                             "there are 2 to %d components, as in components: u v w", GM_MOST_OF_MATRICES);
+    }
+    return add_place(reading, components);
+}
+
+/* u and u_t, and what densities may hold beside them: x and u_x */
+static bool add_field(struct gm_reading *reading, const struct gm_system_line *field)
+{
+    if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    if (reading->component_count != 1) {
+        return gm_fail_first(&reading->fault, field->value.begin, "a field has one name, as in field: u");
+    }
+    return add_derived(reading, "", "_t", GM_ENTRY_COMPONENT, &reading->component_count, 1) &&
+           add_place(reading, field) &&
+           add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, &reading->velocity_count, 1);
+}
+
+bool gm_declared_state(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    const struct gm_system_line *coordinates = gm_reading_line(reading, GM_WORD_COORDINATES),
+                                *momenta = gm_reading_line(reading, GM_WORD_MOMENTA),
+                                *velocities = gm_reading_line(reading, GM_WORD_VELOCITIES),
+                                *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
+    if (coordinates) {
+        add_all_names(reading, coordinates->value, GM_ENTRY_COMPONENT, &reading->component_count);
+        const size_t n = reading->component_count;
+        if (momenta &&
+            add_all_names(reading, momenta->value, GM_ENTRY_COMPONENT, &reading->component_count) &&
+            reading->component_count != 2 * n) {
+            gm_fail_first(&reading->fault, momenta->place, "%zu momenta for %zu coordinate%s",
+                          reading->component_count - n, n, gm_plural((double)n));
+        }
+        if (!momenta) {
+            add_derived(reading, "p_", "", GM_ENTRY_COMPONENT, &reading->component_count, n);
+        }
+        if (system->kind == GM_LAGRANGIAN && velocities) {
+            add_all_names(reading, velocities->value, GM_ENTRY_VELOCITY, &reading->velocity_count);
+        } else if (system->kind == GM_LAGRANGIAN) {
+            add_derived(reading, "v_", "", GM_ENTRY_VELOCITY, &reading->velocity_count, n);
+        }
+        if (!reading->fault.failed && system->kind == GM_LAGRANGIAN && reading->velocity_count != n) {
+            gm_fail_first(&reading->fault, velocities->place, "%zu velocities for %zu coordinates",
+                          reading->velocity_count, n);
+        }
+    } else if (system->kind == GM_FIELD) {
+        add_field(reading, gm_reading_line(reading, GM_WORD_FIELD));
+    } else if (system->kind == GM_EVOLUTION) {
+        add_fields(reading, gm_reading_line(reading, GM_WORD_FIELD));
+    } else if (system->kind == GM_MATRICES) {
+        add_components(reading, components);
+    } else if (components) {
+        add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count);
+    } else {
+        add_components_in_order(reading, system->kind == GM_RATES ? GM_WORD_RATE : GM_WORD_BRACKET);
+    }
+    if (!reading->fault.failed && reading->component_count > GM_MOST_COMPONENTS) {
+        const struct gm_system_line *list = coordinates ? coordinates : components;
+        gm_fail_first(&reading->fault, list ? list->value.begin : 0, "a system has at most %d components",
+                      GM_MOST_COMPONENTS);
+    }
+    char t[] = "t";
+    const struct gm_entry time = {.name = t, .length = 1, .role = GM_ENTRY_TIME};
+    return !reading->fault.failed && arrange(reading) && gm_reading_add(reading, time);
+}
+
+bool gm_declared_relations(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+        const struct gm_entry *entry = &reading->entries[i];
+        gm_node_id node;
+        if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end &&
+            gm_reading_bound(reading, entry->value, &entry->bound, entry->element, &node)) {
+            system->variables[system->parameters + entry->number].start = node;
+        }
+    }
+    return !reading->fault.failed;
+}
+
+bool gm_declared_lets(struct gm_reading *reading)
+{
+    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+        const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
+        struct gm_target target;
+        struct gm_span value = reading->lines[i].value;
+        if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
+            (observed && gm_span_until(reading->text, value, ";") < value.end) ||
+            !gm_reading_assignment(reading, value, &target) ||
+            (observed && target.index.begin < target.index.end)) {
+            continue;
+        }
+        struct gm_entry entry =
+            gm_reading_entry_for(reading, &target, observed ? GM_ENTRY_OBSERVED : GM_ENTRY_NAMED);
+        entry.indexed = target.index.begin < target.index.end;
+        if (!entry.indexed || gm_reading_whole(reading, target.index, &entry.index)) {
+            gm_reading_add(reading, entry);
+        }
+    }
+    for (uint32_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+        if (reading->entries[i].role >= GM_ENTRY_NAMED && !reading->entries[i].read) {
+            gm_reading_define(reading, i);
+        }
+    }
+    return !reading->fault.failed;
+}

@@ -1,0 +1,1234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equations of motion by exact derivatives, and the checks of what a file says of them. */
+#include "core/model/equations.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/derivative.h"
+#include "core/expression/linear_part.h"
+#include "core/model/legendre.h"
+#include "core/model/reader.h"
+
+static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
+{
+    return force == GM_NO_NODE ? rate : gm_simplified(&system->graph, GM_OPERATION_ADD, rate, force);
+}
+
+/* the gradient of a node over all variables; malloc'ed */
+static gm_node_id *gradient_of(struct gm_user_system *system, gm_node_id node)
+{
+    bool *all = malloc(system->variable_count);
+    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
+    if (all && gradient) {
+        memset(all, true, system->variable_count);
+        gm_gradient(&system->graph, node, all, system->variable_count, gradient);
+    } else {
+        system->graph.failed = true;
+    }
+    free(all);
+    return gradient;
+}
+
+static void derive_poisson(struct gm_user_system *system, const gm_node_id *gradient)
+{
+    const size_t n = system->n;
+    for (size_t i = 0; i < n; i++) {
+        system->rates[i] = gm_formula_constant(&system->graph, 0);
+        for (size_t k = 0; k < n; k++) {
+            const gm_node_id entry = system->bracket[i * n + k];
+            system->graph.origin = gm_formula_origin(&system->graph, entry);
+            const gm_node_id term = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, entry, gradient[k]);
+            system->graph.origin = GM_NO_PLACE;
+            system->rates[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, system->rates[i], term);
+        }
+    }
+}
+
+/* momenta, forces, and the mass matrix */
+static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *gradient)
+{
+    const size_t half = system->n / 2;
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    system->momenta = malloc((half + 1) * sizeof *system->momenta);
+    for (size_t i = 0; i < half && marked && system->momenta; i++) {
+        system->momenta[i] = gradient[system->velocities + i];
+        system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
+        marked[system->velocities + i] = true;
+    }
+    if (marked && system->momenta) {
+        gm_sparse_jacobian(&system->graph, system->momenta, half, marked, system->variable_count,
+                           &system->mass);
+    }
+    for (size_t i = 0; i < system->mass.count; i++) {
+        system->mass.entries[i].column -= system->velocities;
+    }
+    system->graph.failed |= !marked || !system->momenta;
+    free(marked);
+}
+
+static bool derive(struct gm_user_system *system)
+{
+    const size_t half = system->n / 2;
+    const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
+    gm_node_id *gradient = rates ? NULL : gradient_of(system, system->energy);
+    if (system->kind == GM_CANONICAL && !system->graph.failed) {
+        for (size_t i = 0; i < half; i++) {
+            system->rates[i] = gradient[half + i];
+            system->rates[half + i] =
+                add_force(system, gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0),
+                          system->variables[i].force);
+        }
+    } else if (system->kind == GM_LAGRANGIAN && !system->graph.failed) {
+        derive_lagrangian(system, gradient);
+    } else if (system->kind == GM_POISSON && !system->graph.failed) {
+        derive_poisson(system, gradient);
+    } else if (system->kind == GM_MATRICES && !system->graph.failed) {
+        memcpy(system->rates, gradient, system->n * sizeof *gradient);
+    } else if (system->kind == GM_FIELD && !system->graph.failed) {
+        system->rates[0] = gm_formula_variable(&system->graph, 1);
+        system->rates[1] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[0], 0);
+    }
+    free(gradient);
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    bool *timed = NULL;
+    if (marked && !system->graph.failed) {
+        marked[system->n] = true;
+        timed = gm_formula_dependent(&system->graph, marked, system->variable_count);
+    }
+    for (size_t i = 0; timed && i < system->n; i++) {
+        system->timed |= system->rates[i] != GM_NO_NODE && timed[system->rates[i]];
+    }
+    system->timed |= timed && !rates && timed[system->energy];
+    free(marked);
+    const bool good = timed && !system->graph.failed;
+    free(timed);
+    return good;
+}
+
+static bool has(const struct gm_user_system *system, enum gm_system_word word)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == word) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
+{
+    return gm_derivative_along(&system->graph, node, direction, system->n + 1);
+}
+
+/* whether a node holds a velocity of a Lagrangian */
+static bool holds_velocities(struct gm_user_system *system, gm_node_id node)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        found |= part->operation == GM_VARIABLE && part->a >= system->velocities && part->a < system->initial;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return found;
+}
+
+bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t half = system->n / 2;
+    gm_node_id *others = malloc(system->n * sizeof *others);
+    for (size_t i = 0; others && i < half; i++) {
+        others[i] = GM_NO_NODE;
+        others[half + i] = system->momenta[i];
+    }
+    system->graph.failed |=
+        !others || !gm_formula_substitute(&system->graph, nodes, count, others, system->n);
+    free(others);
+    return !system->graph.failed;
+}
+
+/* dI/dq v + dI/dp (dL/dq + F), with dL/dv in place of p: of coordinates and velocities. How these change
+   takes the inverse of the mass matrix, so that of what holds them nothing is known. */
+static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id node, gm_node_id *direction)
+{
+    const size_t half = system->n / 2;
+    if (holds_velocities(system, node)) {
+        return GM_NO_NODE;
+    }
+    for (size_t i = 0; i < half; i++) {
+        direction[i] = gm_formula_variable(&system->graph, system->velocities + i);
+    }
+    gm_node_id rate = along(system, node, direction);
+    return !system->graph.failed && gm_equations_in_velocities(system, &rate, 1) ? rate : GM_NO_NODE;
+}
+
+gm_node_id gm_equations_rate_of(struct gm_user_system *system, gm_node_id node)
+{
+    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
+    if (direction && !has(system, GM_WORD_CONSTRAINT)) {
+        memcpy(direction, system->rates, system->n * sizeof *direction);
+        direction[system->n] = gm_formula_constant(&system->graph, 1);
+        rate = system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
+                                             : along(system, node, direction);
+    }
+    free(direction);
+    return rate;
+}
+
+enum gm_identity gm_equations_vanishes(const struct gm_user_system *system, gm_node_id node)
+{
+    double *fixed = malloc(system->variable_count * sizeof *fixed);
+    enum gm_identity identity = GM_UNTESTED;
+    if (fixed) {
+        for (size_t i = 0; i < system->variable_count; i++) {
+            fixed[i] = system->variables[i].value;
+        }
+        identity = gm_identity_of(&system->graph, node, fixed, system->variable_count);
+    }
+    free(fixed);
+    return identity;
+}
+
+static bool varies(const struct gm_user_system *system, size_t i, size_t k)
+{
+    return system->graph.nodes[system->bracket[i * system->n + k]].operation != GM_CONSTANT;
+}
+
+/* sum over l of {i, l} d{j, k}/dl and cyclic */
+static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[3], gm_node_id *direction)
+{
+    const size_t n = system->n;
+    gm_node_id sum = gm_formula_constant(&system->graph, 0);
+    for (int turn = 0; turn < 3; turn++) {
+        const size_t a = triple[turn], b = triple[(turn + 1) % 3], c = triple[(turn + 2) % 3];
+        memcpy(direction, &system->bracket[a * n], n * sizeof *direction);
+        direction[n] = gm_formula_constant(&system->graph, 0);
+        if (varies(system, b, c)) {
+            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum,
+                                along(system, system->bracket[b * n + c], direction));
+        }
+    }
+    return sum;
+}
+
+/* Of triples with a bracket that varies, each once: of the others the sum has no terms. */
+static bool check_jacobi(struct gm_user_system *system, struct gm_fault *fault)
+{
+    const size_t n = system->n;
+    gm_node_id *direction = malloc((n + 1) * sizeof *direction);
+    system->jacobi = GM_ZERO_PROVED;
+    system->graph.failed |= !direction;
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = j + 1; k < n; k++) {
+            for (size_t i = 0; varies(system, j, k) && i < n && !system->graph.failed; i++) {
+                /* a triple is looked at by the first of its pairs that varies */
+                const bool elsewhere = (i < j && (varies(system, i, j) || varies(system, i, k))) ||
+                                       (i > j && i < k && varies(system, j, i));
+                if (i == j || i == k || elsewhere) {
+                    continue;
+                }
+                const size_t triple[] = {i < j ? i : j, i < j ? j : i < k ? i : k, i < k ? k : i};
+                const enum gm_identity found =
+                    gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
+                if (found == GM_NOT_ZERO) {
+                    free(direction);
+                    return gm_fail(fault, system->bracket_place,
+                                   "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
+                                   system->variables[triple[0]].name, system->variables[triple[1]].name,
+                                   system->variables[triple[2]].name);
+                }
+                system->jacobi = found == GM_ZERO_PROVED ? system->jacobi : found;
+            }
+        }
+    }
+    free(direction);
+    return true;
+}
+
+/* {x_i, C} = 0 for all i */
+static enum gm_identity check_casimir(struct gm_user_system *system, gm_node_id node)
+{
+    enum gm_identity all = GM_ZERO_PROVED;
+    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
+    for (size_t i = 0; direction && i < system->n && all != GM_NOT_ZERO; i++) {
+        memcpy(direction, &system->bracket[i * system->n], system->n * sizeof *direction);
+        direction[system->n] = gm_formula_constant(&system->graph, 0);
+        const enum gm_identity found = gm_equations_vanishes(system, along(system, node, direction));
+        all = found == GM_ZERO_PROVED ? all : found;
+    }
+    free(direction);
+    return direction ? all : GM_UNTESTED;
+}
+
+/* What is not 0 that had to be, and of what it is the rate. */
+struct broken {
+    const char *what; /* NULL: nothing is */
+    gm_node_id node;
+};
+
+/* Whether the constraints do not change along the generator. */
+static bool keeps_constraints(struct gm_user_system *system, const struct gm_system_item *symmetry,
+                              struct broken *broken)
+{
+    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
+    bool kept = true;
+    for (size_t i = 0; direction && i <= system->n; i++) {
+        direction[i] = i < system->n / 2 ? symmetry->nodes[i] : gm_formula_constant(&system->graph, 0);
+    }
+    for (size_t i = 0; direction && i < system->item_count && kept && !system->graph.failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_CONSTRAINT) {
+            *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
+            kept = gm_equations_vanishes(system, broken->node) != GM_NOT_ZERO;
+        }
+    }
+    system->graph.failed |= !direction;
+    free(direction);
+    return kept;
+}
+
+/* Whether the forces do no work along the generator: then the momentum map is kept beside them too. */
+static enum gm_identity check_work(struct gm_user_system *system, const struct gm_system_item *symmetry)
+{
+    gm_node_id work = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < system->n / 2 && !system->graph.failed; i++) {
+        const gm_node_id force = system->variables[i].force;
+        if (force != GM_NO_NODE) {
+            work = gm_simplified(
+                &system->graph, GM_OPERATION_ADD, work,
+                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force, symmetry->nodes[i]));
+        }
+    }
+    return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
+}
+
+/* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
+   components: generator and field commute. The momentum map is appended. */
+static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_system_item *item,
+                                       struct broken *broken)
+{
+    const size_t half = system->n / 2, n = system->n;
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    if (system->kind > GM_LAGRANGIAN) {
+        gm_node_id *direction = malloc((n + 1) * sizeof *direction);
+        enum gm_identity all = GM_ZERO_PROVED;
+        for (size_t i = 0; direction && i < n && all != GM_NOT_ZERO; i++) {
+            memcpy(direction, item->nodes, n * sizeof *direction);
+            direction[n] = zero;
+            const gm_node_id one = along(system, system->rates[i], direction);
+            memcpy(direction, system->rates, n * sizeof *direction);
+            direction[n] = gm_formula_constant(&system->graph, 1);
+            const gm_node_id other = along(system, item->nodes[i], direction);
+            *broken = (struct broken){"the motion",
+                                      gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, one, other)};
+            const enum gm_identity found = gm_equations_vanishes(system, broken->node);
+            all = found == GM_ZERO_PROVED ? all : found;
+        }
+        free(direction);
+        return direction ? all : GM_UNTESTED;
+    }
+    gm_node_id map = zero, change = zero;
+    gm_node_id *gradient = gradient_of(system, system->energy);
+    for (size_t i = 0; i < half && !system->graph.failed; i++) {
+        const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
+        map = gm_simplified(&system->graph, GM_OPERATION_ADD, map,
+                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, momentum, item->nodes[i]));
+        change =
+            gm_simplified(&system->graph, GM_OPERATION_ADD, change,
+                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[i], item->nodes[i]));
+    }
+    /* of H by the lift to momenta, -p dX/dq; of L by that to velocities, dX/dq v */
+    for (size_t i = 0; i < half && !system->graph.failed; i++) {
+        gm_node_id *slopes = gradient_of(system, system->kind == GM_CANONICAL ? map : item->nodes[i]);
+        for (size_t k = 0; k < half && !system->graph.failed; k++) {
+            if (system->kind == GM_CANONICAL && i == 0) {
+                change = gm_simplified(
+                    &system->graph, GM_OPERATION_SUBTRACT, change,
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[half + k], slopes[k]));
+            } else if (system->kind == GM_LAGRANGIAN) {
+                const gm_node_id moved =
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, slopes[k],
+                                  gm_formula_variable(&system->graph, system->velocities + k));
+                change = gm_simplified(&system->graph, GM_OPERATION_ADD, change,
+                                       gm_simplified(&system->graph, GM_OPERATION_MULTIPLY,
+                                                     gradient[system->velocities + i], moved));
+            }
+        }
+        free(slopes);
+    }
+    free(gradient);
+    if (!keeps_constraints(system, item, broken)) {
+        return GM_NOT_ZERO;
+    }
+    *broken = (struct broken){system->kind == GM_CANONICAL ? "H" : "L", change};
+    gm_node_id *nodes = realloc(item->nodes, (half + 1) * sizeof *nodes);
+    if (!nodes || system->graph.failed) {
+        system->graph.failed = true;
+        return GM_UNTESTED;
+    }
+    item->nodes = nodes;
+    nodes[half] = map;
+    item->count = half + 1;
+    return gm_equations_vanishes(system, change);
+}
+
+/* Refuses a symmetry, with how fast it changes what it should not at one of three points, whose coordinates are
+   1/2, 1 and 3/2 in turn. */
+static bool refuse_symmetry(struct gm_user_system *system, const struct gm_system_item *item,
+                            struct broken broken, struct gm_fault *fault)
+{
+    size_t count = 0, used = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, broken.node, &count);
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    char point[160] = "", rate[40] = "";
+    for (size_t turn = 0; parts && variables && values && turn < 3 && rate[0] == '\0'; turn++) {
+        for (size_t i = 0; i < system->variable_count; i++) {
+            const bool parameter = i >= system->parameters && i < system->velocities;
+            variables[i] = parameter ? system->variables[i].value : 0.5 * (double)((i + turn) % 3 + 1);
+        }
+        gm_formula_evaluate_parts(&system->graph, parts, count, variables, values);
+        const double value = values[broken.node];
+        if (isfinite(value) && fabs(value) > 1e-9) {
+            snprintf(rate, sizeof rate, ", at the rate %.4g", value);
+        }
+    }
+    for (size_t i = 0; rate[0] && i < system->variable_count && used < sizeof point - 60; i++) {
+        bool holds = false;
+        for (size_t k = 0; k < count && (i < system->parameters || i >= system->velocities); k++) {
+            const struct gm_node *part = &system->graph.nodes[parts[k]];
+            holds |= part->operation == GM_VARIABLE && part->a == i;
+        }
+        if (holds) {
+            used += (size_t)snprintf(point + used, sizeof point - used, "%s%.30s = %g",
+                                     used > 0 ? ", " : " at ", system->variables[i].name, variables[i]);
+        }
+    }
+    free(parts);
+    free(variables);
+    free(values);
+    return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s%s", broken.what, rate, point);
+}
+
+/* Whether a node is made of parameters and the first so many components alone. */
+static bool is_of_components(struct gm_user_system *system, gm_node_id node, size_t components)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        const bool parameter = part->a >= system->parameters && part->a < system->velocities;
+        good = good && (part->operation != GM_VARIABLE || part->a < components || parameter);
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+/* A surface stands still: of what the motion changes it is not made, but of parameters, and of what is
+   kept. */
+static bool check_surface(struct gm_user_system *system, const struct gm_system_item *item,
+                          struct gm_fault *fault)
+{
+    for (size_t k = 0; k < item->count; k++) {
+        const gm_node_id rate = gm_equations_rate_of(system, item->nodes[k]);
+        const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
+                                             : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
+        if (!kept && !system->graph.failed) {
+            return gm_fail(
+                fault, item->place,
+                "a surface stands still: its size is made of parameters, and of what the motion keeps");
+        }
+    }
+    return true;
+}
+
+static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
+{
+    bool forced = has(system, GM_WORD_CONSTRAINT);
+    for (size_t i = 0; i < system->n; i++) {
+        forced |= system->variables[i].force != GM_NO_NODE;
+    }
+    for (size_t i = 0; i < system->item_count && !system->graph.failed; i++) {
+        struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_INVARIANT) {
+            const gm_node_id rate = gm_equations_rate_of(system, item->nodes[0]);
+            item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
+            if (item->check == GM_NOT_ZERO && !forced) {
+                return gm_fail(fault, item->place,
+                               "%.60s is no invariant; what is only nearly kept is an observable, observe",
+                               item->name);
+            }
+        } else if (item->word == GM_WORD_SURFACE) {
+            if (!check_surface(system, item, fault)) {
+                return false;
+            }
+        } else if (item->word == GM_WORD_SECTION && !item->periodic) {
+            if (is_of_components(system, item->nodes[0], 0)) {
+                return gm_fail(fault, item->place,
+                               "what a section waits for never changes: it holds no component, and no t");
+            }
+        } else if (item->word == GM_WORD_CASIMIR) {
+            item->check = check_casimir(system, item->nodes[0]);
+            if (item->check == GM_NOT_ZERO) {
+                return gm_fail(fault, item->place,
+                               "%.60s is no Casimir: its bracket with the components is not 0", item->name);
+            }
+        } else if (item->word == GM_WORD_SYMMETRY) {
+            struct broken broken = {NULL, GM_NO_NODE};
+            item->check = check_symmetry(system, item, &broken);
+            if (item->check == GM_NOT_ZERO) {
+                return refuse_symmetry(system, item, broken, fault);
+            }
+            if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
+                item->check = GM_NOT_ZERO; /* a symmetry all the same, whose law a force breaks */
+            }
+        }
+    }
+    return true;
+}
+
+/* values of all nodes; malloc'ed */
+static double *values_for(const struct gm_user_system *system, const double *variables)
+{
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    if (values) {
+        gm_formula_evaluate(&system->graph, system->graph.count, variables, values);
+    }
+    return values;
+}
+
+/* A Lagrangian at some coordinates. */
+struct transform {
+    const struct gm_user_system *system;
+    double *variables, *values; /* of the graph */
+    const gm_node_id *parts;    /* nodes that are evaluated: part_count; NULL: the first so many */
+    size_t part_count;
+    const bool *given; /* velocities that need not be found; NULL: none is */
+};
+
+/* gm_legendre_momenta; of a velocity that is given itself */
+static void momenta_at(void *data, const double *v, double *p, struct gm_mass *mass)
+{
+    struct transform *transform = data;
+    const struct gm_user_system *system = transform->system;
+    memcpy(transform->variables + system->velocities, v, system->n / 2 * sizeof *v);
+    gm_formula_evaluate_parts(&system->graph, transform->parts, transform->part_count, transform->variables,
+                              transform->values);
+    memset(mass->entries, 0, mass->n * mass->n * sizeof(double));
+    for (size_t i = 0; i < system->n / 2; i++) {
+        const bool given = transform->given && transform->given[i];
+        p[i] = given ? v[i] : transform->values[system->momenta[i]];
+        mass->entries[i * mass->n + i] = given;
+    }
+    for (size_t i = 0; i < system->mass.count; i++) {
+        const struct gm_sparse_entry *entry = &system->mass.entries[i];
+        if (!transform->given || !transform->given[entry->row]) {
+            mass->entries[entry->row * mass->n + entry->column] = transform->values[entry->node];
+        }
+    }
+}
+
+/* Velocities that were not given follow from the momenta that were. False: out of memory. */
+static bool find_velocities(struct transform transform)
+{
+    const struct gm_user_system *system = transform.system;
+    const double *variables = transform.variables;
+    const size_t half = system->n / 2;
+    double *scratch = malloc(5 * half * sizeof *scratch), *v = transform.variables + system->velocities;
+    bool *given = malloc(half * sizeof *given);
+    struct gm_mass mass = {0};
+    const bool opened = scratch && given && gm_mass_open(&mass, half);
+    if (opened) {
+        transform.given = given;
+        double *wanted = scratch, *found = scratch + half;
+        for (size_t i = 0; i < half; i++) {
+            given[i] = !isnan(v[i]);
+            wanted[i] = given[i] ? v[i] : variables[half + i];
+            found[i] = given[i] ? v[i] : 0;
+        }
+        gm_legendre_solve(half, false, momenta_at, &transform, wanted, &mass, scratch + 2 * half, found);
+        memcpy(v, found, half * sizeof *v);
+    }
+    gm_mass_close(&mass);
+    free(given);
+    free(scratch);
+    return opened;
+}
+
+/* Whether a variable has a value at the start by itself: the file's, or one that was given. */
+static bool is_told(const struct gm_user_system *system, const double *given, size_t number)
+{
+    return system->variables[number].start != GM_NO_NODE || (given && !isnan(given[number]));
+}
+
+/* All that a start is computed from: formulas, and momenta with what they take; malloc'ed. */
+static gm_node_id *parts_of_start(const struct gm_user_system *system, size_t *count)
+{
+    const size_t half = system->momenta ? system->n / 2 : 0;
+    gm_node_id *nodes = malloc((system->initial + half + system->mass.count + 1) * sizeof *nodes);
+    size_t found = 0;
+    for (size_t i = 0; nodes && i < system->initial; i++) {
+        nodes[found] = system->variables[i].start;
+        found += nodes[found] != GM_NO_NODE;
+    }
+    for (size_t i = 0; nodes && i < half; i++) {
+        nodes[found++] = system->momenta[i];
+    }
+    for (size_t i = 0; nodes && half > 0 && i < system->mass.count; i++) {
+        nodes[found++] = system->mass.entries[i].node;
+    }
+    gm_node_id *parts = nodes ? gm_formula_parts_of(&system->graph, nodes, found, count) : NULL;
+    free(nodes);
+    return parts;
+}
+
+double *gm_equations_start(const struct gm_user_system *system, const double *given)
+{
+    const size_t half = system->n / 2;
+    struct transform start = {.system = system};
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    gm_node_id *parts = parts_of_start(system, &start.part_count);
+    const bool good = variables && values && parts;
+    for (size_t i = 0; good && i < system->variable_count; i++) {
+        const bool follows = i < system->initial && system->variables[i].start != GM_NO_NODE;
+        variables[i] = i == system->n ? 0 : follows ? NAN : system->variables[i].value;
+        variables[i] = given && !isnan(given[i]) ? given[i] : variables[i];
+    }
+    /* a start may hold others: what is found in one round serves the next */
+    size_t found = 0, before = 0;
+    for (bool first = true; good && (first || found > before); first = false) {
+        before = found;
+        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
+        for (size_t i = 0; i < system->initial; i++) {
+            const gm_node_id node = system->variables[i].start;
+            variables[i] = node == GM_NO_NODE || (given && !isnan(given[i])) ? variables[i] : values[node];
+        }
+        for (size_t i = 0; system->momenta && i < half; i++) {
+            variables[half + i] =
+                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
+        }
+        found = 0;
+        for (size_t i = 0; i < system->initial; i++) {
+            found += !isnan(variables[i]);
+        }
+    }
+    bool unknown = false;
+    for (size_t i = 0; good && system->momenta && i < half; i++) {
+        unknown |= isnan(variables[system->velocities + i]);
+    }
+    start.variables = variables;
+    start.values = values;
+    start.parts = parts;
+    if (unknown && find_velocities(start)) {
+        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
+        for (size_t i = 0; i < half; i++) {
+            variables[half + i] =
+                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
+        }
+    }
+    for (size_t i = 0; good && i < system->n; i++) {
+        variables[system->initial + i] = variables[i];
+    }
+    free(parts);
+    free(values);
+    if (!good) {
+        free(variables);
+        return NULL;
+    }
+    return variables;
+}
+
+bool gm_equations_check_legendre(const struct gm_user_system *system, double *start, struct gm_fault *fault)
+{
+    const size_t half = system->n / 2;
+    struct gm_mass mass = {0};
+    double *scratch = malloc(2 * half * sizeof *scratch),
+           *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    const bool opened = scratch && values && gm_mass_open(&mass, half);
+    bool regular = false;
+    if (opened) {
+        struct transform transform = {system, start, values, NULL, system->graph.count, NULL};
+        memcpy(scratch, start + system->velocities, half * sizeof *scratch);
+        momenta_at(&transform, scratch, scratch + half, &mass);
+        regular = gm_mass_factor(&mass, 1e-14);
+    }
+    gm_mass_close(&mass);
+    free(values);
+    free(scratch);
+    if (!opened || regular) {
+        return opened;
+    }
+    char where[120] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < half && length + 40 < sizeof where; i++) {
+        length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
+                                   system->variables[i].name, start[i]);
+    }
+    const uint32_t place = gm_formula_origin(&system->graph, system->energy);
+    return gm_fail(
+        fault, place == GM_NO_PLACE ? 0 : place,
+        "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
+        where);
+}
+
+/* Where the first part of a node was written that is not finite; 0: none of them was written. */
+static size_t first_not_finite(struct gm_user_system *system, gm_node_id node, const double *values)
+{
+    size_t place = 0, count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count && place == 0; k++) {
+        const bool written = system->graph.places[parts[k]] != GM_NO_PLACE;
+        place = written && !isfinite(values[parts[k]]) ? system->graph.places[parts[k]] : 0;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return place;
+}
+
+/* The rank of a matrix (rows * columns), which is destroyed, by elimination with complete pivoting. */
+static size_t rank_of(double *a, size_t rows, size_t columns)
+{
+    const double least = 1e-10;
+    double largest = 0;
+    for (size_t rank = 0; rank < rows && rank < columns; rank++) {
+        size_t row = rank, column = rank;
+        for (size_t i = rank; i < rows; i++) {
+            for (size_t j = rank; j < columns; j++) {
+                if (fabs(a[i * columns + j]) > fabs(a[row * columns + column])) {
+                    row = i;
+                    column = j;
+                }
+            }
+        }
+        largest = rank == 0 ? fabs(a[row * columns + column]) : largest;
+        if (!(fabs(a[row * columns + column]) > least * largest)) {
+            return rank;
+        }
+        for (size_t j = 0; j < columns; j++) {
+            const double kept = a[row * columns + j];
+            a[row * columns + j] = a[rank * columns + j];
+            a[rank * columns + j] = kept;
+        }
+        for (size_t i = 0; i < rows; i++) {
+            const double kept = a[i * columns + column];
+            a[i * columns + column] = a[i * columns + rank];
+            a[i * columns + rank] = kept;
+        }
+        for (size_t i = rank + 1; i < rows; i++) {
+            const double factor = a[i * columns + rank] / a[rank * columns + rank];
+            for (size_t j = rank; j < columns; j++) {
+                a[i * columns + j] -= factor * a[rank * columns + j];
+            }
+        }
+    }
+    return rows < columns ? rows : columns;
+}
+
+/* What the motion begins with has to keep the constraints, and their rates 0; and they are to be
+   independent. */
+static bool check_constraints(struct gm_user_system *system, const double *start, struct gm_fault *fault)
+{
+    const size_t half = system->n / 2;
+    size_t count = 0, last = 0;
+    gm_node_id *nodes = malloc((system->item_count + 1) * sizeof *nodes);
+    for (size_t i = 0; nodes && i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            nodes[count++] = system->items[i].nodes[0];
+            last = i;
+        }
+    }
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    struct gm_sparse slopes = {0};
+    for (size_t i = 0; marked && i < half; i++) {
+        marked[i] = true;
+    }
+    double *matrix = calloc(count * half + count + 1, sizeof *matrix), *values = NULL;
+    if (nodes && marked && matrix &&
+        gm_sparse_jacobian(&system->graph, nodes, count, marked, system->variable_count, &slopes)) {
+        values = values_for(system, start);
+    }
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good && !system->graph.failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        good = item->word != GM_WORD_CONSTRAINT || is_of_components(system, item->nodes[0], system->n / 2) ||
+               gm_fail(fault, item->place, "a constraint holds coordinates and parameters alone");
+    }
+    if (values && good) {
+        double *rates = matrix + count * half;
+        for (size_t i = 0; i < slopes.count; i++) {
+            const struct gm_sparse_entry *slope = &slopes.entries[i];
+            const double velocity = system->kind == GM_LAGRANGIAN ? start[system->velocities + slope->column]
+                                                                  : values[system->rates[slope->column]];
+            matrix[slope->row * half + slope->column] = values[slope->node];
+            rates[slope->row] += values[slope->node] * velocity;
+        }
+        for (size_t i = 0, k = 0; i < system->item_count && good; i++) {
+            const struct gm_system_item *item = &system->items[i];
+            if (item->word != GM_WORD_CONSTRAINT) {
+                continue;
+            }
+            good = fabs(values[item->nodes[0]]) <= 1e-10 ||
+                   gm_fail(fault, item->place, "the start breaks this constraint: it is %g, not 0",
+                           values[item->nodes[0]]);
+            good = good &&
+                   (fabs(rates[k]) <= 1e-10 ||
+                    gm_fail(fault, item->place,
+                            "the start breaks this constraint: its rate of change is %g, not 0", rates[k]));
+            k++;
+        }
+        const size_t rank = good ? rank_of(matrix, count, half) : count;
+        good = good && (rank == count || gm_fail(fault, system->items[last].place,
+                                                 "the constraints depend on each other at the start: the "
+                                                 "derivatives of %zu have the rank %zu",
+                                                 count, rank));
+    }
+    system->graph.failed |= !values;
+    free(slopes.entries);
+    free(nodes);
+    free(marked);
+    free(matrix);
+    free(values);
+    return good;
+}
+
+/* A density of steps is a positive number that the state alone decides. */
+static bool check_monitor(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_MONITOR) {
+            continue;
+        }
+        const double density = values[item->nodes[0]];
+        good = is_of_components(system, item->nodes[0], system->n) ||
+               gm_fail(fault, item->place, "a monitor holds %s and parameters alone",
+                       system->kind <= GM_LAGRANGIAN ? "coordinates, momenta" : "components");
+        good = good &&
+               ((density > 0 && isfinite(density)) ||
+                gm_fail(fault, item->place,
+                        "the monitor is %g at the start: how dense steps are is a number above 0", density));
+    }
+    return good;
+}
+
+/* Half axes are lengths. */
+static bool check_sizes(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        for (size_t k = 0; k < item->count && item->word == GM_WORD_SURFACE; k++) {
+            const double size = values[item->nodes[k]];
+            if (!(size > 0 && isfinite(size))) {
+                return gm_fail(fault, item->place, "the size of a surface is %g, and has to be above 0",
+                               size);
+            }
+        }
+    }
+    return true;
+}
+
+/* The first variable without a value at the start that a formula holds; variable_count: there is none. */
+static size_t unknown_at_start(struct gm_user_system *system, gm_node_id node, const double *start)
+{
+    size_t count = 0, unknown = system->variable_count;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count && unknown == system->variable_count; k++) {
+        const struct gm_node *part = &system->graph.nodes[parts[k]];
+        unknown = part->operation == GM_VARIABLE && !isfinite(start[part->a]) ? part->a : unknown;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return unknown;
+}
+
+/* Blamed is a start that is not finite by itself; where every one waits for another, they stand in a circle. */
+static bool check_values(struct gm_user_system *system, const double *start, const double *values,
+                         struct gm_fault *fault)
+{
+    size_t waiting = system->n, waits_for = 0;
+    for (size_t i = 0; i < system->n; i++) {
+        const struct gm_system_variable *variable = &system->variables[i];
+        if (isfinite(start[i])) {
+            continue;
+        }
+        const size_t other = variable->start == GM_NO_NODE ? system->variable_count
+                                                           : unknown_at_start(system, variable->start, start);
+        if (other == system->variable_count) {
+            return gm_fail(
+                fault, variable->start == GM_NO_NODE ? 0 : first_not_finite(system, variable->start, values),
+                "%.60s is not finite at the start", variable->name);
+        }
+        waits_for = waiting == system->n ? other : waits_for;
+        waiting = waiting == system->n ? i : waiting;
+    }
+    if (waiting == system->n) {
+        return true;
+    }
+    return gm_fail(fault, system->variables[waiting].start_place,
+                   "a circle: the start of %.60s needs that of %.60s", system->variables[waiting].name,
+                   system->variables[waits_for].name);
+}
+
+/* What is looked at for a change of sign, or held against its start, has a value there. */
+static bool check_looked_at(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_STOP || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) {
+            good = isfinite(values[item->nodes[0]]) ||
+                   gm_fail(fault, item->place, "%.60s is not finite at the start",
+                           item->word == GM_WORD_STOP ? "what ends the run" : item->name);
+        }
+    }
+    return good;
+}
+
+static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
+{
+    double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
+    bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
+    good = good && (!values || check_values(system, start, values, fault));
+    if (values && good && has(system, GM_WORD_CONSTRAINT)) {
+        good = check_constraints(system, start, fault);
+    }
+    for (size_t i = 0; values && good && i < system->n; i++) {
+        if (system->rates[i] == GM_NO_NODE || isfinite(values[system->rates[i]])) {
+            continue;
+        }
+        /* of the rate, or of what it is derived from */
+        size_t place = first_not_finite(system, system->rates[i], values);
+        if (place == 0 && system->kind != GM_RATES) {
+            place = first_not_finite(system, system->energy, values);
+        }
+        if (place == 0 && system->kind != GM_RATES && system->graph.places[system->energy] != GM_NO_PLACE) {
+            place = system->graph.places[system->energy]; /* a derivative is too large, nothing written is */
+        }
+        good =
+            gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
+    }
+    if (values && good && (system->kind == GM_CANONICAL || system->kind == GM_POISSON)) {
+        good =
+            isfinite(values[system->energy]) ||
+            gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
+    }
+    good = good && (!values || (check_monitor(system, values, fault) && check_sizes(system, values, fault) &&
+                                check_looked_at(system, values, fault)));
+    system->graph.failed |= !values;
+    free(start);
+    free(values);
+    return good;
+}
+
+/* Whether a formula of a field holds no component, time or place but those of some numbers. */
+static bool holds_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
+                       const char *what, struct gm_fault *fault)
+{
+    size_t part_count = 0;
+    bool good = true;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &part_count);
+    for (size_t i = 0; parts && i < part_count && good; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        const bool moves =
+            part->operation == GM_VARIABLE && (part->a < system->parameters || part->a >= system->velocities);
+        size_t k = 0;
+        while (moves && k < count && numbers[k] != part->a) {
+            k++;
+        }
+        if (moves && k == count) {
+            const uint32_t place = system->graph.places[node];
+            good = gm_fail(fault, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
+                           system->variables[part->a].name);
+        }
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+/* V and S may have corners in parameters, which are constant. */
+static bool is_smooth(struct gm_user_system *system, const char *what, struct gm_fault *fault)
+{
+    bool *marked = malloc(system->n * sizeof *marked);
+    for (size_t i = 0; marked && i < system->n; i++) {
+        marked[i] = true;
+    }
+    const gm_node_id kink =
+        marked ? gm_formula_kink(&system->graph, system->energy, marked, system->n) : GM_NO_NODE;
+    system->graph.failed |= !marked;
+    free(marked);
+    return !system->graph.failed &&
+           (kink == GM_NO_NODE || gm_fail(fault, system->graph.places[kink],
+                                          "%s has to be smooth, and %s is not: its force would jump", what,
+                                          gm_operation_rows[system->graph.nodes[kink].operation].name));
+}
+
+/* What the starts, exact solutions and densities of a field hold. */
+static bool check_line(struct gm_user_system *system, size_t densities, struct gm_fault *fault)
+{
+    const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
+    size_t in_density[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
+    bool good = true;
+    for (size_t i = 0; i < n + densities; i++) {
+        in_density[i] = i < n ? i : x + i - n;
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        const struct gm_system_variable *field = &system->variables[i];
+        good = holds_only(system, field->start, in_start, 1, "the start of a field", fault) &&
+               (field->exact == GM_NO_NODE ||
+                holds_only(system, field->exact, in_exact, 2, "the exact solution of a field", fault));
+    }
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
+            item->check = GM_UNTESTED;
+            good = holds_only(system, item->nodes[0], in_density, n + densities, "a density", fault);
+        }
+    }
+    return good && !system->graph.failed;
+}
+
+size_t gm_system_mass_field(const struct gm_user_system *system, gm_node_id node)
+{
+    const size_t n = system->n;
+    size_t found = n, count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count; k++) {
+        const struct gm_node *part = &system->graph.nodes[parts[k]];
+        if (part->operation == GM_VARIABLE && (part->a < n || part->a > system->velocities)) {
+            const size_t field = part->a < n ? part->a : (part->a - system->velocities - 1) % n;
+            found = found == n || found == field ? field : n + 1;
+        }
+    }
+    free(parts);
+    return found < n ? found : n;
+}
+
+bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_node_id *line, gm_node_id *rest)
+{
+    bool *fields = calloc(system->variable_count, sizeof *fields),
+         *varying = calloc(system->variable_count, sizeof *varying);
+    for (size_t i = 0; fields && varying && i < system->variable_count; i++) {
+        fields[i] = i < system->n || (i > system->velocities && i < system->initial);
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    const bool good =
+        fields && varying &&
+        gm_linear_part(&system->graph, node, fields, varying, system->variable_count, line, rest);
+    free(fields);
+    free(varying);
+    return good;
+}
+
+static bool check_masses(struct gm_user_system *system, struct gm_fault *fault)
+{
+    bool known[GM_MOST_FIELDS] = {false};
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_MASS) {
+            continue;
+        }
+        const size_t field = gm_system_mass_field(system, item->nodes[0]);
+        if (field == system->n) {
+            return gm_fail(fault, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
+        }
+        if (known[field]) {
+            return gm_fail(fault, item->place, "the mass of %.60s is said twice",
+                           system->variables[field].name);
+        }
+        known[field] = true;
+        gm_node_id line, rest;
+        if (!gm_system_linear_part(system, item->nodes[0], &line, &rest)) {
+            return false;
+        }
+        if (!gm_is_constant(&system->graph, rest, 0)) {
+            return gm_fail(fault, item->place,
+                           "a mass is linear in %.60s and its derivatives, with constant coefficients",
+                           system->variables[field].name);
+        }
+    }
+    return true;
+}
+
+static bool check_evolution(struct gm_user_system *system, struct gm_fault *fault)
+{
+    const size_t n = system->n, derivatives = GM_MOST_DERIVATIVES * n;
+    size_t in_rate[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
+    bool good = true;
+    for (size_t i = 0; i < n + derivatives + 1; i++) {
+        in_rate[i] = i < n ? i : system->velocities + i - n;
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        good =
+            holds_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field", fault);
+    }
+    return good && check_masses(system, fault) && check_line(system, derivatives + 1, fault);
+}
+
+static bool check_field(struct gm_user_system *system, struct gm_fault *fault)
+{
+    enum { U, U_T };
+    const size_t in_v[] = {U};
+    if (!is_smooth(system, "V", fault) || !holds_only(system, system->energy, in_v, 1, "V", fault)) {
+        return false;
+    }
+    if (system->variables[U_T].exact != GM_NO_NODE) {
+        return gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
+    }
+    return check_line(system, 2, fault);
+}
+
+/* K = -K', entry by entry. */
+static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault *fault)
+{
+    const size_t n = system->n;
+    const gm_node_id *entries = system->matrices + which * n * n;
+    const size_t *places = system->matrix_places + which * n * n;
+    static const char *const names[] = {"K", "L"};
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            if (!holds_only(system, entries[i * n + j], NULL, 0, "an entry of a matrix", fault) ||
+                !holds_only(system, entries[j * n + i], NULL, 0, "an entry of a matrix", fault)) {
+                return false;
+            }
+            for (size_t side = 0; side < 2; side++) {
+                const size_t at = side == 0 ? i * n + j : j * n + i;
+                const struct gm_node *entry = &system->graph.nodes[entries[at]];
+                if (entry->operation == GM_CONSTANT && !isfinite(entry->value)) {
+                    return gm_fail(fault, places[at], "an entry of %s is no finite number", names[which]);
+                }
+            }
+            const gm_node_id sum =
+                gm_simplified(&system->graph, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
+            if (system->graph.failed) {
+                return false;
+            }
+            if (gm_equations_vanishes(system, sum) != GM_NOT_ZERO) {
+                continue;
+            }
+            return i == j ? gm_fail(fault, places[i * n + j], "%s has to be skew: entry %zu, %zu is not 0",
+                                    names[which], i + 1, i + 1)
+                          : gm_fail(fault, places[i * n + j],
+                                    "%s has to be skew: entry %zu, %zu is not minus entry %zu, %zu",
+                                    names[which], i + 1, j + 1, j + 1, i + 1);
+        }
+    }
+    return true;
+}
+
+/* The number of a component that a singular matrix, which is overwritten, leaves free; n: it is regular. */
+static size_t free_component(double *matrix, size_t n)
+{
+    double largest = 0;
+    bool used[GM_MOST_OF_MATRICES] = {false};
+    for (size_t i = 0; i < n * n; i++) {
+        largest = fmax(largest, fabs(matrix[i]));
+    }
+    for (size_t column = 0; column < n; column++) {
+        size_t pivot = n;
+        for (size_t i = 0; i < n; i++) {
+            if (!used[i] && (pivot == n || fabs(matrix[i * n + column]) > fabs(matrix[pivot * n + column]))) {
+                pivot = i;
+            }
+        }
+        if (!(fabs(matrix[pivot * n + column]) > 1e-10 * largest)) {
+            return column;
+        }
+        used[pivot] = true;
+        for (size_t i = 0; i < n; i++) {
+            const double factor = used[i] ? 0 : matrix[i * n + column] / matrix[pivot * n + column];
+            for (size_t j = column; j < n && factor != 0; j++) {
+                matrix[i * n + j] -= factor * matrix[pivot * n + j];
+            }
+        }
+    }
+    return n;
+}
+
+/* Whether a K + b L - S'' is regular for some a and b somewhere: else a component has no equation of its own. */
+static bool is_determined(struct gm_user_system *system, struct gm_fault *fault)
+{
+    enum { TRIALS = 4 };
+    const size_t n = system->n;
+    struct gm_sparse hessian = {0};
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    double *values = gm_equations_start(system, NULL), *all = NULL;
+    for (size_t i = 0; marked && i < n; i++) {
+        marked[i] = true;
+    }
+    bool good =
+        marked && values &&
+        gm_sparse_jacobian(&system->graph, system->rates, n, marked, system->variable_count, &hessian);
+    all = good ? malloc((system->graph.count + (size_t)1) * sizeof *all) : NULL;
+    size_t free_one = 0;
+    for (int trial = 0; all && trial < TRIALS && free_one < n; trial++) {
+        double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];
+        for (size_t i = 0; i < n; i++) {
+            values[i] = 0.3 + 0.37 * sin(1 + 2.3 * (double)i + 5.1 * trial);
+        }
+        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+        for (size_t i = 0; i < n * n; i++) {
+            matrix[i] = (1.31 + 0.4 * trial) * all[system->matrices[i]] +
+                        (0.73 - 0.3 * trial) * all[system->matrices[n * n + i]];
+        }
+        for (size_t i = 0; i < hessian.count; i++) {
+            matrix[hessian.entries[i].row * n + hessian.entries[i].column] -= all[hessian.entries[i].node];
+        }
+        free_one = free_component(matrix, n);
+    }
+    good =
+        all && (free_one == n ||
+                gm_fail(fault, gm_formula_origin(&system->graph, system->energy),
+                        "the equations do not determine %.60s: a K + b L - S'' is singular for all a and b",
+                        system->variables[free_one].name));
+    free(hessian.entries);
+    free(marked);
+    free(values);
+    free(all);
+    return good;
+}
+
+static bool check_matrices(struct gm_user_system *system, struct gm_fault *fault)
+{
+    size_t in_s[GM_MOST_OF_MATRICES];
+    for (size_t i = 0; i < system->n; i++) {
+        in_s[i] = i;
+        const gm_node_id jump = system->variables[i].jump;
+        if (jump != GM_NO_NODE && !holds_only(system, jump, NULL, 0, "a jump", fault)) {
+            return false;
+        }
+    }
+    return is_skew(system, 0, fault) && is_skew(system, 1, fault) && is_smooth(system, "S", fault) &&
+           holds_only(system, system->energy, in_s, system->n, "S", fault) && is_determined(system, fault) &&
+           check_line(system, 1, fault);
+}
+
+bool gm_equations_derive(struct gm_user_system *system, struct gm_fault *fault)
+{
+    *fault = (struct gm_fault){0};
+    if (!derive(system)) {
+        return false;
+    }
+    if (gm_system_is_field(system)) {
+        return system->kind == GM_FIELD      ? check_field(system, fault)
+               : system->kind == GM_MATRICES ? check_matrices(system, fault)
+                                             : check_evolution(system, fault);
+    }
+    return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
+           check_items(system, fault) && !system->graph.failed;
+}
+
+bool gm_equations_open(struct gm_user_system *system, const char *text, size_t length,
+                       const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    return gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
+}

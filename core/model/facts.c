@@ -1,0 +1,731 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Structure is a matter of derivatives that vanish: H separates where d2H / dp dq does. What stands in the
+   way is the first term of the sum whose own derivative does not vanish. The parts of a facet are terms of
+   the sum, too. */
+#include "core/model/facts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/derivative.h"
+#include "core/model/equations.h"
+
+/* What a sum is taken apart into; what of it is tried one by one, and nodes that are looked at for it, and
+   that may come of it. */
+enum { MOST_TERMS = 4096, MOST_TRIED = 64, MOST_LOOKED_AT = 1 << 20, MOST_GROWN = 1 << 18 };
+
+static const struct {
+    const char *word, *yes, *no;
+} rows[GM_FACTS] = {
+    [GM_FACT_SEPARABLE] = {"separable", "H = T(p) + V(q)", "holds coordinates and momenta"},
+    [GM_FACT_NYSTROM] = {"nystrom", "T is quadratic in the momenta", "is not quadratic in the momenta"},
+    [GM_FACT_QUADRATIC] = {"quadratic", "every rate is a polynomial of degree 2", "is not of degree 2"},
+    [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
+                        "contains the variable whose rate it is"},
+    [GM_FACT_DIVERGENCE_FREE] = {"divergence-free", "the divergence is 0", "is the divergence"},
+    [GM_FACT_SMOOTH] = {"smooth", "no min, max, abs or mod", "is not smooth"},
+    [GM_FACT_AUTONOMOUS] = {"autonomous", "the time does not occur", "contains the time"},
+    [GM_FACT_FAST_LINEAR] = {"fast-linear", "H = |p|^2/2 + omega^2 q^2/2 + U(q)",
+                             "gives no coordinate a frequency of its own"},
+    [GM_FACT_KEPLER_SPLIT] = {"kepler-split", "H = |p|^2/2 - 1/|q| + W(q)", "is not -1/|q|"},
+    [GM_FACT_LAGRANGIAN] = {"lagrangian", "L = v^2/2 - V(q), one degree of freedom", ""},
+    [GM_FACT_CONFORMAL] = {"conformal", "every force is the same multiple of the momentum",
+                           "is not the multiple of the momentum that others are"},
+};
+
+const char *gm_fact_word(enum gm_fact fact)
+{
+    return rows[fact].word;
+}
+
+/* what is marked among the variables that a node holds */
+static bool depends(struct gm_user_system *system, gm_node_id node, const bool *marked)
+{
+    return gm_formula_holds(&system->graph, node, marked, system->variable_count);
+}
+
+/* Whether the node holds a kink, or a root that may be one, that depends on each of the sets: there derivatives
+   vanish on both sides, and say nothing. */
+static bool has_kink(struct gm_user_system *system, gm_node_id node, const bool *const *sets, size_t depth)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++) {
+        const enum gm_operation operation = system->graph.nodes[parts[i]].operation;
+        found = operation > GM_VARIABLE &&
+                (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
+        for (size_t k = 0; k < depth && found; k++) {
+            found = depends(system, parts[i], sets[k]);
+        }
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return found;
+}
+
+/* Whether all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
+static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node, const bool *const *sets,
+                                 size_t depth)
+{
+    if (depth == 0) {
+        return gm_equations_vanishes(system, node);
+    }
+    if (!depends(system, node, sets[0])) {
+        return GM_ZERO_PROVED;
+    }
+    enum gm_identity all = GM_ZERO_PROVED;
+    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
+    if (!gradient || !gm_gradient(&system->graph, node, sets[0], system->variable_count, gradient)) {
+        system->graph.failed = true;
+        all = GM_UNTESTED;
+    }
+    for (size_t i = 0; i < system->variable_count && all != GM_NOT_ZERO && !system->graph.failed; i++) {
+        const bool is_zero = !sets[0][i] || gm_is_constant(&system->graph, gradient[i], 0);
+        const enum gm_identity found =
+            is_zero ? GM_ZERO_PROVED : vanishes(system, gradient[i], sets + 1, depth - 1);
+        all = found == GM_ZERO_PROVED ? all : found;
+    }
+    free(gradient);
+    return all != GM_NOT_ZERO && has_kink(system, node, sets, depth) ? GM_NOT_ZERO : all;
+}
+
+/* A term of a sum: coefficient * node, where the coefficient holds no component. */
+struct term {
+    gm_node_id node, coefficient;
+};
+
+/* The terms that a node is the sum of, at most MOST_TERMS. malloc'ed; NULL where memory was refused. */
+static struct term *terms_of(struct gm_user_system *system, gm_node_id root, const bool *components,
+                             size_t *count)
+{
+    struct gm_formula *graph = &system->graph;
+    bool *dependent = gm_formula_dependent(graph, components, system->variable_count);
+    struct term *terms = malloc((MOST_TERMS + 1) * sizeof *terms);
+    struct term *stack = malloc((MOST_TERMS + 1) * sizeof *stack);
+    size_t depth = 0;
+    *count = 0;
+    if (dependent && terms && stack) {
+        stack[depth++] = (struct term){root, gm_formula_constant(graph, 1)};
+    }
+    while (depth > 0 && !graph->failed) {
+        const struct term top = stack[--depth];
+        const struct gm_node here = graph->nodes[top.node];
+        const bool is_last = *count + depth + 2 > MOST_TERMS;
+        switch (is_last ? GM_CONSTANT : here.operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            stack[depth++] = (struct term){
+                here.b, here.operation == GM_OPERATION_ADD
+                            ? top.coefficient
+                            : gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] = (struct term){here.a, top.coefficient};
+            continue;
+        case GM_OPERATION_NEGATE:
+            stack[depth++] =
+                (struct term){here.a, gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            continue;
+        case GM_OPERATION_MULTIPLY:
+        case GM_OPERATION_DIVIDE:
+            if (!dependent[here.b]) {
+                stack[depth++] = (struct term){
+                    here.a, gm_simplified(&system->graph, here.operation, top.coefficient, here.b)};
+                continue;
+            }
+            if (here.operation == GM_OPERATION_MULTIPLY && !dependent[here.a]) {
+                stack[depth++] = (struct term){
+                    here.b, gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, top.coefficient, here.a)};
+                continue;
+            }
+            break;
+        default:
+            break;
+        }
+        terms[(*count)++] = top;
+    }
+    graph->failed |= !dependent || !terms || !stack;
+    free(dependent);
+    free(stack);
+    if (graph->failed) {
+        free(terms);
+        terms = NULL;
+        *count = 0;
+    }
+    return terms;
+}
+
+/* The first term whose derivatives do not vanish; the node itself where no term alone is to blame. */
+static gm_node_id culprit(struct gm_user_system *system, gm_node_id node, const bool *components,
+                          const bool *const *sets, size_t depth)
+{
+    size_t count = 0;
+    struct term *terms = terms_of(system, node, components, &count);
+    const size_t most = system->graph.count + MOST_GROWN;
+    gm_node_id found = GM_NO_NODE;
+    for (size_t i = 0; i < count && i < MOST_TRIED && found == GM_NO_NODE && system->graph.count < most;
+         i++) {
+        found = vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO ? terms[i].node : GM_NO_NODE;
+    }
+    free(terms);
+    return found == GM_NO_NODE ? node : found;
+}
+
+static void conclude(struct gm_finding *finding, enum gm_identity found)
+{
+    finding->holds = finding->holds && (found == GM_ZERO_PROVED || found == GM_ZERO_TESTED);
+    finding->how = found == GM_ZERO_PROVED ? finding->how : found;
+}
+
+static void deny(struct gm_finding *finding, gm_node_id term, const char *why)
+{
+    finding->holds = false;
+    finding->how = GM_NOT_ZERO;
+    finding->term = term;
+    finding->why = why;
+}
+
+/* Of the energy; of a Lagrangian L, with velocities for momenta: where L = T(v) - V(q), H separates as well,
+   and the transform of a quadratic T is quadratic. */
+static void find_split(struct gm_user_system *system, struct gm_finding *findings, const bool *q,
+                       const bool *p, const bool *all)
+{
+    struct gm_finding *separable = &findings[GM_FACT_SEPARABLE], *nystrom = &findings[GM_FACT_NYSTROM];
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    separable->asked = nystrom->asked = true;
+    conclude(separable, vanishes(system, system->energy, (const bool *const[]){p, q}, 2));
+    if (!separable->holds) {
+        separable->term = culprit(system, system->energy, all, (const bool *const[]){p, q}, 2);
+        separable->why = lagrangian ? "holds coordinates and velocities" : NULL;
+        deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
+        return;
+    }
+    conclude(nystrom, vanishes(system, system->energy, (const bool *const[]){p, p, p}, 3));
+    if (!nystrom->holds) {
+        nystrom->term = culprit(system, system->energy, all, (const bool *const[]){p, p, p}, 3);
+        nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;
+    }
+}
+
+/* the derivative over variable i, which alone is marked; any node where memory was refused */
+static gm_node_id slope_of(struct gm_user_system *system, gm_node_id node, const bool *own, size_t i)
+{
+    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient), slope = 0;
+    if (gradient && gm_gradient(&system->graph, node, own, system->variable_count, gradient)) {
+        slope = gradient[i];
+    }
+    system->graph.failed |= !gradient;
+    free(gradient);
+    return slope;
+}
+
+static bool is_held(const struct gm_user_system *system)
+{
+    bool held = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        held |= system->items[i].word == GM_WORD_CONSTRAINT;
+    }
+    return held;
+}
+
+/* Whether the system is mechanical with unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and nothing
+   acts beside. Else the finding says why not. */
+static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_finding *findings,
+                            struct gm_finding *finding, const bool *all, bool *own)
+{
+    const size_t half = system->n / 2;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    const size_t first = lagrangian ? system->velocities : half;
+    if (is_held(system)) {
+        deny(finding, GM_NO_NODE, "it has constraints");
+        return false;
+    }
+    for (size_t i = 0; i < half; i++) {
+        if (system->variables[i].force != GM_NO_NODE) {
+            deny(finding, system->variables[i].force, lagrangian ? "acts beside L" : "acts beside H");
+            return false;
+        }
+    }
+    if (!findings[GM_FACT_SEPARABLE].holds || system->timed) {
+        deny(finding, GM_NO_NODE, system->timed ? "the time occurs" : findings[GM_FACT_NYSTROM].why);
+        return false;
+    }
+    for (size_t i = 0; i < half && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id p = gm_formula_variable(&system->graph, first + i);
+        const gm_node_id slope = lagrangian ? system->momenta[i] : system->rates[i];
+        conclude(finding, gm_equations_vanishes(
+                              system, gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, slope, p)));
+        size_t count = 0;
+        struct term *terms = finding->holds ? NULL : terms_of(system, system->energy, all, &count);
+        own[first + i] = true;
+        finding->why = lagrangian ? "is not of |v|^2/2" : "is not of |p|^2/2";
+        for (size_t k = 0; k < count && k < MOST_TRIED && finding->term == GM_NO_NODE; k++) {
+            if (depends(system, terms[k].node, own)) {
+                const gm_node_id part =
+                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                                  slope_of(system, terms[k].node, own, first + i));
+                const gm_node_id rest = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, part, p);
+                finding->term =
+                    gm_equations_vanishes(system, rest) == GM_NOT_ZERO ? terms[k].node : GM_NO_NODE;
+            }
+        }
+        own[first + i] = false;
+        free(terms);
+    }
+    if (!finding->holds && finding->term == GM_NO_NODE) {
+        finding->why = lagrangian ? "the kinetic energy is not |v|^2/2" : "the kinetic energy is not |p|^2/2";
+    }
+    return finding->holds && !system->graph.failed;
+}
+
+/* a node where `count` variables, from one on, are 0 */
+static gm_node_id at_zero(struct gm_user_system *system, gm_node_id node, size_t first, size_t count)
+{
+    gm_node_id *replacement = malloc(system->variable_count * sizeof *replacement);
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; replacement && i < system->variable_count; i++) {
+        replacement[i] = i >= first && i < first + count ? zero : GM_NO_NODE;
+    }
+    system->graph.failed |=
+        !replacement || !gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
+    free(replacement);
+    return node;
+}
+
+/* V of a system that is_of_unit_mass: H, or -L, at rest */
+static gm_node_id potential_of(struct gm_user_system *system)
+{
+    return system->kind == GM_LAGRANGIAN
+               ? gm_simplified(&system->graph, GM_OPERATION_NEGATE,
+                               at_zero(system, system->energy, system->velocities, system->n / 2), 0)
+               : at_zero(system, system->energy, system->n / 2, system->n / 2);
+}
+
+/* values of all nodes at the start; malloc'ed */
+static double *values_at_start(struct gm_user_system *system)
+{
+    double *start = gm_equations_start(system, NULL);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    if (start && values) {
+        gm_formula_evaluate(&system->graph, system->graph.count, start, values);
+    } else {
+        system->graph.failed = true;
+    }
+    free(start);
+    return values;
+}
+
+/* forces[i] = -d node / d q_i */
+static void forces_of(struct gm_user_system *system, gm_node_id node, const bool *q, gm_node_id *forces)
+{
+    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
+    if (gradient && gm_gradient(&system->graph, node, q, system->variable_count, gradient)) {
+        for (size_t i = 0; i < system->n / 2; i++) {
+            forces[i] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0);
+        }
+    }
+    system->graph.failed |= !gradient;
+    free(gradient);
+}
+
+/* A term of the potential that depends on one coordinate alone, and its second derivative. */
+struct well {
+    size_t coordinate; /* SIZE_MAX: it depends on none, or on several */
+    gm_node_id slope, stiffness;
+};
+
+/* Wells of all terms; malloc'ed. Those of a stiffness that depends on the state are none. */
+static struct well *wells_of(struct gm_user_system *system, const struct term *terms, size_t count,
+                             const bool *q, const bool *all, bool *own)
+{
+    struct well *wells = malloc((count + 1) * sizeof *wells);
+    const size_t most = system->graph.count + MOST_GROWN;
+    system->graph.failed |= !wells;
+    for (size_t k = 0; k < count && !system->graph.failed; k++) {
+        struct well *well = &wells[k];
+        size_t size = 0, held = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, terms[k].node, &size);
+        *well = (struct well){.coordinate = SIZE_MAX};
+        for (size_t i = 0; i < size; i++) {
+            const struct gm_node *part = &system->graph.nodes[parts[i]];
+            if (part->operation == GM_VARIABLE && q[part->a]) {
+                well->coordinate = held++ == 0 ? part->a : SIZE_MAX;
+            }
+        }
+        system->graph.failed |= !parts;
+        free(parts);
+        if (well->coordinate == SIZE_MAX || system->graph.count > most) {
+            well->coordinate = SIZE_MAX;
+            continue;
+        }
+        const size_t i = well->coordinate;
+        own[i] = true;
+        well->slope = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                                    slope_of(system, terms[k].node, own, i));
+        well->stiffness = slope_of(system, well->slope, own, i);
+        own[i] = false;
+        well->coordinate = depends(system, well->stiffness, all) ? SIZE_MAX : i;
+    }
+    return wells;
+}
+
+/* Each coordinate's own quadratic terms make its frequency; what is left of them, and the others, U. */
+static void find_fast_linear(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
+                             gm_node_id *nodes, const bool *q, const bool *all, bool *own)
+{
+    const size_t half = system->n / 2;
+    size_t count = 0, frequencies = 0;
+    struct gm_formula *graph = &system->graph;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    struct term *terms = terms_of(system, potential, all, &count);
+    struct well *wells = wells_of(system, terms, count, q, all, own);
+    double *values = graph->failed ? NULL : values_at_start(system);
+    gm_node_id slow = zero, *squares = malloc((2 * half + 1) * sizeof *squares),
+               *rest = squares ? squares + half : NULL;
+    graph->failed |= !squares;
+    for (size_t i = 0; i < half && !graph->failed; i++) {
+        squares[i] = rest[i] = zero;
+    }
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const size_t i = wells[k].coordinate;
+        if (i == SIZE_MAX || !(values[wells[k].stiffness] > 0)) {
+            slow = gm_simplified(
+                &system->graph, GM_OPERATION_ADD, slow,
+                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node));
+            continue;
+        }
+        squares[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, squares[i], wells[k].stiffness);
+        rest[i] =
+            gm_simplified(&system->graph, GM_OPERATION_ADD, rest[i], at_zero(system, wells[k].slope, i, 1));
+        frequencies++;
+    }
+    if (frequencies == 0 && !graph->failed) {
+        deny(finding, GM_NO_NODE, "no coordinate has a frequency of its own");
+        for (size_t k = 0; k < count && finding->term == GM_NO_NODE; k++) {
+            finding->term = depends(system, terms[k].node, q) ? terms[k].node : GM_NO_NODE;
+            finding->why = finding->term == GM_NO_NODE ? finding->why : NULL;
+        }
+    } else if (!graph->failed) {
+        forces_of(system, slow, q, nodes + half);
+        for (size_t i = 0; i < half; i++) {
+            nodes[i] =
+                squares[i] == zero ? zero : gm_simplified(&system->graph, GM_OPERATION_SQRT, squares[i], 0);
+            nodes[half + i] = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, nodes[half + i], rest[i]);
+        }
+        finding->nodes = nodes;
+    }
+    free(terms);
+    free(wells);
+    free(values);
+    free(squares);
+}
+
+/* One term is -1/|q|; the others are the perturbation. */
+static void find_kepler_split(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
+                              gm_node_id *nodes, const bool *q, const bool *all)
+{
+    size_t count = 0;
+    struct term *terms = terms_of(system, potential, all, &count);
+    const gm_node_id x = gm_formula_variable(&system->graph, 0), y = gm_formula_variable(&system->graph, 1);
+    const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_ADD,
+                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, x, x),
+                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, y, y));
+    const gm_node_id inverse =
+        gm_simplified(&system->graph, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
+                      gm_simplified(&system->graph, GM_OPERATION_SQRT, square, 0));
+    gm_node_id perturbation = gm_formula_constant(&system->graph, 0), other = GM_NO_NODE;
+    bool found = false;
+    for (size_t k = 0; k < count && !system->graph.failed; k++) {
+        const gm_node_id term =
+            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node);
+        const bool held = depends(system, terms[k].node, q);
+        const enum gm_identity is_kepler =
+            found || !held || k >= MOST_TRIED
+                ? GM_NOT_ZERO
+                : gm_equations_vanishes(system,
+                                        gm_simplified(&system->graph, GM_OPERATION_ADD, term, inverse));
+        if (is_kepler == GM_ZERO_PROVED || is_kepler == GM_ZERO_TESTED) {
+            conclude(finding, is_kepler);
+            found = true;
+        } else {
+            perturbation = gm_simplified(&system->graph, GM_OPERATION_ADD, perturbation, term);
+            other = held && other == GM_NO_NODE ? terms[k].node : other;
+        }
+    }
+    nodes[0] = potential;
+    forces_of(system, perturbation, q, nodes + 1);
+    double *values = system->graph.failed ? NULL : values_at_start(system);
+    if (!found) {
+        deny(finding, other, other == GM_NO_NODE ? "there is no -1/|q|" : NULL);
+    } else if (values && !(values[potential] < 0)) {
+        deny(finding, GM_NO_NODE, "the potential is not negative at the start");
+    }
+    finding->nodes = nodes;
+    free(values);
+    free(terms);
+}
+
+/* V, V', V'' */
+static void find_one_degree(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
+                            gm_node_id *nodes, const bool *q)
+{
+    nodes[0] = potential;
+    nodes[1] = slope_of(system, nodes[0], q, 0);
+    nodes[2] = slope_of(system, nodes[1], q, 0);
+    finding->nodes = nodes;
+}
+
+/* Every force is -c p: c from the first one, by the derivatives of force and momentum. */
+static void find_conformal(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
+                           const bool *all, bool *own)
+{
+    static const char changes[] = "is not a constant multiple of the momentum";
+    const size_t half = system->n / 2;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    const size_t first = lagrangian ? system->velocities : half;
+    for (size_t i = 0; i < half; i++) {
+        finding->asked |= system->variables[i].force != GM_NO_NODE;
+    }
+    for (size_t i = 0; i < half && finding->asked && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id written = system->variables[i].force;
+        const gm_node_id p = lagrangian ? system->momenta[i] : gm_formula_variable(&system->graph, first + i);
+        gm_node_id force = written;
+        if (force == GM_NO_NODE) {
+            deny(finding, GM_NO_NODE, "no force acts");
+            finding->component = half + i;
+            break;
+        }
+        if (lagrangian) {
+            gm_equations_in_velocities(system, &force, 1);
+        }
+        if (i == 0) {
+            own[first] = true;
+            nodes[0] = gm_simplified(&system->graph, GM_OPERATION_NEGATE,
+                                     gm_simplified(&system->graph, GM_OPERATION_DIVIDE,
+                                                   slope_of(system, force, own, first),
+                                                   slope_of(system, p, own, first)),
+                                     0);
+            own[first] = false;
+        }
+        const gm_node_id rest =
+            gm_simplified(&system->graph, GM_OPERATION_ADD, force,
+                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, nodes[0], p));
+        conclude(finding, gm_equations_vanishes(system, rest));
+        own[system->n] = true;
+        const bool varies = depends(system, nodes[0], all) || depends(system, nodes[0], own);
+        own[system->n] = false;
+        if (!finding->holds || varies) {
+            deny(finding, written, i == 0 ? changes : NULL);
+        }
+    }
+    finding->nodes = finding->holds ? nodes : NULL;
+}
+
+/* The facets of H = |p|^2/2 + V(q), and of its Lagrangian. */
+static void find_mechanical(struct gm_user_system *system, struct gm_finding *findings, gm_node_id *nodes,
+                            const bool *q, const bool *all, bool *own)
+{
+    struct gm_finding common = findings[GM_FACT_SEPARABLE];
+    const size_t n = system->n;
+    const bool canonical = system->kind == GM_CANONICAL;
+    const bool holds = is_of_unit_mass(system, findings, &common, all, own);
+    const gm_node_id potential = holds ? potential_of(system) : GM_NO_NODE;
+    static const enum gm_fact facts[] = {GM_FACT_FAST_LINEAR, GM_FACT_KEPLER_SPLIT, GM_FACT_LAGRANGIAN};
+    for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
+        findings[facts[i]] = common;
+    }
+    findings[GM_FACT_FAST_LINEAR].asked = canonical;
+    findings[GM_FACT_KEPLER_SPLIT].asked = canonical && n == 4;
+    findings[GM_FACT_LAGRANGIAN].asked = n == 2;
+    if (holds && canonical) {
+        find_fast_linear(system, &findings[GM_FACT_FAST_LINEAR], potential, nodes, q, all, own);
+    }
+    if (holds && canonical && n == 4) {
+        find_kepler_split(system, &findings[GM_FACT_KEPLER_SPLIT], potential, nodes + n, q, all);
+    }
+    if (holds && n == 2) {
+        find_one_degree(system, &findings[GM_FACT_LAGRANGIAN], potential, nodes + n + 3, q);
+    }
+    double *values = holds && !system->graph.failed ? values_at_start(system) : NULL;
+    for (size_t i = 0; i < sizeof facts / sizeof *facts && values && !system->graph.failed; i++) {
+        struct gm_finding *finding = &findings[facts[i]];
+        const size_t count = facts[i] == GM_FACT_FAST_LINEAR ? n : 3;
+        for (size_t k = 0; k < count && finding->asked && finding->holds; k++) {
+            if (!isfinite(values[finding->nodes[k]])) { /* p^3/p at rest */
+                deny(finding, GM_NO_NODE, "it cannot be taken apart as it is written");
+            }
+        }
+    }
+    free(values);
+}
+
+static void find_of_rates(struct gm_user_system *system, struct gm_finding *findings, const bool *components,
+                          bool *own)
+{
+    struct gm_finding *quadratic = &findings[GM_FACT_QUADRATIC], *volume = &findings[GM_FACT_VOLUME],
+                      *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
+    const bool *const thrice[] = {components, components, components}, *const once[] = {own};
+    gm_node_id sum = gm_formula_constant(&system->graph, 0);
+    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
+    quadratic->asked = volume->asked = divergence->asked = true;
+    for (size_t i = 0; gradient && i < system->n && !system->graph.failed; i++) {
+        const gm_node_id rate = system->rates[i];
+        if (quadratic->holds) {
+            conclude(quadratic, vanishes(system, rate, thrice, 3));
+            quadratic->component = i;
+            quadratic->term = quadratic->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, 3);
+        }
+        own[i] = true;
+        if (!depends(system, rate, own)) { /* of most rates, and what follows takes longer */
+            own[i] = false;
+            continue;
+        }
+        if (volume->holds) {
+            conclude(volume, vanishes(system, rate, once, 1));
+            volume->component = i;
+            volume->term = volume->holds ? GM_NO_NODE : culprit(system, rate, components, once, 1);
+        }
+        if (gm_gradient(&system->graph, rate, own, system->variable_count, gradient)) {
+            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum, gradient[i]);
+        }
+        own[i] = false;
+    }
+    system->graph.failed |= !gradient;
+    free(gradient);
+    conclude(divergence, gm_equations_vanishes(system, sum));
+    divergence->term = divergence->holds ? GM_NO_NODE : sum;
+}
+
+/* Whether equations hold the time, or an operation that is not smooth: one look at all of them. */
+static bool has_remarkable(struct gm_user_system *system)
+{
+    gm_node_id *roots = malloc((system->n + 1) * sizeof *roots);
+    size_t count = 0, part_count = 0;
+    for (size_t i = 0; roots && i < system->n; i++) {
+        if (system->rates[i] != GM_NO_NODE) {
+            roots[count++] = system->rates[i];
+        }
+    }
+    if (roots && system->kind != GM_RATES) {
+        roots[count++] = system->energy;
+    }
+    gm_node_id *parts = roots ? gm_formula_parts_of(&system->graph, roots, count, &part_count) : NULL;
+    bool found = false;
+    for (size_t k = 0; parts && k < part_count && !found; k++) {
+        const struct gm_node *node = &system->graph.nodes[parts[k]];
+        found = node->operation > GM_VARIABLE ? !gm_operation_rows[node->operation].smooth
+                                              : node->operation == GM_VARIABLE && node->a == system->n;
+    }
+    system->graph.failed |= !parts;
+    free(roots);
+    free(parts);
+    return found;
+}
+
+/* Of all that the equations are made of, the first node of a kind; one that was written before one that was
+   derived. */
+static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
+{
+    struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
+    smooth->asked = autonomous->asked = true;
+    const bool remarkable = has_remarkable(system);
+    for (size_t i = 0; i <= system->n && remarkable && !system->graph.failed; i++) {
+        const gm_node_id root = i < system->n ? system->rates[i] : system->energy;
+        if (root == GM_NO_NODE || (i == system->n && system->kind == GM_RATES)) {
+            continue;
+        }
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, root, &count);
+        for (size_t k = 0; k < count; k++) {
+            const struct gm_node *node = &system->graph.nodes[parts[k]];
+            if (node->operation > GM_VARIABLE && !gm_operation_rows[node->operation].smooth &&
+                (smooth->holds || smooth->term > parts[k])) {
+                *smooth = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
+            }
+            if (node->operation == GM_VARIABLE && node->a == system->n && autonomous->holds) {
+                *autonomous = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
+            }
+        }
+        system->graph.failed |= !parts;
+        free(parts);
+    }
+}
+
+bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])
+{
+    const size_t half = system->n / 2, count = system->variable_count;
+    bool *marks = calloc(5 * count, sizeof *marks);
+    gm_node_id *nodes = system->facets ? system->facets : malloc((system->n + 7) * sizeof *nodes);
+    for (size_t i = 0; i < GM_FACTS; i++) {
+        findings[i] = (struct gm_finding){
+            .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
+    }
+    system->facets = nodes;
+    if (!marks || !nodes) {
+        free(marks);
+        return false;
+    }
+    bool *q = marks, *p = q + count, *components = p + count, *all = components + count, *own = all + count;
+    const size_t moving = system->kind == GM_LAGRANGIAN ? system->velocities : half;
+    for (size_t i = 0; i < system->n; i++) {
+        q[i] = i < half;
+        components[i] = all[i] = true;
+    }
+    for (size_t i = 0; i < half && system->kind <= GM_LAGRANGIAN; i++) {
+        p[moving + i] = all[moving + i] = true;
+    }
+    find_of_parts(system, findings);
+    if (system->kind <= GM_LAGRANGIAN) {
+        find_split(system, findings, q, p, all);
+        find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
+        find_mechanical(system, findings, nodes + 1, q, all, own);
+    }
+    if (system->kind != GM_LAGRANGIAN && !is_held(system)) { /* else the rates are not all of the motion */
+        find_of_rates(system, findings, components, own);
+    }
+    free(marks);
+    return !system->graph.failed;
+}
+
+/* Where a term was written, or, of an equation that was derived, what it came from; "" where nobody knows. */
+static void write_place(const struct gm_user_system *system, gm_node_id term, bool derived, char *text,
+                        size_t size)
+{
+    derived = derived && system->graph.origins[term] != GM_NO_PLACE;
+    const uint32_t place = derived ? system->graph.origins[term] : gm_formula_origin(&system->graph, term);
+    text[0] = '\0';
+    if (place != GM_NO_PLACE && !system->typed) {
+        size_t line, column;
+        gm_text_place(system->source, place, &line, &column);
+        derived |= system->graph.places[term] == GM_NO_PLACE;
+        snprintf(text, size, " (%sline %zu, column %zu)", derived ? "from " : "", line, column);
+    }
+}
+
+char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, const struct gm_finding *finding)
+{
+    char *reason = NULL, *text = NULL;
+    int made = -1;
+    if (finding->holds) {
+        made = asprintf(&reason, "%s%s", rows[fact].yes,
+                        finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
+        return made < 0 ? NULL : reason;
+    }
+    const bool in_rate = finding->component < system->n && fact != GM_FACT_DIVERGENCE_FREE;
+    const char *where = in_rate ? ", in the rate of " : "",
+               *component = in_rate ? system->variables[finding->component].name : "",
+               *why = finding->why ? finding->why : rows[fact].no;
+    if (finding->term == GM_NO_NODE) {
+        made = asprintf(&reason, "%s%s%s", why, where, component);
+    } else {
+        struct gm_naming naming = gm_system_naming(system);
+        naming.part = NULL; /* written out: it is what is in it that matters */
+        text = gm_formula_text(&system->graph, finding->term, &naming);
+        char place[80];
+        write_place(system, finding->term, in_rate && system->kind != GM_RATES, place, sizeof place);
+        made = asprintf(&reason, "%s%s %s%s%s", text ? text : "a long term", place, why, where, component);
+    }
+    free(text);
+    return made < 0 ? NULL : reason;
+}

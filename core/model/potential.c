@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What follows from the formulas of a wave equation, u_tt = u_xx - V'(u): the derivatives of V, and the field at the
+   start with its own. */
+#include "core/model/potential.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The degree of a formula as a polynomial in variable 0; INFINITY where it is not written as one, or there is no
+   memory to tell. */
+static double degree_of(const struct gm_formula *graph, gm_node_id formula)
+{
+    double *degrees = malloc((formula + (size_t)1) * sizeof *degrees), degree = INFINITY;
+    for (gm_node_id i = 0; degrees && i <= formula; i++) {
+        const struct gm_node *node = &graph->nodes[i];
+        if (node->operation == GM_CONSTANT || node->operation == GM_VARIABLE) {
+            degrees[i] = node->operation == GM_VARIABLE && node->a == 0;
+            continue;
+        }
+        const double a = degrees[node->a],
+                     b = gm_operation_rows[node->operation].arity == 2 ? degrees[node->b] : 0;
+        switch (node->operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            degrees[i] = fmax(a, b);
+            break;
+        case GM_OPERATION_NEGATE:
+            degrees[i] = a;
+            break;
+        case GM_OPERATION_MULTIPLY:
+            degrees[i] = a + b;
+            break;
+        case GM_OPERATION_WHOLE_POWER:
+            degrees[i] = a == 0                            ? 0
+                         : graph->nodes[node->b].value > 0 ? a * graph->nodes[node->b].value
+                                                           : INFINITY;
+            break;
+        case GM_OPERATION_DIVIDE:
+            degrees[i] = b == 0 ? a : INFINITY;
+            break;
+        default:
+            degrees[i] = a + b == 0 ? 0 : INFINITY;
+        }
+    }
+    if (degrees) {
+        degree = degrees[formula];
+    }
+    free(degrees);
+    return degree;
+}
+
+/* The derivative of a node over one variable. */
+static gm_node_id over(struct gm_user_system *system, gm_node_id node, size_t variable)
+{
+    gm_node_id *direction = malloc((system->variable_count + 1) * sizeof *direction), result = GM_NO_NODE;
+    for (size_t i = 0; direction && i < system->variable_count; i++) {
+        direction[i] = gm_formula_constant(&system->graph, i == variable);
+    }
+    if (direction && node != GM_NO_NODE) {
+        result = gm_derivative_along(&system->graph, node, direction, system->variable_count);
+    }
+    system->graph.failed |= result == GM_NO_NODE;
+    free(direction);
+    return result;
+}
+
+/* With u at the start, f = V'(u), f' = V'', f'' = V''':
+       u_tt   = u_xx - f
+       u_ttt  = (u_t)_xx - f' u_t
+       u_tttt = (u_tt)_xx - f'' u_t^2 - f' u_tt */
+static void derive_start(struct gm_user_wave *wave, struct gm_user_system *system)
+{
+    enum { U, U_T, F = 0, F1, F2 };
+    const size_t x = system->velocities;
+    gm_node_id *at = wave->start,
+               force[GM_TYPED_DERIVATIVES] = {wave->by_u[F], wave->by_u[F1], wave->by_u[F2]}, u[1];
+    u[0] = at[0] = system->variables[U].start;
+    at[1] = system->variables[U_T].start;
+    if (system->graph.failed || !gm_formula_substitute(&system->graph, force, GM_TYPED_DERIVATIVES, u, 1)) {
+        system->graph.failed = true;
+        return;
+    }
+    for (size_t k = 2; k < GM_TYPED_START && !system->graph.failed; k++) {
+        const gm_node_id bend = over(system, over(system, at[k - 2], x), x);
+        gm_node_id rate = force[F];
+        if (k > 2) {
+            rate = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
+        }
+        if (k == 4) {
+            const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, at[1], at[1]);
+            rate = gm_simplified(&system->graph, GM_OPERATION_ADD, rate,
+                                 gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F2], square));
+        }
+        at[k] = system->graph.failed ? GM_NO_NODE
+                                     : gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, bend, rate);
+    }
+}
+
+bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *system)
+{
+    *wave = (struct gm_user_wave){.system = system, .exact = system->variables[0].exact};
+    gm_node_id last = system->energy;
+    for (size_t k = 0; k < GM_TYPED_DERIVATIVES; k++) {
+        last = wave->by_u[k] = over(system, last, 0);
+    }
+    wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->by_u[0]);
+    wave->start_slope = over(system, system->variables[0].start, system->velocities);
+    if (!system->graph.failed) {
+        derive_start(wave, system);
+    }
+    return !system->graph.failed && gm_system_place(system, wave->start, GM_TYPED_START) &&
+           gm_system_place(system, &wave->start_slope, 1) &&
+           (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1));
+}

@@ -1,0 +1,747 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads systems: lines, then what they declare, then what they say of it. */
+#include "core/model/reader.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/number.h"
+#include "core/model/declarations.h"
+
+static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_system_line *line,
+                                       struct gm_span name)
+{
+    struct gm_user_system *system = reading->system;
+    if (!gm_reading_reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items)) {
+        return NULL;
+    }
+    struct gm_system_item *item = &system->items[system->item_count];
+    *item = (struct gm_system_item){
+        .word = line->word, .place = line->value.begin, .name = gm_reading_text(reading, name)};
+    system->item_count += item->name != NULL;
+    return item->name ? item : NULL;
+}
+
+static bool add_node(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node)
+{
+    if (!gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes)) {
+        return false;
+    }
+    item->nodes[item->count++] = node;
+    return true;
+}
+
+static bool add_formula(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
+{
+    gm_node_id node;
+    return gm_reading_formula(reading, span, &node) && add_node(reading, item, node);
+}
+
+/* formulas that are separated by commas */
+static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
+{
+    struct gm_span piece;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        add_formula(reading, item, piece);
+    }
+    return !reading->fault.failed;
+}
+
+/* where a component keeps what a line assigns to it */
+static bool assign(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
+                   gm_node_id node, void *data)
+{
+    struct gm_user_system *system = reading->system;
+    const enum gm_system_word word = *(const enum gm_system_word *)data;
+    const bool is_velocity =
+        entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
+    if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
+        return gm_fail_first(&reading->fault, target->name.begin, "%.*s is no component",
+                             (int)(entry->length < 60 ? entry->length : 60), entry->name);
+    }
+    struct gm_system_variable *variable =
+        &system->variables[(is_velocity ? system->velocities : 0) + entry->number];
+    gm_node_id *place = word == GM_WORD_START   ? &variable->start
+                        : word == GM_WORD_FORCE ? &variable->force
+                        : word == GM_WORD_EXACT ? &variable->exact
+                        : word == GM_WORD_JUMP  ? &variable->jump
+                                                : &system->rates[entry->number];
+    if (word == GM_WORD_FORCE && entry->number >= system->n / 2) {
+        return gm_fail_first(&reading->fault, target->name.begin, "a force acts on a coordinate, not on %s",
+                             variable->name);
+    }
+    if (*place != GM_NO_NODE) {
+        return gm_fail_first(&reading->fault, target->name.begin, "%s: %s is said twice",
+                             gm_system_words[word].word, variable->name);
+    }
+    *place = node;
+    variable->start_place = word == GM_WORD_START ? target->name.begin : variable->start_place;
+    return true;
+}
+
+static bool read_assignments(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    enum gm_system_word word = line->word;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        struct gm_target target;
+        reading->initial = word == GM_WORD_EXACT;
+        if (gm_reading_assignment(reading, piece, &target)) {
+            gm_reading_elements(reading, &target, assign, &word);
+        }
+        reading->initial = false;
+    }
+    return !reading->fault.failed;
+}
+
+/* x y = z */
+static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
+{
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = piece;
+    size_t pair[2];
+    for (int i = 0; i < 2; i++) {
+        struct gm_target target;
+        long index = 0;
+        if (!gm_reading_target(reading, &rest, &target)) {
+            return false;
+        }
+        const bool indexed = target.index.begin < target.index.end;
+        if (indexed && !gm_reading_whole(reading, target.index, &index)) {
+            return false;
+        }
+        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        if (!entry) {
+            return false;
+        }
+        if (entry->role != GM_ENTRY_COMPONENT) {
+            return gm_fail_first(&reading->fault, target.name.begin,
+                                 "a bracket is of two components: bracket: x y = z");
+        }
+        pair[i] = entry->number;
+    }
+    rest = gm_span_trimmed(reading->text, rest);
+    if (rest.begin == rest.end || reading->text[rest.begin] != '=') {
+        return gm_fail_first(&reading->fault, rest.begin, "= was expected");
+    }
+    rest.begin++;
+    gm_node_id node, *entry = &system->bracket[pair[0] * system->n + pair[1]],
+                     *opposite = &system->bracket[pair[1] * system->n + pair[0]];
+    if (pair[0] == pair[1]) {
+        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s with itself is 0",
+                             system->variables[pair[0]].name);
+    }
+    if (!gm_reading_formula(reading, rest, &node)) {
+        return false;
+    }
+    if (*entry != GM_NO_NODE) {
+        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s and %s is said twice",
+                             system->variables[pair[0]].name, system->variables[pair[1]].name);
+    }
+    *entry = node;
+    system->bracket_place = piece.begin;
+    *opposite = gm_simplified(&system->graph, GM_OPERATION_NEGATE, node, node);
+    return true;
+}
+
+static bool read_brackets(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        read_bracket(reading, piece);
+    }
+    return !reading->fault.failed;
+}
+
+static bool generate(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
+                     gm_node_id node, void *data)
+{
+    const struct gm_user_system *system = reading->system;
+    struct gm_system_item *item = data;
+    if (entry->role != GM_ENTRY_COMPONENT || entry->number >= item->count) {
+        return gm_fail_first(&reading->fault, target->name.begin, "a symmetry moves %s, not %.*s",
+                             system->kind <= GM_LAGRANGIAN ? "coordinates" : "components",
+                             (int)(entry->length < 60 ? entry->length : 60), entry->name);
+    }
+    item->nodes[entry->number] = node;
+    return true;
+}
+
+/* symmetry: [name;] x = -y, y = x */
+static bool read_symmetry(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = line->value, name = {0, 0}, piece;
+    if (gm_span_until(reading->text, rest, ";") < rest.end) {
+        gm_span_take(reading->text, &rest, ";", &name);
+    }
+    struct gm_system_item *item = add_item(reading, line, name);
+    const size_t size = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; item && i < size && !reading->fault.failed; i++) {
+        add_node(reading, item, zero);
+    }
+    while (item && !reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        struct gm_target target;
+        if (gm_reading_assignment(reading, piece, &target)) {
+            gm_reading_elements(reading, &target, generate, item);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* An index of a name becomes its last digits: length[2] is length2. */
+static bool number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
+{
+    char *name;
+    long number = 0;
+    if (!gm_reading_whole(reading, index, &number)) {
+        return false;
+    }
+    if (number < 0) {
+        return gm_fail_first(&reading->fault, index.begin, "the index of a name is 0 or more, not %ld",
+                             number);
+    }
+    if (asprintf(&name, "%s%ld", item->name, number) < 0) {
+        return gm_fail_memory(&reading->fault);
+    }
+    free(item->name);
+    item->name = name;
+    return true;
+}
+
+/* NAME = formula; scale 1 */
+static bool read_named(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece, scale;
+    struct gm_target target;
+    gm_span_take(reading->text, &rest, ";", &piece);
+    if (!gm_reading_assignment(reading, piece, &target)) {
+        return false;
+    }
+    const bool indexed = target.index.begin < target.index.end;
+    if (indexed && reading->counter.begin == reading->counter.end) {
+        return gm_fail_first(&reading->fault, target.index.begin, "this name has no index");
+    }
+    struct gm_system_item *item = add_item(reading, line, target.name);
+    if (!item || (indexed && !number_item(reading, item, target.index))) {
+        return false;
+    }
+    const size_t length = strlen(item->name);
+    if (gm_reading_reserves(item->name, length)) {
+        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s is reserved", item->name);
+    }
+    const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
+    if (named && named->place != target.name.begin) {
+        return gm_reading_fail_twice(reading, target.name.begin, named);
+    }
+    if (!(named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value))) {
+        return false;
+    }
+    for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
+        if (strcmp(reading->system->items[i].name, item->name) == 0) {
+            return gm_fail_first(&reading->fault, target.name.begin, "%.60s is said twice", item->name);
+        }
+    }
+    if (gm_span_take(reading->text, &rest, ";", &scale)) {
+        if (line->word == GM_WORD_OBSERVE || scale.end - scale.begin < 7 ||
+            memcmp(reading->text + scale.begin, "scale ", 6) != 0) {
+            return gm_fail_first(&reading->fault, scale.begin,
+                                 line->word == GM_WORD_OBSERVE ? "nothing follows an observable"
+                                                               : "scale was expected, as in \"; scale 1\"");
+        }
+        scale.begin += 6;
+        return gm_reading_number(reading, scale, &item->scale);
+    }
+    return true;
+}
+
+/* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
+static bool read_section(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, where, piece;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &where);
+    if (!item) {
+        return false;
+    }
+    item->periodic = where.end - where.begin > 6 && memcmp(reading->text + where.begin, "every ", 6) == 0;
+    where.begin += item->periodic ? 6 : 0;
+    struct gm_span condition;
+    gm_span_take(reading->text, &where, ",", &condition);
+    if (!item->periodic) {
+        const size_t equals = gm_span_until(reading->text, condition, "=");
+        const struct gm_span right =
+            gm_span_trimmed(reading->text, (struct gm_span){equals + 1, condition.end});
+        if (equals == condition.end || right.end - right.begin != 1 || reading->text[right.begin] != '0') {
+            return gm_fail_first(&reading->fault, condition.begin,
+                                 "a section is where something is 0, x = 0, or every T");
+        }
+        condition.end = equals;
+    }
+    double period = 1;
+    if (!add_formula(reading, item, condition) ||
+        (item->periodic && !gm_reading_number(reading, condition, &period))) {
+        return false;
+    }
+    if (!(period > 0)) {
+        return gm_fail_first(&reading->fault, condition.begin,
+                             "the time between two looks is %g, and has to be above 0", period);
+    }
+    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != 3) {
+        return gm_fail_first(&reading->fault, rest.begin, "a section shows two values: ; x, p_x");
+    }
+    while (!reading->fault.failed && gm_span_take(reading->text, &where, ",", &piece)) {
+        const size_t more = gm_span_until(reading->text, piece, ">"),
+                     less = gm_span_until(reading->text, piece, "<"), sign = more < less ? more : less;
+        if (sign == piece.end) {
+            return gm_fail_first(&reading->fault, piece.begin, "a condition was expected, p_x > 0");
+        }
+        gm_node_id left, right;
+        if (gm_reading_formula(reading, (struct gm_span){piece.begin, sign}, &left) &&
+            gm_reading_formula(reading, (struct gm_span){sign + 1, piece.end}, &right)) {
+            add_node(reading, item,
+                     gm_formula_apply(&reading->system->graph, GM_OPERATION_SUBTRACT,
+                                      sign == more ? left : right, sign == more ? right : left));
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* one body, or both ends of a rod, in two or three dimensions */
+static bool read_view(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    struct gm_span rest = line->value, piece;
+    size_t ends = 0, dimensions = 0;
+    bool equal = true;
+    while (item && !reading->fault.failed && gm_span_take(reading->text, &rest, ";", &piece)) {
+        const size_t before = item->count;
+        add_formulas(reading, item, piece);
+        equal = equal && (ends == 0 || item->count - before == dimensions);
+        dimensions = item->count - before;
+        ends++;
+    }
+    if (!reading->fault.failed &&
+        (!equal || dimensions < 2 || dimensions > 3 || ends != (line->word == GM_WORD_ROD ? 2 : 1))) {
+        return gm_fail_first(&reading->fault, line->value.begin,
+                             line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
+                                                       : "a body stands at two or three coordinates: x, y");
+    }
+    const struct gm_user_system *system = reading->system;
+    for (size_t i = 0; i + 1 < system->item_count && !reading->fault.failed; i++) {
+        const struct gm_system_item *other = &system->items[i];
+        const size_t of_other = other->word == GM_WORD_VIEW  ? other->count
+                                : other->word == GM_WORD_ROD ? other->count / 2
+                                                             : dimensions;
+        if (of_other != dimensions) {
+            return gm_fail_first(&reading->fault, line->value.begin,
+                                 "%zu coordinate%s, and those of the lines before are %zu", dimensions,
+                                 gm_plural((double)dimensions), of_other);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* surface: sphere; r   or   surface: ellipsoid; a, b, c */
+static bool read_surface(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, shape;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &shape);
+    const char *word = reading->text + shape.begin;
+    const size_t length = shape.end - shape.begin;
+    const bool sphere = length == 6 && memcmp(word, "sphere", 6) == 0;
+    if (!item || (!sphere && (length != 9 || memcmp(word, "ellipsoid", 9) != 0))) {
+        return gm_fail_first(&reading->fault, shape.begin,
+                             "a surface is a sphere or an ellipsoid: sphere; 1");
+    }
+    rest = gm_span_trimmed(reading->text, rest);
+    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != (sphere ? 1 : 3)) {
+        return gm_fail_first(&reading->fault, rest.begin,
+                             sphere ? "a sphere has one radius: sphere; 1"
+                                    : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
+    }
+    const gm_node_id radius = item->nodes[0];
+    return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
+}
+
+/* What is seen in space has a camera, whose keys are no names of the system's own; and surfaces are. */
+static bool check_space(struct gm_reading *reading)
+{
+    static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
+    static const char taken[] = "the name %s is reserved: it is how a system in space is looked at";
+    const struct gm_user_system *system = reading->system;
+    bool in_space = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        in_space |= (item->word == GM_WORD_VIEW && item->count == 3) ||
+                    (item->word == GM_WORD_ROD && item->count == 6);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_SURFACE && !in_space) {
+            return gm_fail_first(&reading->fault, item->place,
+                                 "a surface stands in space, among bodies: view: x, y, z");
+        }
+        for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+            if (strcmp(item->name, keys[k]) == 0) {
+                return gm_fail_first(&reading->fault, item->place, taken, keys[k]);
+            }
+        }
+    }
+    for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+        const struct gm_entry *entry = gm_reading_entry(reading, keys[k], strlen(keys[k]), false, 0);
+        if (entry) {
+            return gm_fail_first(&reading->fault, entry->place, taken, keys[k]);
+        }
+    }
+    return true;
+}
+
+static bool read_angles(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    for (struct gm_span rest = gm_span_trimmed(reading->text, line->value);
+         rest.begin < rest.end && !reading->fault.failed; rest = gm_span_trimmed(reading->text, rest)) {
+        struct gm_target target;
+        long index = 0;
+        if (reading->text[rest.begin] == ',') {
+            rest.begin++;
+            continue;
+        }
+        if (!gm_reading_target(reading, &rest, &target)) {
+            return false;
+        }
+        const bool indexed = target.index.begin < target.index.end;
+        if (indexed && !gm_reading_whole(reading, target.index, &index)) {
+            return false;
+        }
+        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        if (!entry) {
+            return false;
+        }
+        if (entry->role != GM_ENTRY_COMPONENT || entry->number >= system->n / 2) {
+            return gm_fail_first(&reading->fault, target.name.begin, "an angle is one of the coordinates");
+        }
+        system->variables[entry->number].angle = true;
+    }
+    return !reading->fault.failed;
+}
+
+/* A number of a ring: half its length, the points of its grid, by how much the field differs at its ends. */
+static bool read_ring(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    static const struct {
+        double low, high;
+        const char *told;
+    } ranges[] = {{0.1, 1e5, "a number from 0.1 to 1e5"},
+                  {3, 1e7, "a whole number from 3 to 1e7"},
+                  {-1e6, 1e6, "a number"}};
+    const size_t row = (size_t)line->word - GM_WORD_HALF_LENGTH;
+    double number;
+    struct gm_system_item *item;
+    if (!gm_reading_number(reading, line->value, &number)) {
+        return false;
+    }
+    if (!(number >= ranges[row].low && number <= ranges[row].high) ||
+        (line->word == GM_WORD_POINTS && number != floor(number))) {
+        return gm_fail_first(&reading->fault, line->value.begin, "%s is %g, and has to be %s",
+                             gm_system_words[line->word].word, number, ranges[row].told);
+    }
+    item = add_item(reading, line, (struct gm_span){0, 0});
+    return item && add_formula(reading, item, line->value);
+}
+
+/* Rows with | between them, and commas between their entries. */
+static bool read_matrix(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    const char *word = gm_system_words[line->word].word;
+    const size_t n = system->n, first = line->word == GM_WORD_K_MATRIX ? 0 : n * n;
+    struct gm_span rest = line->value, row, entry;
+    size_t rows = 0;
+    for (; gm_span_take(reading->text, &rest, "|", &row); rows++) {
+        size_t columns = 0;
+        const size_t begin = row.begin;
+        for (; gm_span_take(reading->text, &row, ",", &entry); columns++) {
+            const size_t at = first + rows * n + columns;
+            if (rows < n && columns < n) {
+                system->matrix_places[at] = entry.begin;
+                if (!gm_reading_formula(reading, entry, &system->matrices[at])) {
+                    return false;
+                }
+            }
+        }
+        if (columns != n) {
+            return gm_fail_first(&reading->fault, begin, "row %zu of %s has %zu entries for %zu components",
+                                 rows + 1, word, columns, n);
+        }
+    }
+    return rows == n || gm_fail_first(&reading->fault, line->value.begin,
+                                      "%s has %zu rows for %zu components", word, rows, n);
+}
+
+/* One of two words. */
+static bool read_choice(struct gm_reading *reading, const struct gm_system_line *line, const char *one,
+                        const char *other)
+{
+    char *text = reading->system->texts[line->word] = gm_reading_text(reading, line->value);
+    return text && (strcmp(text, one) == 0 || strcmp(text, other) == 0 ||
+                    gm_fail_first(&reading->fault, line->value.begin, "%s is %s or %s, not %.60s",
+                                  gm_system_words[line->word].word, one, other, text));
+}
+
+static bool read_what_is_said(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    double number;
+    struct gm_system_item *item;
+    switch (line->word) {
+    case GM_WORD_GEOMINT:
+        return gm_reading_number(reading, line->value, &number) &&
+               (number == 1 || gm_fail_first(&reading->fault, line->value.begin,
+                                             "this program reads files of format 1, not %g", number));
+    case GM_WORD_DT:
+    case GM_WORD_UNTIL:
+    case GM_WORD_STEPS:
+        if (!gm_reading_number(reading, line->value, &number)) {
+            return false;
+        }
+        if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
+            return gm_fail_first(&reading->fault, line->value.begin, "%s is %g, and has to be %s",
+                                 gm_system_words[line->word].word, number,
+                                 line->word == GM_WORD_DT ? "above 0" : "0 or more");
+        }
+        system->texts[line->word] = gm_reading_text(reading, line->value);
+        item = add_item(reading, line, (struct gm_span){0, 0});
+        return item && add_formula(reading, item, line->value);
+    case GM_WORD_TITLE:
+    case GM_WORD_ABOUT:
+    case GM_WORD_WATCH:
+    case GM_WORD_REFERENCE:
+    case GM_WORD_SCHEMES:
+    case GM_WORD_LANES:
+    case GM_WORD_MEMBERS:
+        system->texts[line->word] = gm_reading_text(reading, line->value);
+        return true;
+    case GM_WORD_SPACE:
+        return read_choice(reading, line, "differences", "fourier");
+    case GM_WORD_BOUNDARY:
+        return read_choice(reading, line, "ring", "walls");
+    case GM_WORD_HALF_LENGTH:
+    case GM_WORD_POINTS:
+        return read_ring(reading, line);
+    case GM_WORD_JUMP:
+        return system->kind == GM_MATRICES ? read_assignments(reading, line) : read_ring(reading, line);
+    case GM_WORD_K_MATRIX:
+    case GM_WORD_L_MATRIX:
+        return read_matrix(reading, line);
+    case GM_WORD_HAMILTONIAN:
+    case GM_WORD_LAGRANGE:
+    case GM_WORD_POTENTIAL:
+    case GM_WORD_S_FUNCTION:
+        return gm_reading_formula(reading, line->value, &system->energy);
+    case GM_WORD_RATE:
+    case GM_WORD_START:
+    case GM_WORD_FORCE:
+    case GM_WORD_EXACT:
+        return read_assignments(reading, line);
+    case GM_WORD_BRACKET:
+        return read_brackets(reading, line);
+    case GM_WORD_ANGLE:
+        return read_angles(reading, line);
+    case GM_WORD_INVARIANT:
+    case GM_WORD_CASIMIR:
+    case GM_WORD_OBSERVE:
+        return read_named(reading, line);
+    case GM_WORD_SYMMETRY:
+        return read_symmetry(reading, line);
+    case GM_WORD_SECTION:
+        return read_section(reading, line);
+    case GM_WORD_VIEW:
+    case GM_WORD_ROD:
+        return read_view(reading, line);
+    case GM_WORD_SURFACE:
+        return read_surface(reading, line);
+    case GM_WORD_CONSTRAINT:
+    case GM_WORD_STOP:
+    case GM_WORD_MONITOR:
+    case GM_WORD_MASS:
+        item = add_item(reading, line, (struct gm_span){0, 0});
+        return item && add_formula(reading, item, line->value);
+    default: /* names, which were read before */
+        return true;
+    }
+}
+
+/* i = low .. high; what is said for each i, in turn. A line without a counter is said once. */
+static bool read_counted(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, head;
+    const size_t name = gm_name_length(reading->text + rest.begin, rest.end - rest.begin);
+    long low = 0, high = 0;
+    gm_span_take(reading->text, &rest, ";", &head);
+    const size_t equals = gm_span_until(reading->text, head, "=");
+    const struct gm_span counter = gm_span_trimmed(reading->text, (struct gm_span){head.begin, equals}),
+                         bounds = gm_span_trimmed(reading->text, (struct gm_span){equals + 1, head.end});
+    if (!gm_system_words[line->word].repeated || head.end == line->value.end || equals == head.end ||
+        name == 0 || counter.end != counter.begin + name ||
+        gm_span_until(reading->text, bounds, "..") == bounds.end) {
+        return read_what_is_said(reading, line);
+    }
+    if (gm_reading_entry(reading, reading->text + counter.begin, name, false, 0)) {
+        return gm_fail_first(&reading->fault, counter.begin,
+                             "%.*s is a name of the system: an index is another one",
+                             (int)(name < 60 ? name : 60), reading->text + counter.begin);
+    }
+    if (!gm_reading_bounds(reading, bounds, "values of an index", &low, &high)) {
+        return gm_fail_first(&reading->fault, bounds.begin,
+                             "the bounds of an index were expected, as in i = 1 .. 3");
+    }
+    const struct gm_system_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
+    reading->counter = counter;
+    for (reading->counted = low; reading->counted <= high && !reading->fault.failed; reading->counted++) {
+        read_what_is_said(reading, &one);
+    }
+    reading->counter = (struct gm_span){0, 0};
+    return !reading->fault.failed;
+}
+
+/* Lets give their names to nodes that have none. */
+static bool name_parts(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    system->part_count = system->graph.count;
+    system->parts = calloc(system->part_count + 1, sizeof *system->parts);
+    for (size_t i = 0; system->parts && i < reading->entry_count && !reading->fault.failed; i++) {
+        const struct gm_entry *entry = &reading->entries[i];
+        const struct gm_system_line line = {
+            .word = GM_WORD_LET, .place = entry->place, .value = entry->value};
+        if (entry->role != GM_ENTRY_NAMED) {
+            continue;
+        }
+        struct gm_system_item *item =
+            add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
+        char *element = NULL;
+        if (item && entry->indexed && asprintf(&element, "%s[%ld]", item->name, entry->index) >= 0) {
+            free(item->name);
+            item->name = element;
+        }
+        if (item && add_node(reading, item, entry->node) &&
+            system->graph.nodes[entry->node].operation > GM_VARIABLE) {
+            system->parts[entry->node] = item->name;
+        }
+    }
+    return (system->parts && !reading->fault.failed) || gm_fail_memory(&reading->fault);
+}
+
+enum { MOST_OF_BRACKET = 2000 }; /* a matrix of nodes is made of it */
+
+static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t count)
+{
+    *nodes = malloc((count + 1) * sizeof **nodes);
+    for (size_t i = 0; *nodes && i < count; i++) {
+        (*nodes)[i] = GM_NO_NODE;
+    }
+    return *nodes || gm_fail_memory(&reading->fault);
+}
+
+static bool is_complete(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
+    const struct gm_system_line *start = gm_reading_line(reading, GM_WORD_START);
+    for (size_t i = 0; i < system->n && rates; i++) {
+        if (system->rates[i] == GM_NO_NODE) {
+            return gm_fail_first(&reading->fault, gm_reading_line(reading, GM_WORD_RATE)->value.begin,
+                                 "there is no rate of %s", system->variables[i].name);
+        }
+    }
+    for (size_t i = 0; i < system->n * system->n && system->kind == GM_POISSON; i++) {
+        system->bracket[i] = system->bracket[i] == GM_NO_NODE ? zero : system->bracket[i];
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        const bool by_velocity =
+            system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
+            system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
+        if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
+            return gm_fail_first(&reading->fault, start ? start->value.begin : reading->length,
+                                 "%s has no value at the start", system->variables[i].name);
+        }
+        if (system->variables[i].start != GM_NO_NODE && by_velocity) {
+            return gm_fail_first(&reading->fault, start->value.begin,
+                                 "%s and its velocity are both given at the start",
+                                 system->variables[i].name);
+        }
+    }
+    return true;
+}
+
+static bool read_system(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    if (reading->length > GM_LARGEST_SYSTEM) {
+        return gm_fail_first(&reading->fault, 0, "a system has at most 100 MB");
+    }
+    struct gm_fault fault;
+    if (!gm_lines_are_text(reading->text, reading->length, &fault)) {
+        return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    }
+    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_parameters(reading) ||
+        !gm_declared_state(reading) || !gm_declared_relations(reading) ||
+        !all_nodes(reading, &system->rates, system->n)) {
+        return false;
+    }
+    if (system->kind == GM_POISSON) {
+        const struct gm_system_line *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
+        if (system->n > MOST_OF_BRACKET) {
+            return gm_fail_first(&reading->fault, components ? components->value.begin : 0,
+                                 "a system with a bracket has at most %d components", MOST_OF_BRACKET);
+        }
+        if (!all_nodes(reading, &system->bracket, system->n * system->n)) {
+            return false;
+        }
+    }
+    if (system->kind == GM_MATRICES) {
+        system->matrix_places = calloc(2 * system->n * system->n, sizeof *system->matrix_places);
+        if (!system->matrix_places || !all_nodes(reading, &system->matrices, 2 * system->n * system->n)) {
+            return gm_fail_memory(&reading->fault);
+        }
+    }
+    if (!gm_declared_lets(reading)) {
+        return false;
+    }
+    for (size_t i = 0; i < reading->line_count; i++) {
+        if (!read_counted(reading, &reading->lines[i])) {
+            return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
+        }
+    }
+    return check_space(reading) && is_complete(reading) && name_parts(reading);
+}
+
+bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
+                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    struct gm_reading reading = {.system = system,
+                                 .text = text,
+                                 .length = length,
+                                 .values = values,
+                                 .value_count = count,
+                                 .fault = {.fault = fault}};
+    *system = (struct gm_user_system){0};
+    *fault = (struct gm_fault){0};
+    gm_formula_open(&system->graph);
+    system->source = length <= GM_LARGEST_SYSTEM ? malloc(length + 1) : NULL;
+    if (system->source) {
+        memcpy(system->source, text, length);
+        system->source[length] = '\0';
+        system->length = length;
+    }
+    const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
+    gm_reading_close(&reading);
+    return good;
+}

@@ -1,0 +1,601 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lines of a system, the names in them, and formulas that hold such names. */
+#include "core/model/scope.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/nearest.h"
+
+enum {
+    ONCE = 0,
+    OFTEN = 1,
+    CANONICAL = 1 << GM_CANONICAL,
+    LAGRANGIAN = 1 << GM_LAGRANGIAN,
+    RATES = 1 << GM_RATES,
+    POISSON = 1 << GM_POISSON,
+    FIELD = 1 << GM_FIELD,
+    EVOLUTION = 1 << GM_EVOLUTION,
+    MATRICES = 1 << GM_MATRICES,
+    LINE = FIELD | EVOLUTION | MATRICES,
+    MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
+    ANY = MOTION | LINE
+};
+
+const struct gm_system_word_row gm_system_words[GM_WORDS] = {
+#define GM_WORD(constant, word, often, kinds) {word, often, kinds},
+#include "core/model/words.def"
+#undef GM_WORD
+};
+
+void gm_reading_close(struct gm_reading *reading)
+{
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        free(reading->entries[i].name);
+    }
+    free(reading->lines);
+    free(reading->entries);
+    free(reading->table);
+}
+
+bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
+{
+    if ((count & (count - 1)) == 0) {
+        void *more = realloc(*array, (count ? 2 * count : 1) * size);
+        if (!more) {
+            return gm_fail_memory(&reading->fault);
+        }
+        *array = more;
+    }
+    return true;
+}
+
+static const char *word_at(size_t i, const void *data)
+{
+    (void)data;
+    return gm_system_words[i].word;
+}
+
+bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first)
+{
+    if (!reading->fault.failed) {
+        gm_fail_first(&reading->fault, place, "%.60s is defined twice", first->name);
+        reading->fault.fault->earlier = first->place;
+    }
+    return false;
+}
+
+static bool read_line(struct gm_reading *reading, const struct gm_text_line *text_line)
+{
+    const size_t place = text_line->word.begin, letters = text_line->word.end - place;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), reading->text + place);
+    enum gm_system_word word = 0;
+    while (word < GM_WORDS && strcmp(gm_system_words[word].word, name) != 0) {
+        word++;
+    }
+    if (word == GM_WORDS) {
+        const char *near = gm_nearest(name, GM_WORDS, word_at, NULL);
+        return gm_fail_first(&reading->fault, place, "a system has no line \"%s\"%s%s", name,
+                             near ? "; did you mean " : "", near ? near : "");
+    }
+    for (size_t i = 0; i < reading->line_count && !gm_system_words[word].repeated; i++) {
+        if (reading->lines[i].word == word) {
+            return gm_fail_first(&reading->fault, place, "%s is said twice", name);
+        }
+    }
+    if (!gm_reading_reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
+        return false;
+    }
+    const struct gm_span value = text_line->value;
+    reading->lines[reading->line_count++] = (struct gm_system_line){word, place, value};
+    return value.begin < value.end ||
+           gm_fail_first(&reading->fault, place + letters + 1, "%s: says nothing", name);
+}
+
+bool gm_reading_lines(struct gm_reading *reading)
+{
+    struct gm_text_line line;
+    struct gm_fault fault;
+    for (size_t at = 0; gm_lines_next(reading->text, reading->length, &at, &line, &fault);) {
+        if (!read_line(reading, &line)) {
+            return false;
+        }
+    }
+    return !fault.sentence[0] || gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+}
+
+char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
+{
+    char *text = gm_span_words(reading->text, span);
+    if (!text) {
+        gm_fail_memory(&reading->fault);
+    }
+    return text;
+}
+
+static uint32_t *slot_of(const struct gm_reading *reading, const char *name, size_t length, bool indexed,
+                         long index)
+{
+    uint64_t hash = indexed ? (uint64_t)index * 2 + 1 : 0;
+    for (size_t i = 0; i < length; i++) {
+        hash = (hash ^ (unsigned char)name[i]) * UINT64_C(0x100000001b3);
+    }
+    hash ^= hash >> 29;
+    for (size_t slot = (size_t)hash & (reading->slots - 1);; slot = (slot + 1) & (reading->slots - 1)) {
+        const uint32_t number = reading->table[slot];
+        const struct gm_entry *entry = number ? &reading->entries[number - 1] : NULL;
+        if (!entry || (entry->length == length && entry->indexed == indexed && entry->index == index &&
+                       memcmp(entry->name, name, length) == 0)) {
+            return &reading->table[slot];
+        }
+    }
+}
+
+struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,
+                                  bool indexed, long index)
+{
+    const uint32_t number =
+        reading->slots ? *slot_of(reading, name, length, indexed, indexed ? index : 0) : 0;
+    return number ? &reading->entries[number - 1] : NULL;
+}
+
+/* Any element of a list of that name. */
+static const struct gm_entry *list_of(const struct gm_reading *reading, const char *name, size_t length,
+                                      long *low, long *high)
+{
+    const struct gm_entry *found = NULL;
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        const struct gm_entry *entry = &reading->entries[i];
+        if (entry->indexed && entry->length == length && memcmp(entry->name, name, length) == 0) {
+            *low = found && *low < entry->index ? *low : entry->index;
+            *high = found && *high > entry->index ? *high : entry->index;
+            found = entry;
+        }
+    }
+    return found;
+}
+
+bool gm_reading_reserves(const char *name, size_t length)
+{
+    /* keys of a command line, and columns of tables */
+    static const char *const reserved[] = {
+        "dt",      "until",   "steps",     "scheme", "schemes",     "zip",    "overlay",
+        "equal",   "show",    "members",   "t",      "lane",        "meta",   "compensated",
+        "binding", "tau0",    "tolerance", "spread", "scene",       "status", "evaluations",
+        "solves",  "seconds", "stopped",   "shape",  "newmark_beta"};
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
+        if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
+            return true;
+        }
+    }
+    return gm_formula_reserves(name, length);
+}
+
+/* keys of a ring */
+static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
+{
+    static const char *const keys[] = {"half_length", "points", "space", "boundary"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system); i++) {
+        if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The place in a field, where it is not the program's own */
+static bool is_place(const struct gm_reading *reading, const struct gm_entry *entry)
+{
+    return gm_system_is_field(reading->system) && entry->role != GM_ENTRY_VELOCITY && entry->length == 1 &&
+           entry->name[0] == 'x';
+}
+
+bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
+{
+    const int brief = (int)(entry.length < 60 ? entry.length : 60);
+    if (is_place(reading, &entry)) {
+        return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
+    }
+    if (is_of_ring(reading, &entry) ||
+        (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
+        return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);
+    }
+    if (reading->entry_count == reading->entry_capacity) {
+        const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;
+        struct gm_entry *more = realloc(reading->entries, capacity * sizeof *more);
+        reading->entries = more ? more : reading->entries;
+        uint32_t *table = calloc(4 * capacity, sizeof *table);
+        if (!more || !table) {
+            free(table);
+            return gm_fail_memory(&reading->fault);
+        }
+        free(reading->table);
+        reading->table = table;
+        reading->entry_capacity = capacity;
+        reading->slots = 4 * capacity;
+        for (size_t i = 0; i < reading->entry_count; i++) {
+            *slot_of(reading, more[i].name, more[i].length, more[i].indexed, more[i].index) = (uint32_t)i + 1;
+        }
+    }
+    const struct gm_entry *other = gm_reading_entry(reading, entry.name, entry.length, !entry.indexed, 0);
+    uint32_t *slot = slot_of(reading, entry.name, entry.length, entry.indexed, entry.index);
+    long low = 0, high = 0;
+    if (*slot) {
+        other = &reading->entries[*slot - 1];
+    } else if (!entry.indexed) {
+        other = list_of(reading, entry.name, entry.length, &low, &high);
+    }
+    if (other) {
+        return gm_reading_fail_twice(reading, entry.place, other);
+    }
+    char *name = strndup(entry.name, entry.length);
+    if (!name) {
+        return gm_fail_memory(&reading->fault);
+    }
+    entry.name = name;
+    reading->entries[reading->entry_count] = entry;
+    *slot = (uint32_t)++reading->entry_count;
+    return true;
+}
+
+static const char *known(size_t i, const void *data)
+{
+    const struct gm_reading *reading = data;
+    return i < reading->entry_count ? reading->entries[i].name : NULL;
+}
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    struct gm_reading *reading = data;
+    struct gm_user_system *system = reading->system;
+    const int brief = (int)(name->length < 60 ? name->length : 60);
+    const bool fixed = name->fixed || reading->fixed;
+    struct gm_entry *entry = gm_reading_entry(reading, name->text, name->length, name->indexed, name->index);
+    if (!entry) {
+        long low = 0, high = 0;
+        const bool is_scalar = gm_reading_entry(reading, name->text, name->length, false, 0) != NULL;
+        const bool is_list = list_of(reading, name->text, name->length, &low, &high) != NULL;
+        if (name->indexed && is_list) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s[%ld] lies outside of %.*s[%ld] .. %.*s[%ld]", brief,
+                     name->text, name->index, brief, name->text, low, brief, name->text, high);
+        } else if (is_list) {
+            snprintf(sentence, GM_FAULT_SENTENCE,
+                     "%.*s is a list: an index was expected, %.*s[%ld] .. %.*s[%ld]", brief, name->text,
+                     brief, name->text, low, brief, name->text, high);
+        } else if (is_scalar) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no list", brief, name->text);
+        } else {
+            return GM_UNKNOWN;
+        }
+        return GM_REFUSED;
+    }
+    if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
+        (name->initial && entry->role != GM_ENTRY_COMPONENT)) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no %s", brief, name->text,
+                 fixed ? "parameter: its value is not known here"
+                       : "component: it has no value at the start");
+        return GM_REFUSED;
+    }
+    if (!entry->read && (entry->role >= GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
+        reading->wanted = (uint32_t)(entry - reading->entries);
+        return GM_POSTPONED;
+    }
+    switch (entry->role) {
+    case GM_ENTRY_NAMED:
+    case GM_ENTRY_OBSERVED:
+        *node = entry->node;
+        break;
+    case GM_ENTRY_PARAMETER:
+        if (fixed) {
+            system->variables[system->parameters + entry->number].fixed |= name->fixed || reading->structural;
+            *node = entry->node;
+        } else {
+            *node = gm_formula_variable(&system->graph, system->parameters + entry->number);
+        }
+        break;
+    case GM_ENTRY_COMPONENT:
+        *node = gm_formula_variable(&system->graph, entry->number + (name->initial ? system->initial : 0));
+        break;
+    case GM_ENTRY_TIME:
+        *node = gm_formula_variable(&system->graph, system->n);
+        break;
+    case GM_ENTRY_VELOCITY:
+        *node = gm_formula_variable(&system->graph, system->velocities + entry->number);
+        break;
+    }
+    return GM_KNOWN;
+}
+
+/* One attempt; false without a fault where another name has to be read first. */
+static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                    long element, gm_node_id *node, bool *postponed)
+{
+    struct gm_scope scope = {
+        .find = find, .known = known, .data = reading, .lines = true, .initial = reading->initial};
+    if (bound && bound->begin < bound->end) {
+        scope.indices[scope.index_count++] =
+            (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
+    }
+    if (reading->counter.begin < reading->counter.end) {
+        scope.indices[scope.index_count++] =
+            (struct gm_index){reading->text + reading->counter.begin,
+                              reading->counter.end - reading->counter.begin, reading->counted};
+    }
+    struct gm_fault fault;
+    *postponed = false;
+    if (gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
+        return true;
+    }
+    if (reading->system->graph.failed) {
+        return gm_fail_memory(&reading->fault);
+    }
+    *postponed = fault.sentence[0] == '\0';
+    return *postponed ? false : gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+}
+
+static bool is_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
+{
+    size_t first = 0, used = 0;
+    while (first < depth && stack[first] != reading->wanted) {
+        first++;
+    }
+    if (first == depth) {
+        return false;
+    }
+    char names[200] = "";
+    for (size_t i = first; i < depth && used + 70 < sizeof names; i++) {
+        const struct gm_entry *entry = &reading->entries[stack[i]];
+        used +=
+            (size_t)snprintf(names + used, sizeof names - used, "%s%.*s", i > first ? ", which needs " : "",
+                             (int)(entry->length < 50 ? entry->length : 50), entry->name);
+    }
+    const struct gm_entry *entry = &reading->entries[stack[first]];
+    gm_fail_first(&reading->fault, entry->place,
+                  depth - first == 1 ? "%s needs itself" : "a circle: %s, which needs the first again",
+                  names);
+    return true;
+}
+
+bool gm_reading_define(struct gm_reading *reading, uint32_t number)
+{
+    uint32_t *stack = NULL;
+    size_t depth = 0;
+    if (!gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack)) {
+        return false;
+    }
+    stack[depth++] = number;
+    while (depth > 0 && !reading->fault.failed) {
+        struct gm_entry *entry = &reading->entries[stack[depth - 1]];
+        const bool was_fixed = reading->fixed;
+        const struct gm_span counter = reading->counter;
+        bool postponed = false;
+        gm_node_id node = 0;
+        reading->fixed = entry->role == GM_ENTRY_PARAMETER;
+        reading->counter = (struct gm_span){0, 0};
+        const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
+        reading->fixed = was_fixed;
+        reading->counter = counter;
+        if (good) {
+            entry->node = node;
+            entry->read = true;
+            depth--;
+        } else if (postponed && !is_circle(reading, stack, depth) &&
+                   gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack)) {
+            stack[depth++] = reading->wanted;
+        }
+    }
+    free(stack);
+    return !reading->fault.failed;
+}
+
+bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                      long element, gm_node_id *node)
+{
+    bool postponed = true;
+    while (!reading->fault.failed && postponed) {
+        if (attempt(reading, span, bound, element, node, &postponed)) {
+            return true;
+        }
+        if (postponed) {
+            gm_reading_define(reading, reading->wanted);
+        }
+    }
+    return false;
+}
+
+bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
+{
+    return gm_reading_bound(reading, span, NULL, 0, node);
+}
+
+bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value)
+{
+    gm_node_id node;
+    const bool was_fixed = reading->fixed;
+    reading->fixed = true;
+    const bool good = gm_reading_formula(reading, span, &node);
+    reading->fixed = was_fixed;
+    *value = good ? reading->system->graph.nodes[node].value : NAN;
+    return good;
+}
+
+/* A whole number, on which the graph is built. */
+static bool read_whole(struct gm_reading *reading, struct gm_span span, double *number)
+{
+    reading->structural = true;
+    const bool good = gm_reading_number(reading, span, number);
+    reading->structural = false;
+    return good &&
+           (*number == floor(*number) ||
+            gm_fail_first(&reading->fault, span.begin, "an index has to be a whole number, not %g", *number));
+}
+
+bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *value)
+{
+    double number;
+    if (!read_whole(reading, span, &number)) {
+        return false;
+    }
+    if (fabs(number) > GM_LARGEST_INDEX) {
+        return gm_fail_first(&reading->fault, span.begin, "an index lies between -%d and %d, and this is %g",
+                             GM_LARGEST_INDEX, GM_LARGEST_INDEX, number);
+    }
+    *value = (long)number;
+    return true;
+}
+
+bool gm_reading_target(struct gm_reading *reading, struct gm_span *rest, struct gm_target *target)
+{
+    *rest = gm_span_trimmed(reading->text, *rest);
+    const size_t length = gm_name_length(reading->text + rest->begin, rest->end - rest->begin);
+    *target = (struct gm_target){.name = {rest->begin, rest->begin + length}};
+    if (length == 0) {
+        const char c = rest->begin < rest->end ? reading->text[rest->begin] : '\0';
+        return gm_fail_first(&reading->fault, rest->begin,
+                             c == '\'' || c == '/'
+                                 ? "the left side is a name alone: rate: x = -x gives x' = -x"
+                                 : "a name was expected");
+    }
+    rest->begin += length;
+    *rest = gm_span_trimmed(reading->text, *rest);
+    if (rest->begin < rest->end && reading->text[rest->begin] == '[') {
+        const struct gm_span inside = {rest->begin + 1, rest->end};
+        const size_t close = gm_span_until(reading->text, inside, "]");
+        if (close == rest->end) {
+            return gm_fail_first(&reading->fault, rest->begin, "this bracket is not closed");
+        }
+        target->index = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, close});
+        rest->begin = close + 1;
+        if (target->index.begin == target->index.end) {
+            return gm_fail_first(&reading->fault, close, "an index was expected");
+        }
+    }
+    return true;
+}
+
+bool gm_reading_assignment(struct gm_reading *reading, struct gm_span span, struct gm_target *target)
+{
+    if (!gm_reading_target(reading, &span, target)) {
+        return false;
+    }
+    span = gm_span_trimmed(reading->text, span);
+    if (span.begin == span.end || reading->text[span.begin] != '=') {
+        return gm_fail_first(&reading->fault, span.begin, "= was expected");
+    }
+    target->value = gm_span_trimmed(reading->text, (struct gm_span){span.begin + 1, span.end});
+    return target->value.begin < target->value.end ||
+           gm_fail_first(&reading->fault, span.begin + 1, "a formula was expected");
+}
+
+struct gm_entry gm_reading_entry_for(const struct gm_reading *reading, const struct gm_target *target,
+                                     enum gm_entry_role role)
+{
+    return (struct gm_entry){.name = (char *)reading->text + target->name.begin,
+                             .length = target->name.end - target->name.begin,
+                             .place = target->name.begin,
+                             .role = role,
+                             .value = target->value};
+}
+
+bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const char *what, long *low,
+                       long *high)
+{
+    const size_t dots = gm_span_until(reading->text, span, "..");
+    const struct gm_span last = gm_span_trimmed(reading->text, (struct gm_span){dots + 2, span.end});
+    double first, end;
+    if (dots == span.end || !read_whole(reading, (struct gm_span){span.begin, dots}, &first) ||
+        !read_whole(reading, last, &end)) {
+        return false;
+    }
+    if (end - first >= GM_MOST_COMPONENTS) {
+        return gm_fail_first(&reading->fault, span.begin, "%g .. %g are too many: there are at most %d %s",
+                             first, end, GM_MOST_COMPONENTS, what);
+    }
+    if (end < first - 1) {
+        return gm_fail_first(&reading->fault, span.begin,
+                             "%g .. %g runs downwards: the lower end comes first", first, end);
+    }
+    return gm_reading_whole(reading, (struct gm_span){span.begin, dots}, low) &&
+           gm_reading_whole(reading, last, high);
+}
+
+struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_target *target, long index)
+{
+    const struct gm_name used = {.text = reading->text + target->name.begin,
+                                 .length = target->name.end - target->name.begin,
+                                 .indexed = target->index.begin < target->index.end,
+                                 .index = index};
+    struct gm_entry *entry = gm_reading_entry(reading, used.text, used.length, used.indexed, index);
+    if (entry) {
+        return entry;
+    }
+    gm_node_id node;
+    char sentence[GM_FAULT_SENTENCE] = "", word[64];
+    if (find(reading, &used, &node, sentence) == GM_REFUSED) {
+        gm_fail_first(&reading->fault, target->name.begin, "%s", sentence);
+        return NULL;
+    }
+    snprintf(word, sizeof word, "%.*s", (int)(used.length < 60 ? used.length : 60), used.text);
+    const char *near = gm_nearest(word, reading->entry_count, known, reading);
+    gm_fail_first(&reading->fault, target->name.begin, "there is no name %s%s%s", word,
+                  near ? "; did you mean " : "", near ? near : "");
+    return NULL;
+}
+
+static bool is_same(const struct gm_reading *reading, struct gm_span a, struct gm_span b)
+{
+    return a.end - a.begin == b.end - b.begin &&
+           memcmp(reading->text + a.begin, reading->text + b.begin, a.end - a.begin) == 0;
+}
+
+bool gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
+                         bool (*each)(struct gm_reading *reading, struct gm_entry *entry,
+                                      const struct gm_target *target, gm_node_id node, void *data),
+                         void *data)
+{
+    const char *name = reading->text + target->name.begin;
+    const size_t length = target->name.end - target->name.begin;
+    const int brief = (int)(length < 60 ? length : 60);
+    const size_t letters =
+        gm_name_length(reading->text + target->index.begin, target->index.end - target->index.begin);
+    const bool all = letters > 0 && target->index.begin + letters == target->index.end &&
+                     !is_same(reading, target->index, reading->counter) &&
+                     !gm_reading_entry(reading, reading->text + target->index.begin, letters, false, 0);
+    const bool indexed = target->index.begin < target->index.end;
+    long low = 0, high = 0;
+    gm_node_id node;
+    if (all && !list_of(reading, name, length, &low, &high)) {
+        return gm_fail_first(&reading->fault, target->name.begin, "there is no list %.*s", brief, name);
+    }
+    if (!all && indexed && !gm_reading_whole(reading, target->index, &low)) {
+        return false;
+    }
+    high = all ? high : low;
+    for (long i = low; i <= high && !reading->fault.failed; i++) {
+        struct gm_entry *entry = gm_reading_entry(reading, name, length, indexed, i);
+        if (all && entry && entry->role == GM_ENTRY_NAMED) {
+            continue; /* a wall, q[0] = 0 */
+        }
+        if (!entry && !(entry = gm_reading_sought(reading, target, i))) {
+            return false;
+        }
+        const size_t number = (size_t)(entry - reading->entries);
+        if (gm_reading_bound(reading, target->value, all ? &target->index : NULL, i, &node)) {
+            each(reading, &reading->entries[number], target, node, data);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word)
+{
+    for (size_t i = 0; i < reading->line_count; i++) {
+        if (reading->lines[i].word == word) {
+            return &reading->lines[i];
+        }
+    }
+    return NULL;
+}

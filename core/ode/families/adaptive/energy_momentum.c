@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A variational integrator that varies time as well, of any number of degrees of freedom: the action of
+   L_d = tau L((q_0 + q_1)/2, (q_1 - q_0)/tau) is stationary under variations of q and of the times, so that with
+   the momenta p_0 = -dL_d/dq_0, p_1 = dL_d/dq_1 the energy -dL_d/dtau of every step is that of the one before:
+   the midpoint rule, whose step tau is such that in the middle H is E,
+       z = y_0 + tau/2 f(z),   H(z) = E,   y_1 = 2 z - y_0
+   E is fixed by a first step of length tau0. Of one degree of freedom it is variational-midpoint. H(z) - H(y_0)
+   is about -tau^2/8 f' H'' f: where that changes its sign there is no root, and the run ends: step-collapse.
+   (The rectangle rule has none wherever the force does no work, and stays one of one degree of freedom.)
+
+   C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353; Razafindralandy et al. (2018), eqs. 55 and
+   56. The run's dt gives the direction of time only; the memory is the next tau, 0 where there is none, and
+   the energy. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/ode/families/adaptive/variational_time.h"
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+
+enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
+enum { ITERATIONS = 50 };
+
+/* The scratch: the middle, the field and its Jacobian there, a matrix and a right side. */
+struct storage {
+    double *middle, *field, *jacobian, *matrix, *right;
+};
+
+static size_t room_of(const struct gm_problem *problem)
+{
+    return 3 * problem->n + 2 * problem->n * problem->n;
+}
+
+static struct storage lay(const struct gm_problem *problem, double *scratch)
+{
+    const size_t n = problem->n;
+    return (struct storage){scratch, scratch + n, scratch + 3 * n, scratch + 3 * n + n * n, scratch + 2 * n};
+}
+
+static double weight_of(const struct gm_problem *problem)
+{
+    const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
+    return hamiltonian->weight ? hamiltonian->weight(problem) : 1;
+}
+
+/* right := (1 - tau/2 J)^-1 right */
+static bool divide(const struct gm_problem *problem, const struct storage *storage, double tau)
+{
+    const size_t n = problem->n;
+    for (size_t i = 0; i < n * n; i++) {
+        storage->matrix[i] = (i % (n + 1) == 0) - tau / 2 * storage->jacobian[i];
+    }
+    return gm_eliminate(n, storage->matrix, storage->right);
+}
+
+/* The middle of a step tau from y, with field and Jacobian there, by Newton's method. */
+static bool find_middle(const struct gm_problem *problem, const double *y, double tau,
+                        const struct storage *storage, struct gm_progress *progress)
+{
+    const size_t n = problem->n;
+    double previous = INFINITY;
+    memcpy(storage->middle, y, n * sizeof *y);
+    for (int i = 0; i < ITERATIONS; i++) {
+        gm_field(problem, storage->middle, storage->field, 1);
+        progress->evaluations++;
+        progress->iterations++;
+        progress->solves++;
+        for (size_t c = 0; c < n; c++) {
+            storage->right[c] = storage->middle[c] - y[c] - tau / 2 * storage->field[c];
+        }
+        double change = 0, size = 0;
+        if (!gm_jacobian(problem, storage->middle, storage->jacobian) || !divide(problem, storage, tau)) {
+            return false;
+        }
+        for (size_t c = 0; c < n; c++) {
+            storage->middle[c] -= storage->right[c];
+            change += fabs(storage->right[c]);
+            size += fabs(y[c]) + fabs(tau * storage->field[c]);
+        }
+        if (!isfinite(change)) {
+            return false;
+        }
+        if (gm_is_settled(change, 0x1p-50 * size, &previous)) {
+            gm_field(problem, storage->middle, storage->field, 1);
+            return gm_jacobian(problem, storage->middle, storage->jacobian);
+        }
+    }
+    return false;
+}
+
+/* The step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is nested,
+   as both at once would find steps backwards. */
+static bool find_step(const struct gm_problem *problem, const double *y, double energy, double *tau,
+                      const struct storage *storage, struct gm_progress *progress)
+{
+    const size_t half = problem->n / 2;
+    const double last = *tau, weight = weight_of(problem);
+    double previous = INFINITY;
+    for (int i = 0; i < ITERATIONS; i++) {
+        if (!find_middle(problem, y, *tau, storage, progress)) {
+            return false;
+        }
+        const double excess = gm_energy(problem, storage->middle) - energy;
+        for (size_t c = 0; c < problem->n; c++) {
+            storage->right[c] = storage->field[c] / 2;
+        }
+        if (!divide(problem, storage, *tau)) {
+            return false;
+        }
+        double derivative = 0, size = fabs(energy);
+        for (size_t c = 0; c < half; c++) {
+            const double of_momenta = storage->field[c] / weight,
+                         of_places = -storage->field[half + c] / weight;
+            derivative += of_places * storage->right[c] + of_momenta * storage->right[half + c];
+            size += fabs(of_momenta * storage->middle[half + c]);
+        }
+        const double change = excess / derivative;
+        if (!isfinite(change)) {
+            return excess == 0;
+        }
+        *tau -= change;
+        if (!(*tau / last > 0.2 && *tau / last < 5)) {
+            return false;
+        }
+        if (gm_is_settled(fabs(change), 0x1p-48 * size / fabs(derivative), &previous)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The step whose tau the memory holds; then the next tau, 0 if there is none. */
+static enum gm_status midpoint_step(const struct gm_task *task, struct gm_members *members,
+                                    struct gm_progress *progress)
+{
+    const struct gm_problem *problem = task->problem;
+    const struct storage storage = lay(problem, members->scratch);
+    double *y = members->y, *memory = members->memory;
+    if (memory[TAU] == 0 || !find_middle(problem, y, memory[TAU], &storage, progress)) {
+        return GM_STEP_COLLAPSE;
+    }
+    for (size_t c = 0; c < problem->n; c++) {
+        y[c] += memory[TAU] * storage.field[c];
+    }
+    progress->t += memory[TAU];
+    if (!find_step(problem, y, memory[ENERGY], &memory[TAU], &storage, progress)) {
+        memory[TAU] = 0;
+    }
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, midpoint_step);
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return REMEMBERED * problem->m;
+}
+
+/* A run that turns round keeps its energy, and so comes back; the step of a new run is still zero. */
+static enum gm_status start(const struct gm_task *task)
+{
+    const struct gm_problem *problem = task->problem;
+    const struct storage storage = lay(problem, ((struct gm_members *)task->workspace)->scratch);
+    double *memory = task->memory_out;
+    const double last = memory[TAU];
+    struct gm_progress ignored = {0};
+    memory[TAU] = copysign(last != 0 ? last : task->settings->tau0, task->dt);
+    if (last != 0) {
+        const bool found = find_step(problem, task->y, memory[ENERGY], &memory[TAU], &storage, &ignored);
+        memory[TAU] = found ? memory[TAU] : 0;
+        return GM_OK;
+    }
+    if (!find_middle(problem, task->y, memory[TAU], &storage, &ignored)) {
+        return GM_STEP_COLLAPSE;
+    }
+    memory[ENERGY] = gm_energy(problem, storage.middle);
+    return GM_OK;
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return gm_members_open(problem, REMEMBERED, room_of(problem));
+}
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "symplectic-energy-momentum2",
+        .title = "symplectic-energy-momentum",
+        .formula = "z = y₀ + ½τ f(z),  H(z) = E,  y₁ = y₀ + τ f(z)",
+        .reference =
+            "C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353; Razafindralandy et al. (2018), "
+            "eqs. 55 and 56",
+        .family = &gm_family_energy_momentum,
+        .order = 2,
+        .needs = GM_NEEDS_ACTION | GM_NEEDS_ENERGY,
+        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |
+                  GM_KEEPS_MOMENTUM_MAPS,
+    },
+};
+
+const struct gm_family gm_family_energy_momentum = {
+    .kind = &gm_kind_ode,
+    .title = "symplectic-energy-momentum",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .parameters = gm_settings_of_variational_time,
+    .loop = loop,
+    .memory = memory,
+    .start = start,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+    .adaptive = true,
+};

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The logarithmic Hamiltonian, for attractions: H = T(p) + V(q), V < 0, B = -H at the start. In the phase
+   space extended by t and its momentum B the motion of
+       ln(T(p) + B) - ln(-V(q)),
+   where it is 0, is that of H in a fictitious time s, dt = ds / (-V): the deeper the potential, the shorter the
+   steps. Both its parts have exact flows,
+       drift   d = ds / (T(p) + B),   q += d dT/dp,   t += d
+       kick    p += ds F(q) / (-V(q)),   F = -grad V
+   so that half a drift, a kick and half a drift are explicit, symmetric and, in the extended phase space,
+   symplectic; and so are their compositions with themselves, for which the s are the times. In Kepler's
+   problem every point lies on the exact orbit, and only the time errs. The run's dt is ds; the memory is B and
+   what the sum of times carries over.
+
+   S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
+   (1999) 2532. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/ode/families/compositions.h"
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+
+enum { BINDING, TIME_CARRY, REMEMBERED };
+
+/* A step on its way: the place is (q, 0), at rest there, so that V is its energy and F its rates. */
+struct passing {
+    const struct gm_problem *problem;
+    double binding, time; /* B; what has passed */
+    double *place, *y;    /* n each; of y the momenta alone are right, but after what is called `moving` */
+    double *rates;        /* n */
+};
+
+/* y, where the velocities are not the momenta */
+static const double *moving(const struct passing *at)
+{
+    memcpy(at->y, at->place, at->problem->n / 2 * sizeof *at->y);
+    return at->y;
+}
+
+/* False: T + B is not positive. */
+static bool drift(struct passing *at, double ds)
+{
+    const struct gm_problem *problem = at->problem;
+    const size_t half = problem->n / 2;
+    const double *velocity = at->y + half;
+    double kinetic = 0;
+    if (gm_ode_of(problem)->split->unit_mass) {
+        for (size_t c = 0; c < half; c++) {
+            kinetic += velocity[c] * velocity[c] / 2;
+        }
+    } else {
+        gm_field(problem, moving(at), at->rates, 1);
+        velocity = at->rates;
+        kinetic = gm_energy(problem, at->y) - gm_energy(problem, at->place);
+    }
+    const double whole = kinetic + at->binding, d = ds / whole;
+    for (size_t c = 0; c < half; c++) {
+        at->place[c] += d * velocity[c];
+    }
+    at->time += d;
+    return whole > 0;
+}
+
+/* False: the place is one where V is not negative. */
+static bool kick(const struct passing *at, double ds)
+{
+    const size_t half = at->problem->n / 2;
+    gm_field(at->problem, at->place, at->rates, 1);
+    const double V = gm_energy(at->problem, at->place);
+    for (size_t c = half; c < 2 * half; c++) {
+        at->y[c] -= ds * at->rates[c] / V;
+    }
+    return V < 0;
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    const struct gm_composition *composition = task->scheme->coefficients;
+    double *memory = members->memory, last = 0;
+    bool good = true;
+    struct passing at = {.problem = task->problem,
+                         .binding = memory[BINDING],
+                         .place = members->scratch,
+                         .y = members->y,
+                         .rates = members->scratch + members->n};
+    memcpy(at.place, at.y, members->n / 2 * sizeof *at.place);
+    for (int i = 0; i < composition->steps; i++) {
+        const double ds = gm_composition_fraction(composition, i) * task->dt;
+        good = drift(&at, (last + ds) / 2) && good;
+        good = kick(&at, ds) && good;
+        last = ds;
+    }
+    good = drift(&at, last / 2) && good;
+    moving(&at);
+    const int drifts =
+        gm_ode_of(at.problem)->split->unit_mass ? 0 : composition->steps + 1; /* with a field */
+    progress->evaluations += (unsigned long)(composition->steps + drifts);
+    const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
+    if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
+        return GM_STEP_COLLAPSE;
+    }
+    progress->t += whole;
+    memory[TIME_CARRY] = whole + (before - progress->t);
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return REMEMBERED * problem->m;
+}
+
+static enum gm_status start(const struct gm_task *task)
+{
+    /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
+    double *binding = &task->memory_out[BINDING];
+    *binding = *binding != 0 ? *binding : -gm_energy(task->problem, task->y);
+    const struct gm_members *members = task->workspace;
+    memcpy(members->scratch, task->y, members->n / 2 * sizeof *task->y);
+    return gm_energy(task->problem, members->scratch) < 0 ? GM_OK : GM_STEP_COLLAPSE;
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return gm_members_open(problem, REMEMBERED, 2 * problem->n); /* zeros, as momenta at rest are */
+}
+
+#define LOGARITHMIC                                                                                          \
+    .family = &gm_family_logarithmic_time,                                                                   \
+    .reference = "S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; "                      \
+                 "M. Preto & S. Tremaine, Astron. J. 118 (1999) 2532",                                       \
+    .needs = GM_NEEDS_ATTRACTION, .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR
+#define COMPOSED(count) count " steps of logh2 of lengths γ₁ds, …, γ_s ds,  γ_{s+1−i} = γᵢ;  dt is ds"
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "logh2",
+        .title = "logarithmic Hamiltonian",
+        .formula = "drift q += d ∂T/∂p, t += d, d = (ds/2)/(T(p) + B);  kick p += ds F(q)/(−V(q));  drift\n"
+                   "B = −H(0);  dt is the step ds of the fictitious time",
+        LOGARITHMIC,
+        .coefficients = &gm_composition_none,
+        .order = 2,
+    },
+    {
+        .name = "logh-suzuki4",
+        .title = "logarithmic Hamiltonian, Suzuki 4",
+        .formula = COMPOSED("five"),
+        LOGARITHMIC,
+        .coefficients = &gm_composition_suzuki4,
+        .order = 4,
+    },
+    {
+        .name = "logh-kahan-li6",
+        .title = "logarithmic Hamiltonian, Kahan-Li 6",
+        .formula = COMPOSED("nine"),
+        LOGARITHMIC,
+        .coefficients = &gm_composition_kahan_li6,
+        .order = 6,
+    },
+    {
+        .name = "logh-kahan-li8",
+        .title = "logarithmic Hamiltonian, Kahan-Li 8",
+        .formula = COMPOSED("seventeen"),
+        LOGARITHMIC,
+        .coefficients = &gm_composition_kahan_li8,
+        .order = 8,
+    },
+    {
+        .name = "logh-sofroniou-spaletta10",
+        .title = "logarithmic Hamiltonian, Sofroniou-Spaletta 10",
+        .formula = COMPOSED("thirty-five"),
+        LOGARITHMIC,
+        .coefficients = &gm_composition_sofroniou_spaletta10,
+        .order = 10,
+    },
+};
+
+const struct gm_family gm_family_logarithmic_time = {
+    .kind = &gm_kind_ode,
+    .title = "logarithmic Hamiltonian",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = loop,
+    .memory = memory,
+    .start = start,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+    .adaptive = true,
+};

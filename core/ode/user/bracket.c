@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a bracket and an energy let schemes do: whether the bracket is that of angular momenta, and how the energy falls
+   into pieces whose flows are exact. */
+#include "core/ode/user/bracket.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/larger.h"
+#include "core/ode/kernel/members.h"
+
+/* ---- angular momenta ---- */
+
+static bool is_zero(const struct gm_user_system *system, gm_node_id node)
+{
+    return gm_is_constant(&system->graph, node, 0);
+}
+
+/* Whether {y_i, y_j} is this variable, or with `negative` what is opposite to it. */
+static bool is_entry(struct gm_user_system *system, size_t row, size_t column, size_t variable, bool negative)
+{
+    struct gm_formula *graph = &system->graph;
+    const gm_node_id positive = gm_formula_variable(graph, variable);
+    return system->bracket[system->n * row + column] ==
+           (negative ? gm_formula_apply(graph, GM_OPERATION_NEGATE, positive, 0) : positive);
+}
+
+/* Whether {y_i, y_j} = sign y_k and {y_i, z_j} = sign z_k for i, j, k = 1, 2, 3 and cyclic, where the six components are
+   y and z, and all else is 0. */
+static bool is_top(struct gm_user_system *system, bool negative)
+{
+    bool same = system->n == 6;
+    for (size_t i = 0; i < 3 && same; i++) {
+        for (size_t k = i + 1; k < 6 && same; k++) {
+            const size_t ahead = (k + 3 - i) % 3, third = (k < 3 ? 0 : 3) + (i + 3 - ahead) % 3;
+            same = ahead == 0 ? is_zero(system, system->bracket[6 * i + k])
+                              : is_entry(system, i, k, third, (ahead == 1) == negative);
+        }
+    }
+    for (size_t i = 3; i < 6 && same; i++) {
+        for (size_t k = i + 1; k < 6; k++) {
+            same = same && is_zero(system, system->bracket[6 * i + k]);
+        }
+    }
+    return same;
+}
+
+/* The same of vectors alone, whose components are three lists. */
+static bool are_spins(struct gm_user_system *system, bool negative)
+{
+    const size_t n = system->n, spins = n / 3;
+    bool same = n > 0 && n % 3 == 0;
+    for (size_t i = 0; i < n && same; i++) {
+        for (size_t k = i + 1; k < n && same; k++) {
+            const size_t one = i / spins, other = k / spins;
+            same = i % spins != k % spins || one == other
+                       ? is_zero(system, system->bracket[n * i + k])
+                       : is_entry(system, i, k, (3 - one - other) * spins + i % spins,
+                                  ((other + 3 - one) % 3 == 1) == negative);
+        }
+    }
+    return same;
+}
+
+static void find_turning(struct gm_user_bracket_model *model, struct gm_user_system *system)
+{
+    for (int negative = 1; negative >= 0 && model->turning == 0; negative--) {
+        const bool spins = are_spins(system, negative);
+        if (spins || is_top(system, negative)) {
+            model->turning = negative ? 1 : -1;
+            model->spins = spins ? system->n / 3 : 0;
+        }
+    }
+}
+
+/* ---- what the slopes of the energy are made of ---- */
+
+/* holds[i * n + j]: whether dH/dy_i holds component j. False: out of memory. */
+static bool find_parts(struct gm_user_system *system, const gm_node_id *gradient, bool *holds)
+{
+    const size_t n = system->n;
+    memset(holds, false, n * n * sizeof *holds);
+    for (size_t i = 0; i < n; i++) {
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, gradient[i], &count);
+        if (!parts) {
+            return false;
+        }
+        for (size_t k = 0; k < count; k++) {
+            const struct gm_node *part = &system->graph.nodes[parts[k]];
+            if (part->operation == GM_VARIABLE && part->a < n) {
+                holds[i * n + part->a] = true;
+            }
+        }
+        free(parts);
+    }
+    return true;
+}
+
+/* Whether the slopes over y hold no component but their own, those over z none of y. */
+static bool is_sum_over_axes(size_t n, const bool *holds)
+{
+    bool good = n == 3 || n == 6;
+    for (size_t i = 0; i < n && good; i++) {
+        for (size_t k = 0; k < n; k++) {
+            good = good && (!holds[i * n + k] || (i < 3 ? k == i : k >= 3));
+        }
+    }
+    return good;
+}
+
+/* ---- pieces ---- */
+
+enum { NONE = GM_NEWTON_LARGEST };
+
+static void rename_group(size_t *group, size_t n, size_t from, size_t to)
+{
+    for (size_t i = 0; i < n; i++) {
+        group[i] = group[i] == from ? to : group[i];
+    }
+}
+
+static bool commute(const struct gm_user_system *system, const size_t *group, size_t one, size_t other)
+{
+    const size_t n = system->n;
+    bool good = true;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < n && good; k++) {
+            good = group[i] != one || group[k] != other || is_zero(system, system->bracket[i * n + k]);
+        }
+    }
+    return good;
+}
+
+/* The components of which the energy is no sum belong together, and so do those that commute, as few groups as come
+   about in order. group[i] is the first of them, or NONE where the energy does not hold component i. False where those
+   of one group do not commute. */
+static bool find_groups(const struct gm_user_system *system, const gm_node_id *gradient, const bool *holds,
+                        size_t *group)
+{
+    const size_t n = system->n;
+    for (size_t i = 0; i < n; i++) {
+        group[i] = is_zero(system, gradient[i]) ? NONE : i;
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < n; k++) {
+            if (holds[i * n + k] && group[i] != group[k]) {
+                rename_group(group, n, group[i] > group[k] ? group[i] : group[k],
+                             group[i] > group[k] ? group[k] : group[i]);
+            }
+        }
+    }
+    for (size_t k = 0; k < n; k++) {
+        if (group[k] == k && !commute(system, group, k, k)) {
+            return false;
+        }
+        for (size_t i = 0; i < k && group[k] == k; i++) {
+            if (group[i] == i && commute(system, group, i, k)) {
+                rename_group(group, n, k, i);
+            }
+        }
+    }
+    return true;
+}
+
+/* The rates of one group, and whether they are linear in the components that move; false in *good, too, where memory is
+   short: graph->failed. */
+static void open_piece(struct gm_user_piece *piece, struct gm_user_system *system, const gm_node_id *gradient,
+                       const size_t *group, size_t which, bool *good)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n;
+    bool *moving = calloc(system->variable_count, sizeof *moving), *dependent = NULL;
+    piece->rates = malloc((n + 1) * sizeof *piece->rates);
+    graph->failed |= !moving || !piece->rates;
+    for (size_t i = 0; !graph->failed && i < n; i++) {
+        moving[i] = group[i] != which;
+        piece->rates[i] = gm_formula_constant(graph, 0);
+        for (size_t k = 0; k < n; k++) {
+            if (group[k] == which) {
+                const gm_node_id term =
+                    gm_simplified(graph, GM_OPERATION_MULTIPLY, system->bracket[i * n + k], gradient[k]);
+                piece->rates[i] = gm_simplified(graph, GM_OPERATION_ADD, piece->rates[i], term);
+            }
+        }
+    }
+    if (!graph->failed &&
+        gm_sparse_jacobian(graph, piece->rates, n, moving, system->variable_count, &piece->slopes)) {
+        dependent = gm_formula_dependent(graph, moving, system->variable_count);
+    }
+    graph->failed |= !dependent;
+    for (size_t i = 0; dependent && i < piece->slopes.count; i++) {
+        *good = *good && !dependent[piece->slopes.entries[i].node];
+    }
+    *good = *good && !graph->failed;
+    free(moving);
+    free(dependent);
+}
+
+static void close_pieces(struct gm_user_bracket_model *model)
+{
+    for (size_t i = 0; i < model->piece_count; i++) {
+        free(model->pieces[i].rates);
+        free(model->pieces[i].slopes.entries);
+    }
+    free(model->pieces);
+    model->pieces = NULL;
+    model->piece_count = 0;
+}
+
+static void find_pieces(struct gm_user_bracket_model *model, struct gm_user_system *system, const bool *holds)
+{
+    const size_t n = system->n;
+    size_t group[GM_NEWTON_LARGEST];
+    if (n > GM_NEWTON_LARGEST || !find_groups(system, model->gradient, holds, group)) {
+        return;
+    }
+    bool good = true;
+    model->pieces = calloc(n, sizeof *model->pieces);
+    system->graph.failed |= !model->pieces;
+    for (size_t i = 0; model->pieces && i < n && good; i++) {
+        if (group[i] == i) {
+            open_piece(&model->pieces[model->piece_count++], system, model->gradient, group, i, &good);
+        }
+    }
+    if (!good) {
+        close_pieces(model);
+    }
+}
+
+bool gm_user_bracket_model_open(struct gm_user_bracket_model *model, struct gm_user_system *system)
+{
+    *model = (struct gm_user_bracket_model){.system = system};
+    if (system->kind != GM_POISSON || system->timed) {
+        return true;
+    }
+    const size_t n = system->n;
+    bool *marked = calloc(system->variable_count, sizeof *marked), *holds = malloc(n * n * sizeof *holds);
+    model->gradient = malloc((system->variable_count + 1) * sizeof *model->gradient);
+    bool good = marked && holds && model->gradient;
+    if (good) {
+        memset(marked, true, n * sizeof *marked);
+        good = gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient) &&
+               find_parts(system, model->gradient, holds);
+    }
+    if (good) {
+        find_turning(model, system);
+        model->axes = is_sum_over_axes(n, holds);
+        find_pieces(model, system, holds);
+    }
+    free(marked);
+    free(holds);
+    return good && !system->graph.failed;
+}
+
+void gm_user_bracket_model_close(struct gm_user_bracket_model *model)
+{
+    close_pieces(model);
+    free(model->gradient);
+    *model = (struct gm_user_bracket_model){0};
+}
+
+/* ---- with values ---- */
+
+static bool open_flow(struct gm_tape *tape, const struct gm_user_bracket_model *model,
+                      const struct gm_user_piece *piece, const double *values)
+{
+    const size_t n = model->system->n, slopes = piece->slopes.count;
+    gm_node_id *nodes = malloc((n + slopes + 1) * sizeof *nodes);
+    for (size_t i = 0; nodes && i < n + slopes; i++) {
+        nodes[i] = i < n ? piece->rates[i] : piece->slopes.entries[i - n].node;
+    }
+    const bool good = nodes && gm_tape_open(tape, &model->system->graph, nodes, n + slopes, n, values);
+    free(nodes);
+    return good;
+}
+
+bool gm_user_bracket_open(struct gm_user_bracket *bracket, const struct gm_user_bracket_model *model,
+                          const double *values)
+{
+    const struct gm_user_system *system = model->system;
+    const struct gm_formula *graph = &system->graph;
+    const size_t n = system->n;
+    *bracket = (struct gm_user_bracket){.model = model};
+    bool good = gm_tape_open(&bracket->energy, graph, &system->energy, 1, n, values) &&
+                gm_tape_open(&bracket->gradient, graph, model->gradient, n, n, values) &&
+                gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values);
+    bracket->pieces = calloc(model->piece_count + 1, sizeof *bracket->pieces);
+    good = good && bracket->pieces;
+    for (size_t i = 0; i < model->piece_count && good; i++) {
+        good = open_flow(&bracket->pieces[i], model, &model->pieces[i], values);
+    }
+    return good;
+}
+
+void gm_user_bracket_close(struct gm_user_bracket *bracket)
+{
+    for (size_t i = 0; bracket->pieces && i < bracket->model->piece_count; i++) {
+        gm_tape_close(&bracket->pieces[i]);
+    }
+    gm_tape_close(&bracket->energy);
+    gm_tape_close(&bracket->gradient);
+    gm_tape_close(&bracket->matrix);
+    free(bracket->pieces);
+    *bracket = (struct gm_user_bracket){0};
+}
+
+/* out := factor A in */
+static void apply(const struct gm_sparse *slopes, const double *A, double factor, const double *in, size_t n,
+                  double *out)
+{
+    memset(out, 0, n * sizeof *out);
+    for (size_t i = 0; i < slopes->count; i++) {
+        out[slopes->entries[i].row] += factor * A[i] * in[slopes->entries[i].column];
+    }
+}
+
+/* Largest sum of a row's magnitudes. */
+static double norm_of(const struct gm_sparse *slopes, const double *A, size_t n)
+{
+    double sums[GM_NEWTON_LARGEST] = {0}, largest = 0;
+    for (size_t i = 0; i < slopes->count; i++) {
+        sums[slopes->entries[i].row] += fabs(A[i]);
+    }
+    for (size_t i = 0; i < n; i++) {
+        largest = gm_larger(largest, sums[i]);
+    }
+    return largest;
+}
+
+/* y' = r + A (y - y_0), r and A constant: y - y_0 = h r + h^2 A r / 2 + ..., in parts of h in which this falls off at
+   once. */
+void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, double h, double *y)
+{
+    enum { MOST_PARTS = 1000, TERMS = 30 };
+    const struct gm_sparse *slopes = &bracket->model->pieces[piece].slopes;
+    const size_t n = bracket->model->system->n;
+    double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], *r = values, *A = values + n;
+    gm_tape_values(&bracket->pieces[piece], y, values, 1);
+    const double parts = 1 + floor(fabs(h) * norm_of(slopes, A, n)), step = h / parts;
+    if (!(parts <= MOST_PARTS)) {
+        y[0] = NAN;
+        return;
+    }
+    for (int part = 0; part < (int)parts; part++) {
+        double term[GM_NEWTON_LARGEST], next[GM_NEWTON_LARGEST], moved[GM_NEWTON_LARGEST];
+        double size = 0, last = INFINITY;
+        for (size_t i = 0; i < n; i++) {
+            moved[i] = term[i] = step * r[i];
+            size += fabs(term[i]);
+        }
+        for (int k = 2; k < TERMS && slopes->count > 0 && last > 0x1p-60 * size; k++) {
+            apply(slopes, A, step / k, term, n, next);
+            last = 0;
+            for (size_t i = 0; i < n; i++) {
+                term[i] = next[i];
+                moved[i] += next[i];
+                last += fabs(next[i]);
+            }
+        }
+        for (size_t i = 0; i < n; i++) {
+            y[i] += moved[i];
+        }
+        if (part + 1 < (int)parts) {
+            apply(slopes, A, 1, moved, n, next);
+            for (size_t i = 0; i < n; i++) {
+                r[i] += next[i];
+            }
+        }
+    }
+}

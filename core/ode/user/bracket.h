@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The bracket of a Poisson system: its structure, and the pieces of its energy that have exact flows. */
+#ifndef GM_CORE_ODE_OWN_BRACKET_H
+#define GM_CORE_ODE_OWN_BRACKET_H
+
+#include "core/model/system.h"
+#include "core/tape.h"
+
+/* A piece of the energy: of components that commute, {y_i, y_j} = 0, and so rest in its flow. What the others do is
+   linear in them. */
+struct gm_user_piece {
+    gm_node_id *rates;       /* n */
+    struct gm_sparse slopes; /* d rates[row] / d y of the others; of what rests alone */
+};
+
+/* What follows from it once. */
+struct gm_user_bracket_model {
+    const struct gm_user_system *system;
+    gm_node_id *gradient; /* dH/dy, n; NULL: it is no Poisson system, or holds the time */
+    double turning;       /* and so on as in struct gm_poisson */
+    size_t spins;
+    bool axes;
+    struct gm_user_piece *pieces;
+    size_t piece_count; /* 0: the energy does not fall into such pieces */
+};
+/* The graph of the system grows. False: out of memory. To be closed in both cases. */
+bool gm_user_bracket_model_open(struct gm_user_bracket_model *model, struct gm_user_system *system);
+void gm_user_bracket_model_close(struct gm_user_bracket_model *model);
+
+/* The same with the values of parameters; the model outlives it. */
+struct gm_user_bracket {
+    const struct gm_user_bracket_model *model;
+    struct gm_tape energy, gradient, matrix;
+    struct gm_tape *pieces; /* rates and slopes of each */
+};
+bool gm_user_bracket_open(struct gm_user_bracket *bracket, const struct gm_user_bracket_model *model,
+                          const double *values);
+void gm_user_bracket_close(struct gm_user_bracket *bracket);
+
+/* gm_poisson.flow; NaN where the motion is too fast for its exponential */
+void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, double h, double *y);
+
+#endif

@@ -1,0 +1,693 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rates of fields on a ring, by tapes over all nodes. Whatever is linear - derivatives by waves, the mass,
+   the part L of the rates - multiplies waves exp(i k x): a derivative of order j by
+       differences of order 2   i sin(a)/dx,  2 (cos(a) - 1)/dx^2,  and products of these,  a = k dx
+       waves                    (i k)^j, odd ones without the wave that alternates from node to node
+   What a call needs beside its arguments is lent to it, so that threads may share the problem. */
+#include "core/ode/user/evolution.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/linear/modes.h"
+#include "core/model/equations.h"
+#include "core/ode/kernel/loops.h"
+#include "core/tape.h"
+
+enum {
+    ROOM = 64 /* places that are computed together */,
+    ORDERS = GM_MOST_DERIVATIVES + 1,
+    MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2
+};
+
+/* What a call works in. */
+struct room {
+    struct gm_modes modes;
+    double *inputs;                 /* of the tapes, [input * points + node] */
+    double *state, *rates;          /* fields * points: of one member */
+    double complex *waves, *slopes; /* likewise */
+};
+
+struct own {
+    struct gm_ode facets;
+    struct gm_semilinear semilinear;
+    struct gm_loops loops;
+    const struct gm_user_evolution *evolution;
+    struct gm_grid1 line;
+    enum gm_derivatives space;
+    size_t fields, inputs;
+    char *names; /* "u[] v[]" */
+    bool massive;
+    /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
+    double mirrored[GM_MOST_FIELDS];
+    bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
+    struct gm_tape rates, rests, starts, exact, *densities;
+    double complex *symbols; /* of L, [mode][row][column] */
+    double complex *masses;  /* [mode][field] */
+    struct room *_Atomic idle;
+};
+
+static struct own *own_of(const struct gm_problem *problem)
+{
+    return (struct own *)problem->parameters;
+}
+
+/* ---- what is derived ---- */
+
+static bool renumber(struct gm_user_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t n = system->n, inputs = n * ORDERS + 2;
+    gm_node_id *others = malloc(system->variable_count * sizeof *others);
+    for (size_t i = 0; others && i < system->variable_count; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    if (!others) {
+        return false;
+    }
+    others[n] = gm_formula_variable(&system->graph, inputs - 1);
+    others[system->velocities] = gm_formula_variable(&system->graph, inputs - 2);
+    for (size_t i = 0; i < n * GM_MOST_DERIVATIVES; i++) {
+        others[system->velocities + 1 + i] = gm_formula_variable(&system->graph, n + i);
+    }
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        others[i] = gm_formula_variable(&system->graph, inputs + i - system->parameters);
+    }
+    const bool good = gm_formula_substitute(&system->graph, nodes, count, others, system->variable_count);
+    free(others);
+    return good && !system->graph.failed;
+}
+
+static bool split(struct gm_user_evolution *evolution, struct gm_user_system *system)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->n && good; i++) {
+        good = gm_system_linear_part(system, system->rates[i], &evolution->linear[i], &evolution->rests[i]);
+        evolution->lines[i] = evolution->linear[i];
+    }
+    return good && renumber(system, evolution->lines, system->n) &&
+           renumber(system, evolution->rests, system->n);
+}
+
+static bool find_kink(struct gm_user_evolution *evolution, struct gm_user_system *system)
+{
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    evolution->kink = GM_NO_NODE;
+    for (size_t i = 0; marked && i < system->n; i++) {
+        marked[i] = true;
+        for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
+            marked[system->velocities + 1 + i * GM_MOST_DERIVATIVES + k] = true;
+        }
+    }
+    for (size_t i = 0; marked && i < system->n && evolution->kink == GM_NO_NODE; i++) {
+        evolution->kink = gm_formula_kink(&system->graph, system->rates[i], marked, system->variable_count);
+        evolution->kinked = i;
+    }
+    const bool good = marked && !system->graph.failed;
+    free(marked);
+    return good;
+}
+
+bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system)
+{
+    const size_t n = system->n;
+    *evolution = (struct gm_user_evolution){
+        .system = system, .densities = malloc((system->item_count + 1) * sizeof *evolution->densities)};
+    bool good = evolution->densities != NULL, told = true;
+    for (size_t i = 0; i < n; i++) {
+        evolution->rates[i] = system->rates[i];
+        evolution->starts[i] = system->variables[i].start;
+        evolution->exact[i] = system->variables[i].exact;
+        evolution->masses[i] = gm_formula_variable(&system->graph, i);
+        told &= evolution->exact[i] != GM_NO_NODE;
+    }
+    for (size_t i = 0; good && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
+            evolution->densities[evolution->density_count++] = item->nodes[0];
+        }
+    }
+    good = good && renumber(system, evolution->rates, n) && renumber(system, evolution->starts, n) &&
+           renumber(system, evolution->densities, evolution->density_count) &&
+           (!told || renumber(system, evolution->exact, n));
+    evolution->exact[0] = told ? evolution->exact[0] : GM_NO_NODE;
+    for (size_t i = 0; good && i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_MASS) {
+            gm_node_id mass = system->items[i].nodes[0];
+            const size_t field = gm_system_mass_field(system, mass);
+            good = renumber(system, &mass, 1);
+            evolution->masses[field] = mass;
+        }
+    }
+    return good && find_kink(evolution, system) && split(evolution, system);
+}
+
+void gm_user_evolution_close(struct gm_user_evolution *evolution)
+{
+    free(evolution->densities);
+    evolution->densities = NULL;
+}
+
+/* ---- room ---- */
+
+static void room_close(struct room *room)
+{
+    if (room) {
+        gm_modes_close(&room->modes);
+        free(room->inputs);
+        free(room->waves);
+    }
+    free(room);
+}
+
+static struct room *room_open(const struct own *self)
+{
+    const size_t points = self->line.points, n = self->fields * points;
+    struct room *room = calloc(1, sizeof *room);
+    if (!room) {
+        return NULL;
+    }
+    room->inputs = calloc(self->inputs * points + 2 * n, sizeof *room->inputs);
+    room->waves = malloc(2 * n * sizeof *room->waves);
+    if (!gm_modes_open(&room->modes, points, self->fields) || !room->inputs || !room->waves) {
+        room_close(room);
+        return NULL;
+    }
+    room->state = room->inputs + self->inputs * points;
+    room->rates = room->state + n;
+    room->slopes = room->waves + n;
+    double *x = room->inputs + (self->inputs - 2) * points;
+    for (size_t i = 0; i < points; i++) {
+        x[i] = gm_grid1_node(&self->line, i);
+    }
+    return room;
+}
+
+static struct room *borrow(struct own *self)
+{
+    struct room *room = atomic_exchange(&self->idle, NULL);
+    return room ? room : room_open(self);
+}
+
+static void give_back(struct own *self, struct room *room)
+{
+    room_close(atomic_exchange(&self->idle, room));
+}
+
+/* ---- derivatives ---- */
+
+/* What the derivative of that order multiplies the wave by. */
+static double complex factor_of(const struct own *self, size_t order, size_t mode)
+{
+    const double points = (double)self->line.points, dx = self->line.dx,
+                 angle = 2 * M_PI * (double)mode / points;
+    const bool alternating = 2 * mode == self->line.points;
+    if (self->space == GM_SPACE_FOURIER) {
+        const double complex once = I * angle / dx;
+        double complex factor = 1;
+        for (size_t k = 0; k < order; k++) {
+            factor *= once;
+        }
+        return alternating && order % 2 ? 0 : factor;
+    }
+    const double half = sin(angle / 2), twice = -4 * half * half / (dx * dx);
+    const double complex first = alternating ? 0 : I * sin(angle) / dx;
+    const double complex factors[ORDERS] = {1, first, twice, first * twice, twice * twice};
+    return factors[order];
+}
+
+static void differences(const struct own *self, const double *u, size_t order, double *to)
+{
+    const size_t n = self->line.points;
+    const double dx = self->line.dx;
+    for (size_t i = 0; i < n; i++) {
+        const size_t r = i + 1 < n ? i + 1 : 0, r2 = r + 1 < n ? r + 1 : 0, l = i > 0 ? i - 1 : n - 1,
+                     l2 = l > 0 ? l - 1 : n - 1;
+        to[i] = order == 1   ? (u[r] - u[l]) / (2 * dx)
+                : order == 2 ? (u[r] - 2 * u[i] + u[l]) / (dx * dx)
+                : order == 3 ? (u[r2] - 2 * u[r] + 2 * u[l] - u[l2]) / (2 * dx * dx * dx)
+                             : (u[r2] - 4 * u[r] + 6 * u[i] - 4 * u[l] + u[l2]) / (dx * dx * dx * dx);
+    }
+}
+
+/* The inputs of tapes from a state. */
+static void derive(const struct own *self, struct room *room, const double *y)
+{
+    const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
+    const struct gm_modes one = {points, 1, room->modes.fourier};
+    memcpy(room->inputs, y, n * sizeof *y);
+    bool known = false;
+    for (size_t k = self->fields; k < self->fields * ORDERS; k++) {
+        const size_t order = k / self->fields, field = k % self->fields;
+        double *to = room->inputs + k * points;
+        if (!self->needed[k]) {
+            continue;
+        }
+        if (self->space == GM_SPACE_DIFFERENCES) {
+            differences(self, y + field * points, order, to);
+            continue;
+        }
+        if (!known) {
+            gm_modes_forward(&room->modes, y, room->waves);
+            known = true;
+        }
+        for (size_t mode = 0; mode < half; mode++) {
+            room->slopes[mode] = room->waves[field * points + mode] * factor_of(self, order, mode);
+        }
+        gm_modes_back(&one, room->slopes, to);
+    }
+}
+
+/* The rates, or what is left of them without L, of one member. */
+static void evaluate(struct own *self, const struct gm_tape *tape, const double *y, double *rates)
+{
+    const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
+    struct room *room = borrow(self);
+    for (size_t i = 0; !room && i < n; i++) {
+        rates[i] = NAN;
+    }
+    if (!room) {
+        return;
+    }
+    derive(self, room, y);
+    gm_tape_block(tape, room->inputs, points, rates, points, points);
+    if (self->massive) {
+        gm_modes_forward(&room->modes, rates, room->waves);
+        for (size_t field = 0; field < self->fields; field++) {
+            for (size_t mode = 0; mode < half; mode++) {
+                room->waves[field * points + mode] /= self->masses[mode * self->fields + field];
+            }
+        }
+        gm_modes_back(&room->modes, room->waves, rates);
+    }
+    give_back(self, room);
+}
+
+static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    struct own *self = own_of(problem);
+    if (m == 1) {
+        evaluate(self, &self->rates, y, f);
+        return;
+    }
+    const size_t n = problem->n;
+    double *one = malloc(2 * n * sizeof *one);
+    for (size_t member = 0; member < m; member++) {
+        for (size_t c = 0; one && c < n; c++) {
+            one[c] = y[c * m + member];
+        }
+        if (one) {
+            evaluate(self, &self->rates, one, one + n);
+        }
+        for (size_t c = 0; c < n; c++) {
+            f[c * m + member] = one ? one[n + c] : NAN;
+        }
+    }
+    free(one);
+}
+
+static void nonlinear(const struct gm_problem *problem, const double *y, double *rest)
+{
+    struct own *self = own_of(problem);
+    evaluate(self, &self->rests, y, rest);
+}
+
+static void symbol(const struct gm_problem *problem, size_t mode, double complex *matrix)
+{
+    const struct own *self = own_of(problem);
+    const size_t size = self->fields * self->fields;
+    memcpy(matrix, self->symbols + mode * size, size * sizeof *matrix);
+}
+
+/* ---- the problem ---- */
+
+/* The coefficients of what is linear: its values where one input is 1 and the others are 0. */
+static bool coefficients_of(const struct own *self, const gm_node_id *nodes, const double *values,
+                            double *coefficients)
+{
+    const size_t n = self->fields;
+    struct gm_tape tape;
+    const bool good = gm_tape_open(&tape, &self->evolution->system->graph, nodes, n, self->inputs, values);
+    for (size_t k = 0; good && k < n * ORDERS; k++) {
+        double inputs[MOST_INPUTS] = {0}, outputs[GM_MOST_FIELDS];
+        inputs[k] = 1;
+        gm_tape_values(&tape, inputs, outputs, 1);
+        for (size_t i = 0; i < n; i++) {
+            coefficients[i * n * ORDERS + k] = outputs[i];
+        }
+    }
+    gm_tape_close(&tape);
+    return good;
+}
+
+static bool make_symbols(struct own *self, const double *values)
+{
+    const size_t n = self->fields, half = gm_modes_half(self->line.points);
+    double linear[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS], mass[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS];
+    self->symbols = malloc(half * n * n * sizeof *self->symbols);
+    self->masses = malloc(half * n * sizeof *self->masses);
+    if (!self->symbols || !self->masses || !coefficients_of(self, self->evolution->lines, values, linear) ||
+        !coefficients_of(self, self->evolution->masses, values, mass)) {
+        return false;
+    }
+    for (size_t mode = 0; mode < half; mode++) {
+        for (size_t i = 0; i < n; i++) {
+            double complex of_mass = 0, row[GM_MOST_FIELDS] = {0};
+            for (size_t k = 0; k < n * ORDERS; k++) {
+                const double complex factor = factor_of(self, k / n, mode);
+                row[k % n] += linear[i * n * ORDERS + k] * factor;
+                of_mass += mass[i * n * ORDERS + k] * factor;
+            }
+            self->masses[mode * n + i] = of_mass;
+            self->massive |= of_mass != 1;
+            for (size_t j = 0; j < n; j++) {
+                self->symbols[(mode * n + i) * n + j] = row[j] / of_mass;
+            }
+        }
+    }
+    return true;
+}
+
+/* Whether a mirrored field, of those signs, has the mirrored rate, at places that are as good as any. */
+static bool is_mirrored(const struct own *self, const double *signs)
+{
+    enum { TRIALS = 5 };
+    const size_t n = self->fields;
+    double here[MOST_INPUTS], there[MOST_INPUTS], rate[GM_MOST_FIELDS], other[GM_MOST_FIELDS];
+    for (size_t trial = 0; trial < TRIALS; trial++) {
+        for (size_t k = 0; k < self->inputs; k++) {
+            const double sign = k < n * ORDERS ? signs[k % n] * (k / n % 2 ? -1 : 1) : 1;
+            here[k] = 0.6 + 0.35 * sin(1 + 7 * (double)k + 2.3 * (double)trial);
+            there[k] = sign * here[k];
+        }
+        gm_tape_values(&self->rates, here, rate, 1);
+        gm_tape_values(&self->rates, there, other, 1);
+        for (size_t i = 0; i < n; i++) {
+            if (!(fabs(other[i] - signs[i] * rate[i]) <= 1e-9 * fmax(1, fabs(rate[i])))) {
+                return false;
+            }
+        }
+    }
+    for (size_t i = 0; i < gm_modes_half(self->line.points) * n; i++) {
+        if (fabs(cimag(self->masses[i])) > 1e-9 * cabs(self->masses[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Of each field the sign of its mirror image: 1 of the first where it can be, then of the second .. */
+static void find_mirror(struct own *self)
+{
+    for (size_t odd = 0; odd < (size_t)1 << self->fields; odd++) {
+        double signs[GM_MOST_FIELDS];
+        for (size_t i = 0; i < self->fields; i++) {
+            signs[i] = odd >> (self->fields - 1 - i) & 1 ? -1 : 1;
+        }
+        if (is_mirrored(self, signs)) {
+            memcpy(self->mirrored, signs, sizeof signs);
+            return;
+        }
+    }
+}
+
+/* Which derivatives the rates and densities hold. */
+static bool find_needed(struct own *self)
+{
+    const struct gm_user_evolution *evolution = self->evolution;
+    const struct gm_formula *graph = &evolution->system->graph;
+    for (size_t i = 0; i < self->fields + evolution->density_count; i++) {
+        const gm_node_id node =
+            i < self->fields ? evolution->rates[i] : evolution->densities[i - self->fields];
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(graph, node, &count);
+        for (size_t k = 0; parts && k < count; k++) {
+            const struct gm_node *part = &graph->nodes[parts[k]];
+            if (part->operation == GM_VARIABLE && part->a < self->fields * ORDERS) {
+                self->needed[part->a] = true;
+            }
+        }
+        free(parts);
+        if (!parts) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool name_fields(struct own *self)
+{
+    size_t length = 1;
+    for (size_t i = 0; i < self->fields; i++) {
+        length += strlen(self->evolution->system->variables[i].name) + 3;
+    }
+    self->names = calloc(length, 1);
+    for (size_t i = 0; self->names && i < self->fields; i++) {
+        strcat(strcat(strcat(self->names, i ? " " : ""), self->evolution->system->variables[i].name), "[]");
+    }
+    return self->names != NULL;
+}
+
+/* The values of all variables in their new order. malloc'ed. */
+static double *renumbered(const struct own *self, const double *values)
+{
+    const struct gm_user_system *system = self->evolution->system;
+    const size_t parameters = system->velocities - system->parameters;
+    double *made = calloc(self->inputs + parameters, sizeof *made);
+    if (made) {
+        memcpy(made + self->inputs, values + system->parameters, parameters * sizeof *made);
+    }
+    return made;
+}
+
+static bool open_tapes(struct own *self, const double *values)
+{
+    const struct gm_user_evolution *evolution = self->evolution;
+    const struct gm_formula *graph = &evolution->system->graph;
+    const size_t n = self->fields, inputs = self->inputs;
+    self->densities = calloc(evolution->density_count + 1, sizeof *self->densities);
+    bool good = self->densities && gm_tape_open(&self->rates, graph, evolution->rates, n, inputs, values) &&
+                gm_tape_open(&self->rests, graph, evolution->rests, n, inputs, values) &&
+                gm_tape_open(&self->starts, graph, evolution->starts, n, inputs, values) &&
+                (evolution->exact[0] == GM_NO_NODE ||
+                 gm_tape_open(&self->exact, graph, evolution->exact, n, inputs, values));
+    for (size_t i = 0; good && i < evolution->density_count; i++) {
+        good = gm_tape_open(&self->densities[i], graph, &evolution->densities[i], 1, inputs, values);
+    }
+    return good;
+}
+
+bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
+                            const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
+{
+    struct own *self = calloc(1, sizeof *self);
+    *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
+    if (!self) {
+        return false;
+    }
+    self->evolution = evolution;
+    self->line = *grid;
+    self->space = space;
+    self->fields = evolution->system->n;
+    self->inputs = self->fields * ORDERS + 2;
+    problem->n = self->fields * grid->points;
+    problem->parameters = self;
+    problem->facets = &self->facets;
+    double *ordered = renumbered(self, values);
+    const bool good = ordered && open_tapes(self, ordered) && make_symbols(self, ordered) &&
+                      find_needed(self) && name_fields(self);
+    free(ordered);
+    if (good && grid->walls) {
+        find_mirror(self);
+    }
+    self->semilinear = (struct gm_semilinear){self->fields, symbol, nonlinear};
+    self->loops = (struct gm_loops){.field = field};
+    self->facets = (struct gm_ode){
+        .components = self->names,
+        .rough = evolution->kink != GM_NO_NODE,
+        .semilinear = &self->semilinear,
+        .loops = {&self->loops, &self->loops, &self->loops},
+    };
+    return good;
+}
+
+void gm_user_evolution_shut(struct gm_problem *problem)
+{
+    struct own *self = own_of(problem);
+    if (self) {
+        struct gm_tape *const tapes[] = {&self->rates, &self->rests, &self->starts, &self->exact};
+        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
+            gm_tape_close(tapes[i]);
+        }
+        for (size_t i = 0; self->densities && i < self->evolution->density_count; i++) {
+            gm_tape_close(&self->densities[i]);
+        }
+        room_close(atomic_exchange(&self->idle, NULL));
+        free(self->densities);
+        free(self->symbols);
+        free(self->masses);
+        free(self->names);
+    }
+    free(self);
+    problem->parameters = problem->facets = NULL;
+}
+
+/* ---- what is asked of it ---- */
+
+/* The fields at the start at so many places, at most ROOM: [field * count + place]. */
+static void starts_at(const struct own *self, const double *x, size_t count, double *values)
+{
+    double inputs[MOST_INPUTS * ROOM] = {0};
+    memcpy(inputs + (self->inputs - 2) * count, x, count * sizeof *x);
+    gm_tape_values(&self->starts, inputs, values, count);
+}
+
+void gm_user_evolution_start(const struct gm_problem *problem, double *y)
+{
+    const struct own *self = own_of(problem);
+    const size_t points = self->line.points;
+    double x[ROOM], values[GM_MOST_FIELDS * ROOM];
+    for (size_t first = 0, some; first < points; first += some) {
+        some = points - first < ROOM ? points - first : ROOM;
+        for (size_t i = 0; i < some; i++) {
+            x[i] = gm_grid1_node(&self->line, first + i);
+        }
+        starts_at(self, x, some, values);
+        for (size_t c = 0; c < self->fields; c++) {
+            for (size_t i = 0; i < some; i++) {
+                const double sign = first + i < gm_grid1_seen(&self->line) ? 1 : self->mirrored[c];
+                y[c * points + first + i] = sign * values[c * some + i];
+            }
+        }
+    }
+}
+
+double gm_user_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t)
+{
+    const struct own *self = own_of(problem);
+    double inputs[MOST_INPUTS] = {0}, values[GM_MOST_FIELDS];
+    inputs[self->inputs - 2] = x;
+    inputs[self->inputs - 1] = t;
+    if (self->evolution->exact[0] == GM_NO_NODE) {
+        return NAN;
+    }
+    gm_tape_values(&self->exact, inputs, values, 1);
+    return values[field];
+}
+
+double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
+                                  const double *y)
+{
+    struct own *self = own_of(problem);
+    const size_t points = self->line.points;
+    struct room *room = borrow(self);
+    if (!room) {
+        return NAN;
+    }
+    derive(self, room, y);
+    gm_tape_block(&self->densities[density], room->inputs, points, room->rates, points, points);
+    double sum = 0;
+    for (size_t i = 0; i < gm_grid1_seen(&self->line); i++) {
+        sum += gm_grid1_share(&self->line, i) * (magnitude ? fabs(room->rates[i]) : room->rates[i]);
+    }
+    give_back(self, room);
+    return sum * self->line.dx;
+}
+
+/* u: that field of the state at the start */
+static bool field_closes(const struct own *self, size_t field, const double *u, char *sentence, size_t size)
+{
+    const struct gm_grid1 *grid = &self->line;
+    const char *name = self->evolution->system->variables[field].name;
+    double low = INFINITY, high = -INFINITY, values[2 * GM_MOST_FIELDS];
+    for (size_t i = 0; i < grid->points; i++) {
+        if (!isfinite(u[i])) {
+            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name,
+                     gm_grid1_node(grid, i));
+            return false;
+        }
+        low = fmin(low, u[i]);
+        high = fmax(high, u[i]);
+    }
+    starts_at(self, (const double[]){grid->first, -grid->first}, 2, values);
+    const double left = values[2 * field], right = values[2 * field + 1];
+    if (grid->walls && self->mirrored[field] < 0 &&
+        !(fabs(left) + fabs(right) <= 1e-3 * fmax(fabs(low), fabs(high)))) {
+        snprintf(
+            sentence, size,
+            "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
+            "%.6g at the other",
+            name, left, right);
+        return false;
+    }
+    if (!grid->walls &&
+        !(fabs(right - left) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
+        snprintf(sentence, size,
+                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other",
+                 name, left, right);
+        return false;
+    }
+    return true;
+}
+
+static bool has_masses(const struct own *self, char *sentence, size_t size)
+{
+    for (size_t i = 0; i < gm_modes_half(self->line.points) * self->fields; i++) {
+        const size_t mode = i / self->fields;
+        if (!(cabs(self->masses[i]) > 1e-12)) {
+            snprintf(sentence, size,
+                     "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
+                     self->evolution->system->variables[i % self->fields].name,
+                     2 * M_PI * (double)mode / ((double)self->line.points * self->line.dx));
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool has_rates(const struct own *self, const double *rates, char *sentence, size_t size)
+{
+    const size_t points = self->line.points;
+    for (size_t i = 0; i < self->fields * points; i++) {
+        if (!isfinite(rates[i])) {
+            snprintf(sentence, size, "the rate of %.60s at the start is not finite where x = %.6g",
+                     self->evolution->system->variables[i / points].name,
+                     gm_grid1_node(&self->line, i % points));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
+{
+    const struct own *self = own_of(problem);
+    if (self->line.walls && self->mirrored[0] == 0) {
+        snprintf(
+            sentence, size,
+            "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
+            "change their sign in the mirror");
+        return false;
+    }
+    double *y = malloc(2 * problem->n * sizeof *y), *rates = y ? y + problem->n : NULL;
+    bool good = y != NULL;
+    if (good) {
+        gm_user_evolution_start(problem, y);
+    } else {
+        snprintf(sentence, size, "not enough memory");
+    }
+    for (size_t i = 0; i < self->fields && good; i++) {
+        good = field_closes(self, i, y + i * self->line.points, sentence, size);
+    }
+    good = good && has_masses(self, sentence, size);
+    if (good) {
+        field(problem, y, rates, 1);
+        good = has_rates(self, rates, sentence, size);
+    }
+    free(y);
+    return good;
+}

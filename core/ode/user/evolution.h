@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields u, v .. on a ring whose rates somebody wrote,
+       (M u)_t = R(x, u, u_x, u_xx, u_xxx, u_xxxx, v, ..),
+   as a system of ordinary differential equations: u of all nodes, then v. Derivatives are central differences
+   of order 2, or those of the sum of waves through the nodes. */
+#ifndef GM_CORE_ODE_OWN_EVOLUTION_H
+#define GM_CORE_ODE_OWN_EVOLUTION_H
+
+#include "core/model/system.h"
+#include "core/ode/ode.h"
+
+enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
+
+/* Its formulas, of its system's graph. Their variables are anew: field i's derivative k of n fields is number
+   k n + i, then come x and t, then the parameters. */
+struct gm_user_evolution {
+    const struct gm_user_system *system;
+    gm_node_id rates[GM_MOST_FIELDS]; /* R = line + rest, */
+    gm_node_id lines[GM_MOST_FIELDS]; /* the first linear with constant coefficients */
+    gm_node_id rests[GM_MOST_FIELDS];
+    gm_node_id linear[GM_MOST_FIELDS];                        /* the lines, in the system's own variables */
+    gm_node_id masses[GM_MOST_FIELDS];                        /* M u */
+    gm_node_id starts[GM_MOST_FIELDS], exact[GM_MOST_FIELDS]; /* exact[0] GM_NO_NODE: none is told */
+    gm_node_id *densities; /* of the items that are invariants or observed, in their order */
+    size_t density_count;
+    gm_node_id
+        kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
+    size_t kinked; /* in which */
+};
+
+/* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */
+bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system);
+void gm_user_evolution_close(struct gm_user_evolution *evolution);
+
+/* The problem with these values of all variables (gm_equations_start) on that ring. False where memory was
+   refused. To be closed in both cases. */
+bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
+                            const double *values, const struct gm_grid1 *grid, enum gm_derivatives space);
+void gm_user_evolution_shut(struct gm_problem *problem);
+
+/* Whether there are a start that is finite and closes on the ring, as fields of core/field/user/potential.h
+   do, or rates that are the same in the mirror where there are walls, each field or its negative, and rates that
+   are finite there, and masses that vanish for no wave. A sentence if not. */
+bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
+
+/* The state at t = 0. */
+void gm_user_evolution_start(const struct gm_problem *problem, double *y);
+
+/* The exact solution of a field as the file tells it; NaN where it does not. */
+double gm_user_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t);
+
+/* The integral of a density, or of its magnitude. */
+double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
+                                  const double *y);
+
+#endif

@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The Legendre transform of a Lagrangian at every state, and its derivatives. */
+#include "core/ode/user/lagrangian.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/equations.h"
+#include "core/model/legendre.h"
+#include "core/ode/kernel/members.h"
+
+static bool is_linear(struct gm_user_system *system, bool *marked)
+{
+    memset(marked + system->velocities, true, system->n / 2);
+    bool *dependent = gm_formula_dependent(&system->graph, marked, system->variable_count);
+    bool linear = dependent != NULL;
+    for (size_t i = 0; linear && i < system->mass.count; i++) {
+        linear = !dependent[system->mass.entries[i].node];
+    }
+    system->graph.failed |= !dependent;
+    free(dependent);
+    memset(marked, false, system->variable_count);
+    return linear;
+}
+
+bool gm_user_lagrangian_model_open(struct gm_user_lagrangian_model *model, struct gm_user_system *system)
+{
+    const size_t n = system->n, half = n / 2, count = system->variable_count;
+    *model = (struct gm_user_lagrangian_model){
+        .graph = &system->graph, .half = half, .components = n + system->timed};
+    gm_node_id *others = malloc(count * sizeof *others);
+    bool *marked = calloc(count, sizeof *marked);
+    model->nodes = malloc((n + 1) * sizeof *model->nodes);
+    if (!others || !marked || !model->nodes) {
+        system->graph.failed = true;
+    } else {
+        model->linear = is_linear(system, marked);
+        memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
+        memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
+        model->nodes[n] = system->energy;
+        gm_equations_in_velocities(system, model->nodes, n + 1); /* a force may hold momenta */
+        for (size_t i = 0; i < count; i++) {
+            const bool velocity = i >= system->velocities && i < system->velocities + half;
+            others[i] =
+                velocity ? gm_formula_variable(&system->graph, half + i - system->velocities) : GM_NO_NODE;
+        }
+        gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
+        memset(marked, true, model->components);
+        gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes);
+    }
+    free(others);
+    free(marked);
+    return !system->graph.failed;
+}
+
+void gm_user_lagrangian_model_close(struct gm_user_lagrangian_model *model)
+{
+    free(model->nodes);
+    free(model->slopes.entries);
+    *model = (struct gm_user_lagrangian_model){0};
+}
+
+/* whether it is one of the mass matrix */
+static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struct gm_sparse_entry *entry)
+{
+    return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
+}
+
+bool gm_user_lagrangian_open(struct gm_user_lagrangian *lagrangian,
+                             const struct gm_user_lagrangian_model *model, const double *values)
+{
+    const struct gm_formula *graph = model->graph;
+    const size_t half = model->half, n = model->components;
+    *lagrangian = (struct gm_user_lagrangian){.model = model};
+    gm_node_id *nodes = malloc((half + model->slopes.count) * sizeof *nodes);
+    bool good = nodes != NULL;
+    if (nodes) {
+        size_t count = half;
+        memcpy(nodes, model->nodes, half * sizeof *nodes);
+        for (size_t i = 0; i < model->slopes.count; i++) {
+            if (is_of_mass(model, &model->slopes.entries[i])) {
+                nodes[count++] = model->slopes.entries[i].node;
+            }
+        }
+        good = gm_tape_open(&lagrangian->momenta, graph, nodes, count, n, values) &&
+               gm_tape_open(&lagrangian->rates, graph, model->nodes + half, half, n, values) &&
+               gm_tape_open(&lagrangian->value, graph, model->nodes + 2 * half, 1, n, values);
+        for (size_t i = 0; i < model->slopes.count; i++) {
+            nodes[i] = model->slopes.entries[i].node;
+        }
+        good = good && gm_tape_open(&lagrangian->slopes, graph, nodes, model->slopes.count, n, values);
+    }
+    free(nodes);
+    return good;
+}
+
+void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian)
+{
+    gm_tape_close(&lagrangian->momenta);
+    gm_tape_close(&lagrangian->rates);
+    gm_tape_close(&lagrangian->value);
+    gm_tape_close(&lagrangian->slopes);
+}
+
+/* One state whose velocities are looked for. */
+struct transform {
+    const struct gm_user_lagrangian *lagrangian;
+    struct gm_mass mass;
+    double *at;      /* q, v, t */
+    double *outputs; /* of the tape of momenta */
+    double *wanted;  /* p */
+    double *storage;
+};
+
+static bool open_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian)
+{
+    const size_t half = lagrangian->model->half, n = lagrangian->model->components,
+                 outputs = lagrangian->momenta.outputs;
+    *transform = (struct transform){.lagrangian = lagrangian};
+    transform->at = malloc((n + outputs + 4 * half) * sizeof(double));
+    if (!transform->at || !gm_mass_open(&transform->mass, half)) {
+        free(transform->at);
+        return false;
+    }
+    transform->outputs = transform->at + n;
+    transform->wanted = transform->outputs + outputs;
+    transform->storage = transform->wanted + half;
+    return true;
+}
+
+static void close_transform(struct transform *transform)
+{
+    gm_mass_close(&transform->mass);
+    free(transform->at);
+}
+
+/* gm_legendre_momenta */
+static void momenta_at(void *data, const double *v, double *p, struct gm_mass *mass)
+{
+    struct transform *transform = data;
+    const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
+    memcpy(transform->at + model->half, v, model->half * sizeof *v);
+    gm_tape_values(&transform->lagrangian->momenta, transform->at, transform->outputs, 1);
+    memcpy(p, transform->outputs, model->half * sizeof *p);
+    memset(mass->entries, 0, mass->n * mass->n * sizeof(double));
+    const double *entry = transform->outputs + model->half;
+    for (size_t i = 0; i < model->slopes.count; i++) {
+        const struct gm_sparse_entry *slope = &model->slopes.entries[i];
+        if (is_of_mass(model, slope)) {
+            mass->entries[slope->row * mass->n + slope->column - model->half] = *entry++;
+        }
+    }
+}
+
+/* The velocities of member l of m; transform->at is that state with them. They begin at 0, so that every
+   state has one field. Not finite: there are none. */
+static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
+{
+    const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
+    for (size_t i = 0; i < model->components; i++) {
+        transform->at[i] = y[i * m + l];
+    }
+    memcpy(transform->wanted, transform->at + model->half, model->half * sizeof *v);
+    memset(v, 0, model->half * sizeof *v);
+    gm_legendre_solve(model->half, model->linear, momenta_at, transform, transform->wanted, &transform->mass,
+                      transform->storage, v);
+    memcpy(transform->at + model->half, v, model->half * sizeof *v);
+}
+
+/* The m states with velocities in place of the momenta, or with 0; malloc'ed, NULL: out of memory. */
+static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
+                             bool found)
+{
+    const size_t half = lagrangian->model->half, n = lagrangian->model->components;
+    double *at = malloc(n * m * sizeof *at), *v = malloc(half * sizeof *v);
+    struct transform transform = {0};
+    const bool good = at && v && open_transform(&transform, lagrangian);
+    for (size_t i = 0; good && i < n * m; i++) {
+        at[i] = i >= half * m && i < 2 * half * m ? 0 : y[i];
+    }
+    for (size_t l = 0; good && found && l < m; l++) {
+        find_velocities(&transform, y, m, l, v);
+        for (size_t i = 0; i < half; i++) {
+            at[(half + i) * m + l] = v[i];
+        }
+    }
+    if (good) {
+        close_transform(&transform);
+    } else {
+        free(at);
+        at = NULL;
+    }
+    free(v);
+    return at;
+}
+
+static void no_numbers(double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        values[i] = NAN;
+    }
+}
+
+void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
+                              size_t m)
+{
+    const size_t half = lagrangian->model->half, n = lagrangian->model->components;
+    double *at = at_velocities(lagrangian, y, m, true);
+    if (at) {
+        memcpy(f, at + half * m, half * m * sizeof *f);
+        gm_tape_values(&lagrangian->rates, at, f + half * m, m);
+        for (size_t i = 2 * half * m; i < n * m; i++) {
+            f[i] = 1; /* of t */
+        }
+    } else {
+        no_numbers(f, n * m);
+    }
+    free(at);
+}
+
+void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, const double *y,
+                                 double *velocity, size_t m)
+{
+    const size_t half = lagrangian->model->half;
+    double *at = at_velocities(lagrangian, y, m, true);
+    if (at) {
+        memcpy(velocity, at + half * m, half * m * sizeof *velocity);
+    } else {
+        no_numbers(velocity, half * m);
+    }
+    free(at);
+}
+
+void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
+                              size_t m)
+{
+    double *at = at_velocities(lagrangian, y, m, false);
+    if (at) {
+        gm_tape_values(&lagrangian->rates, at, force, m);
+    } else {
+        no_numbers(force, lagrangian->model->half * m);
+    }
+    free(at);
+}
+
+void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, const double *y, double *energy,
+                               size_t m)
+{
+    const size_t half = lagrangian->model->half;
+    double *at = at_velocities(lagrangian, y, m, true);
+    if (at) {
+        gm_tape_values(&lagrangian->value, at, energy, m);
+        for (size_t l = 0; l < m; l++) {
+            double sum = 0;
+            for (size_t i = half; i < 2 * half; i++) {
+                sum += y[i * m + l] * at[i * m + l];
+            }
+            energy[l] = sum - energy[l];
+        }
+    } else {
+        no_numbers(energy, m);
+    }
+    free(at);
+}
+
+void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, const double *at,
+                               const struct gm_motion *motion)
+{
+    const struct gm_user_lagrangian_model *model = lagrangian->model;
+    const size_t half = model->half;
+    double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
+    gm_tape_values(&lagrangian->momenta, at, values, 1);
+    memcpy(motion->momenta, values, half * sizeof *values);
+    gm_tape_values(&lagrangian->rates, at, motion->forces, 1);
+    gm_tape_values(&lagrangian->slopes, at, values, 1);
+    double *const by_q[] = {motion->momenta_q, motion->forces_q}, *const by_v[] = {motion->momenta_v,
+                                                                                   motion->forces_v};
+    for (size_t i = 0; i < 2; i++) {
+        memset(by_q[i], 0, half * half * sizeof *values);
+        memset(by_v[i], 0, half * half * sizeof *values);
+    }
+    for (size_t i = 0; i < model->slopes.count; i++) {
+        const struct gm_sparse_entry *slope = &model->slopes.entries[i];
+        const size_t of_forces = slope->row >= half, row = slope->row % half;
+        if (slope->column < half) {
+            by_q[of_forces][row * half + slope->column] = values[i];
+        } else if (slope->column < 2 * half) {
+            by_v[of_forces][row * half + slope->column - half] = values[i];
+        }
+    }
+}
+
+/* From dL/dv(q, v, t) = p: M dv = dp - B dq - b dt. */
+void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y, double *matrix)
+{
+    const struct gm_user_lagrangian_model *model = lagrangian->model;
+    const size_t half = model->half, n = model->components, count = model->slopes.count;
+    const struct gm_sparse_entry *entries = model->slopes.entries;
+    struct transform transform;
+    /* columns of dv over the state, the slopes' values, a velocity */
+    double *columns = calloc(n * half + count + half, sizeof *columns);
+    if (!columns || !open_transform(&transform, lagrangian)) {
+        free(columns);
+        no_numbers(matrix, n * n);
+        return;
+    }
+    double *values = columns + n * half, *v = values + count;
+    find_velocities(&transform, y, 1, 0, v);
+    gm_tape_values(&lagrangian->slopes, transform.at, values, 1);
+    memset(matrix, 0, n * n * sizeof *matrix);
+    for (size_t i = 0; i < half; i++) {
+        columns[(half + i) * half + i] = 1;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (entries[i].row < half && !is_of_mass(model, &entries[i])) {
+            columns[entries[i].column * half + entries[i].row] -= values[i];
+        }
+    }
+    for (size_t c = 0; c < n; c++) {
+        gm_mass_solve(&transform.mass, columns + c * half);
+        for (size_t i = 0; i < half; i++) {
+            matrix[i * n + c] = columns[c * half + i];
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        const size_t row = entries[i].row, column = entries[i].column;
+        if (row >= half && column >= half && column < 2 * half) {
+            for (size_t c = 0; c < n; c++) {
+                matrix[row * n + c] += values[i] * columns[c * half + column - half];
+            }
+        } else if (row >= half) {
+            matrix[row * n + column] += values[i];
+        }
+    }
+    if (!isfinite(v[0])) {
+        no_numbers(matrix, n * n);
+    }
+    close_transform(&transform);
+    free(columns);
+}

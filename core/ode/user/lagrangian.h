@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How a Lagrangian system moves in its coordinates and momenta: at each state the velocities solve dL/dv = p,
+   with the mass matrix d2L/dv2 factored there; then q' = v and p' = dL/dq + F. */
+#ifndef GM_CORE_ODE_OWN_LAGRANGIAN_H
+#define GM_CORE_ODE_OWN_LAGRANGIAN_H
+
+#include "core/model/system.h"
+#include "core/ode/ode.h"
+#include "core/tape.h"
+
+/* What follows from L once, as formulas of q, v (in the place of the momenta) and t. */
+struct gm_user_lagrangian_model {
+    const struct gm_formula *graph;
+    size_t half, components; /* coordinates; of the state: twice as many and, where it is timed, t */
+    bool linear;             /* dL/dv is linear in v: one solve finds it */
+    gm_node_id *nodes;       /* dL/dv, p' (half each), L */
+    struct gm_sparse slopes; /* of dL/dv and p' over q, v, t */
+};
+/* The graph of the system grows. False: out of memory. To be closed in both cases. */
+bool gm_user_lagrangian_model_open(struct gm_user_lagrangian_model *model, struct gm_user_system *system);
+void gm_user_lagrangian_model_close(struct gm_user_lagrangian_model *model);
+
+/* The same with the values of parameters; the model outlives it, and threads share it. */
+struct gm_user_lagrangian {
+    const struct gm_user_lagrangian_model *model;
+    struct gm_tape momenta; /* dL/dv, and the entries of the mass matrix */
+    struct gm_tape rates;   /* p' */
+    struct gm_tape value;   /* L */
+    struct gm_tape slopes;
+};
+/* values are those of the system's variables. False: out of memory. To be closed in both cases. */
+bool gm_user_lagrangian_open(struct gm_user_lagrangian *lagrangian,
+                             const struct gm_user_lagrangian_model *model, const double *values);
+void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian);
+
+/* Of m states y (components * m): their rates (components * m), q' and p' alone (half * m), where L = T(v) -
+   V(q), and the energy p v - L (m). They are not finite where the transform is singular, or where memory is
+   short, which is noted (core/memory.h). A member's bits do not depend on m. */
+void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
+                              size_t m);
+void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, const double *y,
+                                 double *velocity, size_t m);
+void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
+                              size_t m);
+void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, const double *y, double *energy,
+                               size_t m);
+/* gm_action.motion, of at most GM_NEWTON_LARGEST components */
+void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, const double *at,
+                               const struct gm_motion *motion);
+/* The Jacobian of the field at one state, by rows: of dL/dv(q, v, t) = p by the implicit function theorem. */
+void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y,
+                                 double *matrix);
+
+#endif

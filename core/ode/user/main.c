@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A program that the build runs: of a problem that is a system's file it writes the kernel file, as the one
+   that is compiled of somebody's own system while the program runs, with its constants in it. Parameters of
+   the file are the numbers that the problem's `parameters` lead to, in their order. The energy, for
+   core/ode/compiled/over_energy.c, is the file's H, or what it observes or keeps by that name where it has
+   rates instead. Usage: write_kernel FILE.system FILE.kernel.h */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/derivative.h"
+#include "core/model/equations.h"
+#include "core/ode/user/kernel.h"
+
+static char *read_all(const char *name, size_t *size)
+{
+    char *text = NULL, part[4096];
+    FILE *in = fopen(name, "r"), *out = in ? open_memstream(&text, size) : NULL;
+    for (size_t count; out && (count = fread(part, 1, sizeof part, in)) > 0;) {
+        fwrite(part, 1, count, out);
+    }
+    const bool good = out && !ferror(in) && fclose(out) == 0;
+    if (in) {
+        fclose(in);
+    }
+    return good ? text : NULL;
+}
+
+/* GM_NO_NODE: the file tells none. */
+static gm_node_id energy_of(const struct gm_user_system *system)
+{
+    gm_node_id energy = system->kind == GM_CANONICAL ? system->energy : GM_NO_NODE;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if ((item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) &&
+            strcmp(item->name, "H") == 0) {
+            energy = item->nodes[0];
+        }
+    }
+    return energy;
+}
+
+/* V, V' and V'' where p is 0, for H = p^2/2 + V(q). An empty tape of other systems. */
+static bool potential_open(struct gm_tape *tape, struct gm_user_system *system)
+{
+    const double rest[] = {NAN, 0};
+    const bool marked[] = {true, false};
+    gm_node_id nodes[3] = {system->energy}, slope[2];
+    memset(tape, 0, sizeof *tape);
+    if (system->kind != GM_CANONICAL || system->n != 2 || system->parameters < system->velocities ||
+        system->rates[0] != gm_formula_variable(&system->graph, 1)) {
+        return true;
+    }
+    for (int k = 1; k < 3; k++) {
+        if (!gm_gradient(&system->graph, nodes[k - 1], marked, 2, slope)) {
+            return false;
+        }
+        nodes[k] = slope[0];
+    }
+    return gm_tape_open(tape, &system->graph, nodes, 3, 1, rest);
+}
+
+/* The energy once more as text, which struct gm_hamiltonian wants where there are no parameters. */
+static char *with_formula(char *kernels, const struct gm_user_system *system, gm_node_id energy)
+{
+    const struct gm_naming naming = gm_system_naming(system),
+                           written_out = {.variable = naming.variable, .data = naming.data};
+    char *formula = kernels && energy != GM_NO_NODE && system->parameters == system->velocities
+                        ? gm_formula_text(&system->graph, energy, &written_out)
+                        : NULL;
+    if (!formula) {
+        return kernels;
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        fprintf(out, "#define GM_ENERGY_TEXT \"%s\"\n%s", formula, kernels);
+    }
+    free(formula);
+    free(kernels);
+    return out && fclose(out) == 0 ? text : NULL;
+}
+
+/* The text of the system's kernels; malloc'ed. NULL with what it lacks, or NULL for want of memory. */
+static char *kernel_of(struct gm_user_system *system, const char **lacks)
+{
+    const size_t n = system->n, half = n / 2, inputs = system->velocities;
+    struct gm_formula *graph = &system->graph;
+    struct gm_sparse jacobian = {0};
+    struct gm_tape field, velocity, force, slopes = {0}, energy = {0}, potential;
+    char *text = NULL;
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    *lacks = system->kind == GM_LAGRANGIAN || system->timed ? "it is not of the form y' = f(y)" : NULL;
+    if (!marked || *lacks) {
+        free(marked);
+        return NULL;
+    }
+    memset(marked, true, n);
+    const gm_node_id hamiltonian = energy_of(system);
+    bool good = potential_open(&potential, system);
+    good = good && gm_sparse_jacobian(graph, system->rates, n, marked, system->variable_count, &jacobian) &&
+           gm_formula_quicken(graph, system->rates, n);
+    gm_node_id *nodes = malloc((jacobian.count + 1) * sizeof *nodes);
+    for (size_t i = 0; nodes && i < jacobian.count; i++) {
+        nodes[i] = jacobian.entries[i].node;
+    }
+    good = gm_tape_open(&field, graph, system->rates, n, inputs, NULL) && nodes && good;
+    good = gm_tape_open(&velocity, graph, system->rates, half, inputs, NULL) && good;
+    good = gm_tape_open(&force, graph, system->rates + half, n - half, inputs, NULL) && good;
+    if (hamiltonian != GM_NO_NODE) {
+        good = gm_tape_open(&energy, graph, &hamiltonian, 1, inputs, NULL) && good;
+    }
+    good = good && gm_tape_open(&slopes, graph, nodes, jacobian.count, inputs, NULL);
+    if (good) {
+        struct gm_kernel_source source = {
+            .components = n,
+            .tapes = {&field, &velocity, &force, &slopes, energy.outputs > 0 ? &energy : NULL,
+                      potential.outputs > 0 ? &potential : NULL},
+            .jacobian = &jacobian,
+            .jacobian_wanted = true,
+            .written_out = true,
+            .parameters = system->parameters,
+        };
+        if (!gm_kernel_splits(&source)) {
+            source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
+        }
+        text = with_formula(gm_kernel_text(&source, lacks), system, hamiltonian);
+    }
+    gm_tape_close(&field);
+    gm_tape_close(&velocity);
+    gm_tape_close(&force);
+    gm_tape_close(&slopes);
+    gm_tape_close(&energy);
+    gm_tape_close(&potential);
+    free(jacobian.entries);
+    free(nodes);
+    free(marked);
+    return text;
+}
+
+int main(int argc, char *argv[])
+{
+    struct gm_user_system system;
+    struct gm_fault fault;
+    const char *lacks = "it could not be read";
+    size_t size = 0;
+    char *source = argc == 3 ? read_all(argv[1], &size) : NULL, *text = NULL;
+    if (source) {
+        if (gm_equations_open(&system, source, size, NULL, 0, &fault)) {
+            text = kernel_of(&system, &lacks);
+        } else {
+            lacks = fault.sentence;
+        }
+        gm_system_close(&system);
+    }
+    FILE *out = text ? fopen(argv[2], "w") : NULL;
+    const bool written = out && fputs(text, out) >= 0;
+    const bool good = out && fclose(out) == 0 && written;
+    if (!good) {
+        fprintf(stderr, "%s: %s\n", argc > 1 ? argv[1] : "write_kernel", lacks ? lacks : "out of memory");
+    }
+    free(text);
+    free(source);
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}

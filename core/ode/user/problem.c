@@ -1,0 +1,731 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The facets of a formula's problem, each a function that interprets a tape. */
+#include "core/ode/user/problem.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/equations.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/user/kernel.h"
+#include "core/ode/user/lazy_tape.h"
+#include "core/ode/variational/manifold.h"
+#include "core/quantity.h"
+#include "core/tape.h"
+
+/* What a problem's `parameters` and `facets` point to. */
+struct own {
+    const double *constants[GM_KERNEL_FUNCTIONS]; /* where compiled kernels look for them */
+    struct gm_ode ode;
+    struct gm_loops loops, interpreted, free; /* free: without constraints */
+    const struct gm_loops *taken;             /* whose some of `loops` are; NULL: all are interpreted */
+    void *note;                               /* of whoever compiles it */
+    struct gm_split split;
+    struct gm_hamiltonian hamiltonian;
+    struct gm_volume volume;
+    struct gm_fast_linear fast_linear;
+    struct gm_kepler_split kepler_split;
+    struct gm_lagrangian one_degree;
+    struct gm_late_tape slow_force;                     /* of q alone, and */
+    struct gm_tape attraction, perturbation, potential; /* as well */
+    double *frequencies;                                /* of coordinates */
+    struct gm_late_tape field, velocity, force, energy, jacobian;
+    struct gm_late_tape *pieces; /* the rates, one by one, where each component alone has an exact flow */
+    gm_node_id *slopes_of_rates; /* the nodes of the Jacobian */
+    struct gm_user_lagrangian lagrangian;
+    struct gm_user_constraints constraints;
+    struct gm_action action;
+    double friction;
+    struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
+    struct gm_monitor monitor;
+    struct gm_user_bracket bracket;
+    struct gm_poisson poisson;
+    double *values; /* of the system's variables */
+    const struct gm_user_model *model;
+};
+
+/* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
+static struct own *own_of(const struct gm_problem *problem)
+{
+    return (struct own *)problem->parameters;
+}
+
+static bool energy_formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    const struct own *self = own_of(problem);
+    const struct gm_user_system *system = self->model->system;
+    *node = gm_formula_graft(graph, &system->graph, system->energy, problem->n, self->values);
+    return *node != GM_NO_NODE;
+}
+
+static bool is_forced(const struct gm_user_system *system)
+{
+    bool forced = false;
+    for (size_t i = 0; i < system->n; i++) {
+        forced |= system->variables[i].force != GM_NO_NODE;
+    }
+    return forced;
+}
+
+/* In the words of struct gm_ode; "": too many or too long to be told apart there. */
+static char *names_of(const struct gm_user_system *system)
+{
+    char *names = NULL;
+    size_t size;
+    FILE *stream = open_memstream(&names, &size);
+    if (!stream) {
+        return NULL;
+    }
+    /* lists are named as such where they have one length, else all by their own names, as far as there is
+       room */
+    const size_t n = system->n + system->timed;
+    size_t lists = 0, scalars = 0, longest = 0, shortest = SIZE_MAX, length = 0;
+    bool fit = true;
+    for (size_t i = 0; i < n; i++) {
+        const char *name = system->variables[i].name;
+        const size_t letters = strcspn(name, "[");
+        fit = fit && letters < sizeof((struct gm_quantity *)0)->name;
+        if (name[letters] == '\0') {
+            scalars++;
+            continue;
+        }
+        const char *next = i + 1 < n ? system->variables[i + 1].name : "";
+        length++;
+        if (strncmp(name, next, letters + 1) != 0) {
+            longest = length > longest ? length : longest;
+            shortest = length < shortest ? length : shortest;
+            length = 0;
+            lists++;
+        }
+    }
+    fit = fit && (lists == 0 || longest == shortest) && lists + scalars <= GM_QUANTITIES;
+    for (size_t i = 0; i < n && fit; i++) {
+        const char *name = system->variables[i].name;
+        const size_t letters = strcspn(name, "[");
+        const bool goes_on =
+            i > 0 && name[letters] && strncmp(name, system->variables[i - 1].name, letters + 1) == 0;
+        if (!goes_on) {
+            fprintf(stream, "%s%.*s%s", i > 0 ? " " : "", (int)letters, name, name[letters] ? "[]" : "");
+        }
+    }
+    fclose(stream);
+    return names;
+}
+
+/* The monitor's node and those of its gradient; false: out of memory. */
+static bool open_slopes(struct gm_user_model *model, struct gm_user_system *system, bool *marked)
+{
+    const size_t n = model->components;
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_MONITOR) {
+            model->monitor = system->items[i].nodes[0];
+            model->slopes = malloc((system->variable_count + 1) * sizeof *model->slopes);
+            memset(marked, false, system->variable_count * sizeof *marked);
+            memset(marked, true, n * sizeof *marked);
+            return model->slopes &&
+                   gm_gradient(&system->graph, model->monitor, marked, system->variable_count, model->slopes);
+        }
+    }
+    return true;
+}
+
+bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system)
+{
+    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
+    const size_t n = model->components;
+    if (!gm_facts_find(system, model->findings)) {
+        return false;
+    }
+    model->rates = malloc((n + 1) * sizeof *model->rates);
+    model->names = names_of(system);
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    if (!model->rates || !model->names || !marked) {
+        free(marked);
+        return false;
+    }
+    memcpy(model->rates, system->rates, system->n * sizeof *model->rates);
+    if (system->timed) {
+        model->rates[system->n] = gm_formula_constant(&system->graph, 1);
+    }
+    model->has_jacobian = n <= GM_NEWTON_LARGEST;
+    bool good = gm_user_constraints_model_open(&model->constraints, system);
+    if (system->kind == GM_LAGRANGIAN) {
+        gm_user_lagrangian_model_open(&model->lagrangian, system);
+    } else if (model->has_jacobian) {
+        memset(marked, true, n);
+        gm_sparse_jacobian(&system->graph, model->rates, n, marked, system->variable_count, &model->jacobian);
+    }
+    if (good) {
+        good = open_slopes(model, system, marked) && gm_user_bracket_model_open(&model->bracket, system);
+    }
+    free(marked);
+    const bool has_rates = system->kind != GM_LAGRANGIAN;
+    return good && (!has_rates || gm_formula_quicken(&system->graph, model->rates, n)) &&
+           !system->graph.failed;
+}
+
+void gm_user_model_close(struct gm_user_model *model)
+{
+    gm_user_lagrangian_model_close(&model->lagrangian);
+    gm_user_constraints_model_close(&model->constraints);
+    gm_user_bracket_model_close(&model->bracket);
+    free(model->rates);
+    free(model->jacobian.entries);
+    free(model->slopes);
+    free(model->names);
+    *model = (struct gm_user_model){0};
+}
+
+/* Whether variational schemes know what to do with it. */
+static bool has_action(const struct gm_user_model *model)
+{
+    const enum gm_system_kind kind = model->system->kind;
+    return model->has_jacobian &&
+           (kind == GM_LAGRANGIAN || (kind == GM_CANONICAL && model->findings[GM_FACT_NYSTROM].holds));
+}
+
+const char *gm_user_model_lacks(const struct gm_user_model *model)
+{
+    if (model->constraints.count == 0) {
+        return "";
+    }
+    return model->system->timed   ? "with constraints the time may not occur"
+           : !model->has_jacobian ? "with constraints there may be at most 64 components"
+           : !has_action(model)   ? "constraints take L, or H = T(p) + V(q) with a quadratic T"
+                                  : "";
+}
+
+static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_late_tape_values(&own_of(problem)->field, y, f, m);
+}
+
+static void velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_late_tape_values(&own_of(problem)->velocity, y, f, m);
+}
+
+static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_late_tape_values(&own_of(problem)->force, y, f, m);
+}
+
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
+    gm_late_tape_values(&own_of(problem)->energy, y, value, m);
+}
+
+static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    struct own *self = own_of(problem);
+    const struct gm_sparse *entries = &self->model->jacobian;
+    double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
+    gm_late_tape_values(&self->jacobian, y, values, 1);
+    memset(matrix, 0, problem->n * problem->n * sizeof *matrix);
+    for (size_t i = 0; i < entries->count; i++) {
+        matrix[entries->entries[i].row * problem->n + entries->entries[i].column] = values[i];
+    }
+}
+
+static void lagrangian_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_user_lagrangian_field(&own_of(problem)->lagrangian, y, f, m);
+}
+
+static void lagrangian_velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_user_lagrangian_velocity(&own_of(problem)->lagrangian, y, f, m);
+}
+
+static void lagrangian_force(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_user_lagrangian_force(&own_of(problem)->lagrangian, y, f, m);
+}
+
+static void lagrangian_energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
+    gm_user_lagrangian_energy(&own_of(problem)->lagrangian, y, value, m);
+}
+
+static void lagrangian_jacobian(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    gm_user_lagrangian_jacobian(&own_of(problem)->lagrangian, y, matrix);
+}
+
+static void motion(const struct gm_problem *problem, const double *at, const struct gm_motion *motion)
+{
+    gm_user_lagrangian_motion(&own_of(problem)->lagrangian, at, motion);
+}
+
+static void constrain(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
+                      double *slopes, double *curvature)
+{
+    gm_user_constraints_values(&own_of(problem)->constraints, q, multipliers, g, slopes, curvature);
+}
+
+static double friction(const struct gm_problem *problem)
+{
+    return own_of(problem)->friction;
+}
+
+/* x_piece := x_piece + h rate(the others) */
+static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
+{
+    enum { BLOCK = 128 };
+    double rate[BLOCK];
+    for (size_t first = 0; first < m; first += BLOCK) {
+        const size_t count = m - first < BLOCK ? m - first : BLOCK;
+        gm_late_tape_block(&own_of(problem)->pieces[piece], y + first, m, rate, BLOCK, count);
+        for (size_t l = 0; l < count; l++) {
+            y[piece * m + first + l] += h * rate[l];
+        }
+    }
+}
+
+static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
+{
+    const struct own *self = own_of(problem);
+    if (!gradient) {
+        gm_tape_values(&self->density, y, value, 1);
+        return;
+    }
+    gm_tape_values(&self->slopes, y, gradient, 1);
+    gm_tape_values(&self->density, y, value, 1);
+}
+
+static double energy_of_bracket(const struct gm_problem *problem, const double *y)
+{
+    double value;
+    gm_tape_values(&own_of(problem)->bracket.energy, y, &value, 1);
+    return value;
+}
+
+static void gradient(const struct gm_problem *problem, const double *y, double *slope)
+{
+    gm_tape_values(&own_of(problem)->bracket.gradient, y, slope, 1);
+}
+
+static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    gm_tape_values(&own_of(problem)->bracket.matrix, y, matrix, 1);
+}
+
+static void flow_of_piece(const struct gm_problem *problem, size_t piece, double h, double *y)
+{
+    gm_user_bracket_flow(&own_of(problem)->bracket, piece, h, y);
+}
+
+/* So that the first step takes no longer than others. */
+static void prepare(const struct gm_problem *problem, unsigned needs)
+{
+    struct own *self = own_of(problem);
+    if (needs & (GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM | GM_NEEDS_ATTRACTION)) {
+        gm_late_tape(&self->velocity);
+        gm_late_tape(&self->force);
+    } else if (needs & GM_NEEDS_FAST_LINEAR) {
+        gm_late_tape(&self->slow_force);
+    } else if (needs & GM_NEEDS_VOLUME) {
+        for (size_t i = 0; i < problem->n; i++) {
+            gm_late_tape(&self->pieces[i]);
+        }
+    } else {
+        gm_late_tape(&self->field);
+        if (self->model->has_jacobian) {
+            gm_late_tape(&self->jacobian);
+        }
+    }
+}
+
+static double frequency(const struct gm_problem *problem, size_t i)
+{
+    return own_of(problem)->frequencies[i];
+}
+
+static void slow_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
+{
+    gm_late_tape_values(&own_of(problem)->slow_force, q, force, m);
+}
+
+static void attraction(const struct gm_problem *problem, const double *q, double *potential, size_t m)
+{
+    gm_tape_values(&own_of(problem)->attraction, q, potential, m);
+}
+
+static void perturbing_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
+{
+    gm_tape_values(&own_of(problem)->perturbation, q, force, m);
+}
+
+static void potential(const struct gm_problem *problem, double q, double values[3])
+{
+    gm_tape_values(&own_of(problem)->potential, &q, values, 1);
+}
+
+/* What was tested, not proved, holds for the parameters that it was tested with. */
+static bool holds(const struct gm_user_model *model, const double *values, enum gm_fact fact)
+{
+    const struct gm_user_system *system = model->system;
+    const struct gm_finding *finding = &model->findings[fact];
+    bool same = true;
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        same = same && values[i] == system->variables[i].value;
+    }
+    return finding->asked && finding->holds && (same || finding->how == GM_ZERO_PROVED);
+}
+
+static struct gm_late_tape late_tape(const struct own *self, const gm_node_id *nodes, size_t count,
+                                     size_t inputs)
+{
+    return (struct gm_late_tape){.graph = &self->model->system->graph,
+                                 .nodes = nodes,
+                                 .count = count,
+                                 .inputs = inputs,
+                                 .values = self->values};
+}
+
+/* The facets of H = |p|^2/2 + V(q). False: out of memory. */
+static bool open_mechanical(struct own *self, const double *values)
+{
+    const struct gm_user_model *model = self->model;
+    const struct gm_formula *graph = &model->system->graph;
+    const struct gm_finding *findings = model->findings;
+    const size_t half = model->system->n / 2;
+    bool good = true;
+    if (holds(model, values, GM_FACT_FAST_LINEAR)) {
+        struct gm_tape tape;
+        const gm_node_id *nodes = findings[GM_FACT_FAST_LINEAR].nodes;
+        bool real = true;
+        self->frequencies = calloc(half, sizeof *self->frequencies);
+        good = gm_tape_open(&tape, graph, nodes, half, 0, values) && self->frequencies;
+        self->slow_force = late_tape(self, nodes + half, half, half);
+        if (good) {
+            gm_tape_values(&tape, NULL, self->frequencies, 1);
+        }
+        gm_tape_close(&tape);
+        for (size_t i = 0; good && i < half; i++) {
+            real = real && isfinite(self->frequencies[i]);
+        }
+        self->fast_linear = (struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force};
+        self->ode.fast_linear = real ? &self->fast_linear : NULL;
+    }
+    if (holds(model, values, GM_FACT_KEPLER_SPLIT)) {
+        const gm_node_id *nodes = findings[GM_FACT_KEPLER_SPLIT].nodes;
+        good = good && gm_tape_open(&self->attraction, graph, nodes, 1, 2, values) &&
+               gm_tape_open(&self->perturbation, graph, nodes + 1, 2, 2, values);
+        self->kepler_split =
+            (struct gm_kepler_split){.potential = attraction, .perturbing_force = perturbing_force};
+        self->ode.kepler_split = &self->kepler_split;
+    }
+    if (holds(model, values, GM_FACT_LAGRANGIAN)) {
+        good =
+            good && gm_tape_open(&self->potential, graph, findings[GM_FACT_LAGRANGIAN].nodes, 3, 1, values);
+        self->one_degree.potential = potential;
+        self->ode.lagrangian = &self->one_degree;
+    }
+    return good;
+}
+
+/* What variational schemes need. False: out of memory. */
+static bool open_action(struct own *self, const double *values)
+{
+    const struct gm_user_model *model = self->model;
+    const bool constrained = model->constraints.count > 0;
+    if (!has_action(model) ||
+        (model->system->kind == GM_CANONICAL && !holds(model, values, GM_FACT_NYSTROM))) {
+        return true;
+    }
+    self->action = (struct gm_action){.motion = model->system->kind == GM_LAGRANGIAN ? motion : NULL,
+                                      .free = constrained ? &self->free : NULL,
+                                      .constraints = model->constraints.count,
+                                      .constrain = constrain};
+    self->ode.action = &self->action;
+    bool good = !constrained || gm_user_constraints_open(&self->constraints, &model->constraints, values);
+    if (holds(model, values, GM_FACT_CONFORMAL)) {
+        struct gm_tape tape;
+        const gm_node_id *nodes = model->findings[GM_FACT_CONFORMAL].nodes;
+        good = good && gm_tape_open(&tape, &model->system->graph, nodes, 1, 0, values);
+        if (good) {
+            gm_tape_values(&tape, NULL, &self->friction, 1);
+            self->action.friction = friction;
+        }
+        gm_tape_close(&tape);
+    }
+    return good;
+}
+
+/* The moments of inertia of a body that nothing turns: slopes that are linear, each of its own component. */
+static void find_moments(struct own *self, const struct gm_problem *problem)
+{
+    struct gm_poisson *poisson = &self->poisson;
+    double at[3] = {0}, slopes[3];
+    if (self->model->system->n != 3 || poisson->turning == 0 || !poisson->axes || !self->ode.quadratic) {
+        return;
+    }
+    poisson->gradient(problem, at, slopes);
+    bool linear = slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
+    double moments[3];
+    for (int i = 0; i < 3; i++) {
+        at[i] = 1;
+        poisson->gradient(problem, at, slopes);
+        moments[i] = 1 / slopes[i];
+        linear = linear && slopes[i] != 0 && isfinite(moments[i]);
+    }
+    if (linear) {
+        memcpy(poisson->moments, moments, sizeof moments);
+    }
+}
+
+/* What schemes for brackets need. False: out of memory. */
+static bool open_poisson(struct own *self, const struct gm_problem *problem, const double *values)
+{
+    const struct gm_user_bracket_model *model = &self->model->bracket;
+    if (!model->gradient) {
+        return true;
+    }
+    self->poisson = (struct gm_poisson){.energy = energy_of_bracket,
+                                        .gradient = gradient,
+                                        .bracket = bracket,
+                                        .turning = model->turning,
+                                        .spins = model->spins,
+                                        .axes = model->axes,
+                                        .pieces = model->piece_count,
+                                        .flow = flow_of_piece};
+    self->ode.poisson = &self->poisson;
+    const bool good = gm_user_bracket_open(&self->bracket, model, values);
+    if (good) {
+        find_moments(self, problem);
+    }
+    return good;
+}
+
+/* What schemes need that choose their step. False: out of memory. */
+static bool open_monitor(struct own *self, const double *values)
+{
+    const struct gm_user_model *model = self->model;
+    const struct gm_formula *graph = &model->system->graph;
+    if (!model->slopes) {
+        return true;
+    }
+    self->monitor = (struct gm_monitor){.density = density, .of_places = true};
+    for (size_t i = model->system->n / 2; i < model->components; i++) {
+        self->monitor.of_places = self->monitor.of_places && gm_is_constant(graph, model->slopes[i], 0);
+    }
+    self->ode.monitor = &self->monitor;
+    return gm_tape_open(&self->density, graph, &model->monitor, 1, model->components, values) &&
+           gm_tape_open(&self->slopes, graph, model->slopes, model->components, model->components, values);
+}
+
+static bool is_unit_mass(const struct gm_user_model *model)
+{
+    const size_t half = model->system->n / 2;
+    bool unit = true;
+    for (size_t i = 0; i < half; i++) {
+        const struct gm_node *rate = &model->system->graph.nodes[model->rates[i]];
+        unit = unit && rate->operation == GM_VARIABLE && rate->a == half + i;
+    }
+    return unit;
+}
+
+static bool open_tapes(struct own *self, const double *values)
+{
+    const struct gm_user_model *model = self->model;
+    const struct gm_user_system *system = model->system;
+    const size_t n = model->components, half = system->n / 2;
+    if (system->kind == GM_LAGRANGIAN) {
+        return gm_user_lagrangian_open(&self->lagrangian, &model->lagrangian, values);
+    }
+    self->field = late_tape(self, model->rates, n, n);
+    self->velocity = late_tape(self, model->rates, half, n);
+    self->force = late_tape(self, model->rates + half, half, n);
+    self->energy = late_tape(self, &system->energy, 1, n);
+    if (model->has_jacobian) {
+        gm_node_id *nodes = self->slopes_of_rates = malloc((model->jacobian.count + 1) * sizeof *nodes);
+        for (size_t i = 0; nodes && i < model->jacobian.count; i++) {
+            nodes[i] = model->jacobian.entries[i].node;
+        }
+        self->jacobian = late_tape(self, nodes, model->jacobian.count, n);
+    }
+    if (self->ode.volume) {
+        self->pieces = malloc(n * sizeof *self->pieces);
+        for (size_t i = 0; self->pieces && i < n; i++) {
+            self->pieces[i] = late_tape(self, &model->rates[i], 1, n);
+        }
+    }
+    return (self->slopes_of_rates || !model->has_jacobian) && (self->pieces || !self->ode.volume);
+}
+
+/* Whether the energy of rest is negative where these values of all variables have it start. Of a Hamiltonian the
+   formula itself is asked: no tape is made for one number. */
+static bool attracts(const struct gm_problem *problem, const double *values)
+{
+    const struct gm_user_system *system = own_of(problem)->model->system;
+    const gm_node_id energy = system->energy;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, energy, &count);
+    double *rest = malloc(system->variable_count * sizeof *rest),
+           *at = malloc((energy + (size_t)1) * sizeof *at); /* of the parts alone */
+    bool negative = false;
+    if (parts && rest && at) {
+        memcpy(rest, values, system->variable_count * sizeof *rest);
+        memset(rest + problem->n / 2, 0, (problem->n - problem->n / 2) * sizeof *rest);
+        gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
+        negative = (system->kind == GM_LAGRANGIAN ? gm_energy(problem, rest) : at[energy]) < 0;
+    }
+    free(parts);
+    free(rest);
+    free(at);
+    return negative;
+}
+
+bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
+{
+    const struct gm_user_system *system = model->system;
+    struct own *self = calloc(1, sizeof *self);
+    *problem = (struct gm_problem){
+        .name = "system", .kind = &gm_kind_ode, .n = model->components, .m = 1, .parameters = self};
+    if (!self) {
+        return false;
+    }
+    problem->facets = &self->ode;
+    self->model = model;
+    self->values = malloc((system->variable_count + 1) * sizeof *self->values);
+    if (!self->values) {
+        return false;
+    }
+    memcpy(self->values, values, system->variable_count * sizeof *values);
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    self->loops = (struct gm_loops){.field = lagrangian ? lagrangian_field : field,
+                                    .jacobian = !model->has_jacobian ? NULL
+                                                : lagrangian         ? lagrangian_jacobian
+                                                                     : jacobian};
+    const bool constrained = model->constraints.count > 0;
+    if (constrained) {
+        self->free = self->loops;
+        self->loops = (struct gm_loops){.field = gm_manifold_field};
+    }
+    self->ode = (struct gm_ode){.written = true,
+                                .components = model->names[0] ? model->names : NULL,
+                                .quadratic = !constrained && holds(model, values, GM_FACT_QUADRATIC),
+                                .rough = !holds(model, values, GM_FACT_SMOOTH),
+                                .prepare = lagrangian ? NULL : prepare};
+    for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
+        self->ode.loops[isa] = &self->loops;
+    }
+    self->ode.forced = system->kind <= GM_LAGRANGIAN && is_forced(system);
+    if (system->kind <= GM_LAGRANGIAN && !self->ode.forced) {
+        /* what moves with the time generates no field of the whole state: it splits, and that is all */
+        self->split.nystrom = holds(model, values, GM_FACT_NYSTROM);
+        self->split.unit_mass = !lagrangian && is_unit_mass(model);
+        self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;
+        self->hamiltonian.formula = lagrangian || constrained ? NULL : energy_formula;
+        self->ode.split = !constrained && holds(model, values, GM_FACT_SEPARABLE) ? &self->split : NULL;
+        self->ode.hamiltonian = system->timed ? NULL : &self->hamiltonian;
+        self->loops.velocity = !self->ode.split ? NULL : lagrangian ? lagrangian_velocity : velocity;
+        self->loops.force = !self->ode.split ? NULL : lagrangian ? lagrangian_force : force;
+    }
+    if (!constrained && holds(model, values, GM_FACT_VOLUME)) {
+        self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
+        self->ode.volume = &self->volume;
+    }
+    self->interpreted = self->loops;
+    if (!open_tapes(self, values) || !open_mechanical(self, values) || !open_action(self, values) ||
+        !open_monitor(self, values) || !open_poisson(self, problem, values)) {
+        return false;
+    }
+    self->split.attracts = self->ode.split && self->ode.hamiltonian && attracts(problem, values);
+    return true;
+}
+
+/* The tapes of which kernels are written; NULL: there is none. False: out of memory. */
+static bool tapes_of_kernels(struct own *self, const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS])
+{
+    struct gm_late_tape *const late[GM_KERNEL_FUNCTIONS] = {
+        [GM_KERNEL_FIELD] = &self->field,
+        [GM_KERNEL_VELOCITY] = self->ode.split ? &self->velocity : NULL,
+        [GM_KERNEL_FORCE] = self->ode.split ? &self->force : NULL,
+        [GM_KERNEL_JACOBIAN] = self->model->has_jacobian ? &self->jacobian : NULL};
+    bool good = true;
+    for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
+        tapes[i] = late[i] ? gm_late_tape(late[i]) : NULL;
+        good = good && (tapes[i] || !late[i]);
+    }
+    return good;
+}
+
+char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const char **lacks)
+{
+    struct own *self = own_of(problem);
+    if (self->model->system->kind == GM_LAGRANGIAN) {
+        *lacks = "the velocities of a Lagrangian are found by an iteration, which is not compiled";
+        return NULL;
+    }
+    if (self->model->constraints.count > 0) {
+        *lacks = "the multipliers of constraints are found by an iteration, which is not compiled";
+        return NULL;
+    }
+    struct gm_kernel_source source = {.components = problem->n,
+                                      .jacobian = &self->model->jacobian,
+                                      .jacobian_wanted = over == GM_OVER_NONE || over == GM_OVER_IMPLICIT};
+    *lacks = NULL;
+    return tapes_of_kernels(self, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
+}
+
+void **gm_user_problem_note(const struct gm_problem *problem)
+{
+    return &own_of(problem)->note;
+}
+
+void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops)
+{
+    struct own *self = own_of(problem);
+    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS];
+    loops = loops && tapes_of_kernels(self, tapes) ? loops : NULL;
+    self->loops = self->interpreted;
+    self->taken = loops;
+    if (loops) {
+        for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
+            self->constants[i] = tapes[i] ? tapes[i]->constants : NULL;
+        }
+        self->loops.field = loops->field;
+        self->loops.jacobian = loops->jacobian ? loops->jacobian : self->interpreted.jacobian;
+        memcpy(self->loops.over_kernels, loops->over_kernels, sizeof self->loops.over_kernels);
+    }
+}
+
+const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem)
+{
+    return own_of(problem)->taken;
+}
+
+void gm_user_problem_close(struct gm_problem *problem)
+{
+    struct own *self = (struct own *)problem->parameters;
+    if (self) {
+        for (size_t i = 0; self->pieces && i < problem->n; i++) {
+            gm_late_tape_close(&self->pieces[i]);
+        }
+        gm_late_tape_close(&self->field);
+        gm_late_tape_close(&self->velocity);
+        gm_late_tape_close(&self->force);
+        gm_late_tape_close(&self->energy);
+        gm_late_tape_close(&self->jacobian);
+        gm_user_lagrangian_close(&self->lagrangian);
+        gm_user_constraints_close(&self->constraints);
+        gm_late_tape_close(&self->slow_force);
+        gm_tape_close(&self->attraction);
+        gm_tape_close(&self->perturbation);
+        gm_tape_close(&self->potential);
+        gm_tape_close(&self->density);
+        gm_tape_close(&self->slopes);
+        gm_user_bracket_close(&self->bracket);
+        free(self->frequencies);
+        free(self->pieces);
+        free(self->slopes_of_rates);
+        free(self->values);
+        free(self);
+    }
+    *problem = (struct gm_problem){0};
+}

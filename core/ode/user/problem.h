@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A system that somebody wrote down, as a problem that schemes advance: its formulas are interpreted, until
+   loops that were compiled of them take over. */
+#ifndef GM_CORE_ODE_OWN_OWN_H
+#define GM_CORE_ODE_OWN_OWN_H
+
+#include "core/expression/derivative.h"
+#include "core/model/facts.h"
+#include "core/ode/ode.h"
+#include "core/ode/user/bracket.h"
+#include "core/ode/user/constraints.h"
+#include "core/ode/user/lagrangian.h"
+
+/* What follows from a system once, whatever its parameters. It does not change afterwards: runs and threads
+   share it. */
+struct gm_user_model {
+    const struct gm_user_system *system;
+    struct gm_finding findings[GM_FACTS];
+    size_t components;                          /* of the state: the system's and, where it is timed, t */
+    gm_node_id *rates;                          /* of these */
+    bool has_jacobian;                          /* not where it would be too large a matrix */
+    struct gm_sparse jacobian;                  /* d rate[row] / d component */
+    struct gm_user_lagrangian_model lagrangian; /* of a Lagrangian, in place of rates and Jacobian */
+    struct gm_user_constraints_model constraints;
+    gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
+    struct gm_user_bracket_model bracket;
+    char *names; /* of the components, as in struct gm_ode */
+};
+
+/* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */
+bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
+void gm_user_model_close(struct gm_user_model *model);
+
+/* Why no scheme can advance such a system, "" where some can. */
+const char *gm_user_model_lacks(const struct gm_user_model *model);
+
+/* The problem with these values of the system's variables, those of parameters and where components start
+   (gm_equations_start), of which the latter tell whether it attracts there. The model outlives it. m is 1, and
+   may be changed. False: out of memory. To be closed in both cases. */
+bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model,
+                          const double *values);
+void gm_user_problem_close(struct gm_problem *problem);
+
+struct gm_loops; /* core/ode/kernel/loops.h */
+
+/* The text of its kernels (core/ode/user/kernel.h) for a family that has such loops (`over`, of
+   core/ode/kernel/loops.h), malloc'ed; NULL with why there is none, or NULL for want of memory. */
+char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const char **lacks);
+/* Where whoever compiles it notes which compilation is its own; NULL at first. */
+void **gm_user_problem_note(const struct gm_problem *problem);
+/* From the next step on it is advanced by these loops, as far as they go, which outlive it; NULL: by the
+   interpreter again, which a run can that was opened while it was. The numbers stay the same. */
+void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops);
+/* Those that advance it; NULL: the interpreter. */
+const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem);
+
+#endif

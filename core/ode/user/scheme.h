@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scheme of one's own: what was written becomes a row like those of the families. */
+#ifndef GM_CORE_ODE_OWN_SCHEME_H
+#define GM_CORE_ODE_OWN_SCHEME_H
+
+#include "core/scheme.h"
+#include "core/theory/written_scheme.h"
+
+struct gm_user_scheme_source {
+    const char *text; /* a word, or what a file says */
+    size_t length;
+    const char *name;  /* by which the scheme is found */
+    const char *title; /* where the text says none; NULL: it follows from the text */
+    bool part;         /* another scheme names it: its weights need not sum to 1, as those of a processor */
+    /* The scheme of a file that the text names; NULL with a sentence (GM_FAULT_SENTENCE bytes). */
+    const struct gm_scheme *(*bring)(void *data, const char *path, char *sentence);
+    void *data;
+    struct gm_decimals *decimals; /* of the text; NULL: nobody asks */
+};
+
+/* Makes the scheme. Where its order or its claims are not said, it claims what theory says. NULL with a
+   fault, whose sentence is empty where memory was refused. */
+const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
+                                            struct gm_fault *fault);
+void gm_user_scheme_close(const struct gm_scheme *scheme);
+
+#endif

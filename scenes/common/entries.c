@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When an entry is due, what of a full record goes, and where between two steps a section was passed. */
+#include "scenes/common/entries.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/run.h"
+#include "scenes/common/crossing.h"
+
+size_t gm_active_count(const struct gm_problem *problem)
+{
+    return (problem->n - 2 * problem->passive) * problem->m;
+}
+
+bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem)
+{
+    if (!behind->state) {
+        /* the state before, slopes at both ends, a state between */
+        behind->state = calloc(4 * gm_active_count(problem), sizeof *behind->state);
+    }
+    return behind->state != NULL;
+}
+
+bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view)
+{
+    const struct gm_run *run = view->run;
+    return behind->state && behind->t != view->t && run->problem->passive == 0 && gm_run_repeats(run) &&
+           memcmp(behind->state, gm_run_before(run), gm_active_count(run->problem) * sizeof *behind->state) ==
+               0;
+}
+
+/* What the step before was is not known; it is again after the next one. */
+static void forget_before(struct gm_entries *entries)
+{
+    for (size_t i = 0; i < entries->sections; i++) {
+        entries->before[i] = NAN;
+    }
+}
+
+bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                     struct gm_behind *behind)
+{
+    *entries = (struct gm_entries){.every = 1, .sections = track->each ? view->problem->m : 1};
+    if (track->section && !gm_behind_open(behind, view->problem)) {
+        return false;
+    }
+    entries->width = track->numbers > 0 ? track->numbers : track->width(view);
+    entries->times = malloc(track->bound * sizeof *entries->times);
+    entries->steps = malloc(track->bound * sizeof *entries->steps);
+    entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
+    entries->before = malloc(entries->sections * sizeof *entries->before);
+    if (entries->before) {
+        forget_before(entries);
+    }
+    return entries->times && entries->steps && entries->values && entries->before;
+}
+
+void gm_entries_close(struct gm_entries *entries)
+{
+    free(entries->times);
+    free(entries->steps);
+    free(entries->values);
+    free(entries->before);
+}
+
+static double *entry_values(const struct gm_entries *entries, size_t index)
+{
+    return entries->values + index * entries->width;
+}
+
+static void thin(struct gm_entries *entries)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < entries->count; i += 2, kept++) {
+        entries->times[kept] = entries->times[i];
+        entries->steps[kept] = entries->steps[i];
+        memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
+    }
+    entries->count = kept;
+    entries->every *= 2;
+}
+
+/* Forgets the older half. */
+static void forget(struct gm_entries *entries)
+{
+    const size_t kept = entries->count / 2, gone = entries->count - kept;
+    memmove(entries->times, entries->times + gone, kept * sizeof(double));
+    memmove(entries->steps, entries->steps + gone, kept * sizeof *entries->steps);
+    memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
+    entries->count = kept;
+}
+
+static void add_entry(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+{
+    entries->times[entries->count] = view->t;
+    entries->steps[entries->count] = view->run->steps;
+    track->record(view, entry_values(entries, entries->count));
+    entries->kept = ++entries->count;
+}
+
+/* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
+static double intervals(const struct gm_view *view, double interval, double t)
+{
+    return floor(fabs(t - view->t0) / interval * (1 + 1e-12) + 1e-9);
+}
+
+/* The slopes at both ends of the step that ended in `view`. */
+static void find_slopes(const struct gm_view *view, const struct gm_behind *behind)
+{
+    const size_t active = gm_active_count(view->problem);
+    double *slopes = behind->state + active;
+    const struct gm_loops *loops = gm_ode_of(view->problem)->loops[gm_isa_best()];
+    loops->field(view->problem, behind->state, slopes, view->problem->m);
+    loops->field(view->problem, view->state, slopes + active, view->problem->m);
+}
+
+/* Where a section, of the member that `there` says if members have their own, was passed in a step: the cubic
+   is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+static void find_crossing(const struct gm_track *track, const struct gm_view *view,
+                          const struct gm_behind *behind, double before, double after, struct gm_view *there)
+{
+    const size_t active = gm_active_count(view->problem);
+    const size_t from = track->each ? there->member : 0, stride = track->each ? view->problem->m : 1;
+    double *slopes = behind->state + active, *between = slopes + 2 * active;
+    const double h = view->t - behind->t, sign = after >= 0 ? 1 : -1;
+    double low = 0, high = 1, below = sign * before, above = sign * after;
+    there->state = between;
+    /* regula falsi with bisection in between, so that neither end stands still */
+    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+        const double secant = low - below * (high - low) / (above - below);
+        const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
+        for (size_t c = from; c < active; c += stride) {
+            between[c] = r * r * (1 + 2 * s) * behind->state[c] + s * s * (3 - 2 * s) * view->state[c] +
+                         h * s * r * (r * slopes[c] - s * slopes[active + c]);
+        }
+        there->t = behind->t + s * h;
+        const double value = sign * track->section(there);
+        if (value == 0) {
+            break;
+        }
+        if (value > 0) {
+            high = s;
+            above = value;
+        } else {
+            low = s;
+            below = value;
+        }
+    }
+}
+
+/* Makes an entry for every section that was passed in the step that ended in `view`. */
+static void record_crossings(struct gm_entries *entries, const struct gm_track *track,
+                             const struct gm_view *view, const struct gm_behind *behind)
+{
+    bool known = false; /* the slopes */
+    /* an ensemble would make the steps of all its members again for each of them */
+    const bool again = track->again && view->problem->m == 1;
+    for (size_t member = 0; member < entries->sections; member++) {
+        struct gm_view there = *view;
+        there.member = member;
+        const double after = track->section(&there), before = entries->before[member];
+        /* what begins on the section has not passed it, whichever way it goes */
+        entries->before[member] = isnan(before) && after == 0 ? NAN : after;
+        const bool upwards = before < 0 && after >= 0, downwards = track->admits && before >= 0 && after < 0;
+        if (!(upwards || downwards) || behind->t == view->t) {
+            continue;
+        }
+        double *between = behind->state + 3 * gm_active_count(view->problem), share = NAN;
+        if (again && gm_behind_is_before(behind, view)) {
+            share = gm_crossing_find(view, track->section, between);
+        }
+        if (!isnan(share)) {
+            there.state = between;
+            there.t = behind->t + share * (view->t - behind->t);
+        } else {
+            if (!known) {
+                find_slopes(view, behind);
+                known = true;
+            }
+            find_crossing(track, view, behind, before, after, &there);
+        }
+        if (track->admits && !track->admits(&there)) {
+            continue;
+        }
+        if (entries->count == track->bound) {
+            thin(entries);
+            entries->skipped = 0;
+        }
+        if (entries->skipped > 0) {
+            entries->skipped--;
+            continue;
+        }
+        entries->skipped = entries->every - 1;
+        add_entry(entries, track, &there);
+    }
+}
+
+/* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
+   start. */
+static void unwind(struct gm_entries *entries, double t)
+{
+    while (entries->count > 1 && entries->times[entries->count - 1] > t) {
+        entries->count--;
+    }
+}
+
+static bool is_due(const struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+{
+    if (entries->count == 0) {
+        return true;
+    }
+    const double last = entries->times[entries->count - 1];
+    const double interval =
+        (track->interval ? track->interval(view->parameters) : track->every) * (double)entries->every;
+    return interval > 0 ? intervals(view, interval, view->t) != intervals(view, interval, last)
+                        : view->t != last;
+}
+
+void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                       const struct gm_behind *behind)
+{
+    if (!track->section && !track->recent && view->dt < 0 && view->t >= view->t0) {
+        unwind(entries, view->t);
+        return;
+    }
+    entries->kept = entries->count; /* the run goes on from here */
+    if (track->section) {
+        record_crossings(entries, track, view, behind);
+        return;
+    }
+    if (!is_due(entries, track, view)) {
+        return;
+    }
+    if (entries->count == track->bound) {
+        if (track->recent) {
+            forget(entries);
+        } else {
+            thin(entries);
+        }
+    }
+    add_entry(entries, track, view);
+}
+
+void gm_behind_note(struct gm_behind *behind, const struct gm_view *view)
+{
+    if (behind->state) {
+        memcpy(behind->state, view->state, gm_active_count(view->problem) * sizeof *behind->state);
+        behind->t = view->t;
+    }
+}
+
+void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run)
+{
+    const size_t kept = track->section ? 0 : 1;
+    entries->count = entries->kept;
+    while (entries->count > kept && entries->steps[entries->count - 1] > run->steps) {
+        entries->count--;
+    }
+    if (run->dt < 0 && !track->section && !track->recent) {
+        unwind(entries, run->t);
+    }
+    forget_before(entries);
+}

@@ -1,0 +1,716 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes: opened, advanced, looked at, switched and copied, with the bounded records of their past. */
+#include "scenes/common/lane.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/kind.h"
+#include "core/memory.h"
+#include "scenes/common/crossing.h"
+
+static const struct gm_timing *timing(const struct gm_lane *lane)
+{
+    return lane->parameters;
+}
+
+struct gm_view gm_lane_view(const struct gm_lane *lane)
+{
+    return (struct gm_view){
+        .scene = lane->scene,
+        .parameters = lane->parameters,
+        .problem = &lane->problem,
+        .scheme = lane->scheme,
+        .start = lane->start,
+        .state = gm_run_state(lane->run),
+        .t0 = lane->t0,
+        .t = lane->run->t,
+        .dt = lane->run->dt,
+        .memory = gm_run_memory(lane->run),
+        .tracks = lane->entries,
+        .run = lane->run,
+        .worked = lane->worked,
+        .initials = lane->initials,
+        .cancelled = lane->cancelled,
+        .side = lane->side,
+    };
+}
+
+/* ---- what is observed ---- */
+
+static double initial_of(const struct gm_observable *observable, const struct gm_view *view)
+{
+    return view->initials[observable - view->scene->observables];
+}
+
+/* What an error is divided by. */
+static double divisor_of(const struct gm_observable *observable, const struct gm_view *view)
+{
+    const double divisor = fmax(fabs(initial_of(observable, view)), gm_observable_scale(observable, view));
+    return divisor > 0 ? divisor : 1;
+}
+
+/* A lane stands still where there was no memory to look at it. */
+static void settle(struct gm_lane *lane, unsigned long refusals)
+{
+    if (gm_memory_refusals() != refusals) {
+        lane->run->status = GM_OUT_OF_MEMORY;
+    }
+}
+
+/* What errors are errors from, once for every scheme that goes on with the lane: it may see space in its own way. Some
+   start as a difference of large terms: round-off, or little more. */
+static void look_at_start(struct gm_lane *lane)
+{
+    const double most = 1e-8;
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_view before = gm_lane_view(lane);
+    before.state = lane->start;
+    before.t = lane->t0;
+    before.memory = NULL;
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        const struct gm_observable *observable = before.observable = &lane->scene->observables[i];
+        const double terms = observable->terms ? observable->terms(&before) : 0;
+        lane->initials[i] = observable->error ? gm_observe(observable, &before) : 0;
+        const bool cancels = terms > 0 && fabs(lane->initials[i]) <= most * terms;
+        lane->cancelled[i] = cancels && isfinite(terms) ? terms : 0;
+    }
+    settle(lane, refusals);
+}
+
+/* `near`: where an angle was when it was last looked at */
+static double observe(const struct gm_observable *observable, const struct gm_view *view, double near)
+{
+    const double value = gm_observe(observable, view);
+    if (observable->period > 0) {
+        return value + observable->period * round((near - value) / observable->period);
+    }
+    if (!observable->error) {
+        return value;
+    }
+    return fabs(value - initial_of(observable, view)) / divisor_of(observable, view);
+}
+
+/* Those that are asked for are no angles. */
+static double near_of(const struct gm_lane *lane, size_t observable)
+{
+    return observable < lane->scene->observable_count ? lane->angles[observable] : 0;
+}
+
+double gm_lane_observe(const struct gm_lane *lane, size_t observable)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const unsigned long refusals = gm_memory_refusals();
+    const double value =
+        observe(gm_scene_observable_at(lane->scene, observable), &view, near_of(lane, observable));
+    return gm_memory_refusals() == refusals ? value : NAN;
+}
+
+const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
+{
+    const struct gm_observable *row = gm_scene_observable_at(lane->scene, observable);
+    const struct gm_view view = gm_lane_view(lane);
+    return row->why ? row->why(&view) : row->missing;
+}
+
+double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    return divisor_of(&lane->scene->observables[observable], &view);
+}
+
+long gm_lane_lost(const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    double most = 0;
+    long lost = -1;
+    for (size_t i = 0; lane->run->status == GM_OK && i < lane->scene->observable_count; i++) {
+        const struct gm_observable *observable = &lane->scene->observables[i];
+        if (!observable->kept) {
+            continue;
+        }
+        const double initial = initial_of(observable, &view), divisor = divisor_of(observable, &view),
+                     value = gm_observe(observable, &view);
+        const double error = fabs(value - initial) / divisor;
+        /* against a scale above it, what was small at the start may be smaller and no less right */
+        const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
+        if ((error > GM_LOST_ABOVE || decayed) && error > most) {
+            most = error;
+            lost = (long)i;
+        }
+    }
+    return lost;
+}
+
+void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
+{
+    const long lost = gm_lane_lost(lane);
+    text[0] = '\0';
+    if (lost < 0) {
+        return;
+    }
+    const struct gm_observable *observable = &lane->scene->observables[lost];
+    const struct gm_view view = gm_lane_view(lane);
+    const double error = gm_lane_observe(lane, (size_t)lost);
+    const double left = gm_observe(observable, &view) / initial_of(observable, &view);
+    if (error <= GM_LOST_ABOVE && left >= 0) {
+        snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
+                 observable->key, error, left);
+    } else {
+        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
+    }
+}
+
+static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
+{
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        gm_entries_record(&lane->entries[i], &lane->scene->tracks[i], view, &lane->behind);
+    }
+    gm_behind_note(&lane->behind, view);
+}
+
+/* An angle is unwrapped from where it was, so it has to be followed. */
+static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
+{
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        const struct gm_observable *observable = &lane->scene->observables[i];
+        if (observable->period > 0) {
+            const double angle = observe(observable, view, lane->angles[i]);
+            lane->angles[i] = isfinite(angle) ? angle : lane->angles[i];
+        }
+    }
+}
+
+static int side_of(double value)
+{
+    return (value > 0) - (value < 0);
+}
+
+bool gm_lane_stopped(const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    return gm_view_stopped(&view);
+}
+
+/* Whether it has stopped: then the last step ends where that was. */
+static bool land(struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const double least = 1e-6; /* of the first step: it began on the surface, but for round-off */
+    const bool stopped = gm_lane_stopped(lane);
+    if (lane->scene->stop && lane->side == 0) {
+        lane->side = side_of(lane->scene->stop(&view));
+    }
+    if (stopped && gm_behind_is_before(&lane->behind, &view)) {
+        double *there = lane->behind.state + 3 * gm_active_count(&lane->problem);
+        const double share = gm_crossing_find(&view, lane->scene->stop, there);
+        if (share < least && lane->run->steps == 1) {
+            lane->side = -lane->side;
+            return false;
+        }
+        if (!isnan(share)) {
+            gm_run_shorten(lane->run, share);
+        }
+    }
+    return stopped;
+}
+
+/* Takes the present state into tracks only, and follows angles: after every scene->follow steps that are not
+   recorded. Whether the lane has stopped. */
+static bool follow(struct gm_lane *lane)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    const bool stopped = land(lane);
+    const struct gm_view view = gm_lane_view(lane);
+    lane->followed = lane->run->steps;
+    follow_angles(lane, &view);
+    record_tracks(lane, &view);
+    settle(lane, refusals);
+    return stopped;
+}
+
+/* Whether steps that are not looked at may be followed many at once: nothing but the stop asks for them, and
+   they can be made again. */
+static bool follows_together(const struct gm_lane *lane)
+{
+    const struct gm_family *family = lane->scheme->family;
+    if (!lane->scene->stops) { /* asked at every step that is looked at */
+        return false;
+    }
+    bool alone = lane->side != 0 && !family->adaptive && !family->memory && !family->workspace_reset;
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        alone = alone && !(lane->scene->observables[i].period > 0);
+    }
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        alone = alone && !lane->scene->tracks[i].section;
+    }
+    return alone;
+}
+
+/* Makes so many steps; false where the lane is stopped by one of them, or one fails. There is room for the
+   states, and as many times and values. */
+static bool make_together(struct gm_lane *lane, size_t count, double *states)
+{
+    struct gm_run *run = lane->run;
+    const size_t m = lane->problem.m, n = gm_active_count(&lane->problem) / m;
+    double *times = states + n * count, *values = times + count;
+    for (size_t k = 0; k < count; k++) {
+        if (gm_run_advance(run, 1) != GM_OK) {
+            return false;
+        }
+        const double *state = gm_run_state(run);
+        for (size_t c = 0; c < n; c++) {
+            states[c * count + k] = state[c * m + m - 1];
+        }
+        times[k] = run->t;
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    bool stopped = false;
+    lane->scene->stops(&view, states, times, count, values);
+    for (size_t k = 0; k < count; k++) {
+        stopped = stopped || (values[k] < 0) != (lane->side < 0);
+    }
+    return !stopped;
+}
+
+/* Makes steps as far as the lane is not stopped by the next ones, which are followed one by one then: to look
+   at each takes longer than a short step. */
+static void follow_together(struct gm_lane *lane, int64_t steps)
+{
+    enum { TOGETHER = 64 };
+    struct gm_run *run = lane->run;
+    const size_t n = gm_active_count(&lane->problem) / lane->problem.m;
+    double *states = malloc((n + 2) * TOGETHER * sizeof *states);
+    void *before = malloc(gm_run_snapshot_size(run));
+    bool goes_on = states && before;
+    while (goes_on && run->status == GM_OK && steps - run->steps >= TOGETHER) {
+        gm_run_save(run, before);
+        goes_on = make_together(lane, TOGETHER, states);
+        if (!goes_on) {
+            gm_run_load(run, before); /* which is of this run */
+        }
+    }
+    free(states);
+    free(before);
+    follow(lane);
+}
+
+enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
+{
+    if (lane->scene->follow == 0 || lane->unfollowed) {
+        return gm_run_to(lane->run, steps, until);
+    }
+    /* steps that the scheme chooses may each be as long as many */
+    const int64_t most = lane->scheme->family->adaptive ? 1 : lane->scene->follow;
+    bool stopped = gm_lane_stopped(lane);
+    if (lane->followed > lane->run->steps) { /* it was set back */
+        lane->followed = lane->run->steps;
+    }
+    if (!stopped && follows_together(lane)) {
+        follow_together(lane, steps);
+    }
+    while (!stopped && gm_run_goes_on(lane->run, steps, until)) {
+        const int64_t due = lane->followed + most;
+        gm_run_to(lane->run, due < steps ? due : steps, until);
+        if (lane->run->steps >= due || lane->run->status != GM_OK) {
+            stopped = follow(lane);
+        }
+    }
+    return lane->run->status;
+}
+
+/* How many of the observables that are asked for its picture shows. */
+static size_t asked_shown(const struct gm_lane *lane)
+{
+    return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
+}
+
+void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_scene *scene = lanes[0]->scene;
+    (asked_shown(lanes[0]) > 0 ? scene->draw_asked : scene->draw)(lanes, count, picture);
+}
+
+void gm_lane_record(struct gm_lane *lane)
+{
+    double values[GM_MOST_OBSERVABLES];
+    const unsigned long refusals = gm_memory_refusals();
+    land(lane);
+    const struct gm_view view = gm_lane_view(lane);
+    lane->followed = lane->run->steps;
+    follow_angles(lane, &view);
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
+    }
+    const struct gm_scene *scene = lane->scene;
+    const size_t shown = asked_shown(lane);
+    for (size_t i = 0; i < scene->asked_count; i++) {
+        values[scene->observable_count + i] = i < shown ? observe(&scene->asked[i], &view, 0) : NAN;
+    }
+    gm_history_add(&lane->history, view.t, view.run->steps, values);
+    record_tracks(lane, &view);
+    settle(lane, refusals);
+}
+
+/* ---- how it is called, also after schemes were switched in flight ---- */
+
+/* Of a name "RK4, Δt = 0.1": the part that begins so, and ends with it or, for a parameter, before the next
+   comma; NULL if it has none. */
+static const char *part_of(const char *name, const char *front, bool parameter, size_t *length)
+{
+    const size_t known = strlen(front);
+    for (const char *part = name; part; part = strstr(part, ", ")) {
+        part += part == name ? 0 : 2;
+        *length = known;
+        if (strncmp(part, front, known) == 0) {
+            *length += parameter ? strcspn(part + known, ",") : 0;
+            if (part[*length] == '\0' || part[*length] == ',') {
+                return part;
+            }
+        }
+    }
+    return NULL;
+}
+
+void gm_shown_rename(struct gm_shown *shown, const char *before, const char *after, bool parameter)
+{
+    char *names[] = {shown->panel_name, shown->colour_name};
+    for (size_t k = 0; k < 2; k++) {
+        char was[sizeof shown->panel_name];
+        size_t length = 0;
+        snprintf(was, sizeof was, "%s", names[k]);
+        const char *part = part_of(was, before, parameter, &length);
+        if (part) {
+            snprintf(names[k], sizeof was, "%.*s%s%s", (int)(part - was), was, after, part + length);
+        }
+    }
+}
+
+/* "name, then Verlet, then RK4"; of many switches the last two. */
+static void add_switches(const struct gm_lane *lane, char *name, size_t size)
+{
+    size_t used = strlen(name);
+    const size_t first = lane->switch_count > 2 ? lane->switch_count - 2 : 0;
+    for (size_t i = first; i < lane->switch_count && used < size; i++) {
+        used += (size_t)snprintf(name + used, size - used, "%s, then %s", i == first && first > 0 ? " …" : "",
+                                 lane->switches[i].scheme->title);
+    }
+}
+
+/* The names as they are to be shown now. */
+static void compose(struct gm_lane *lane)
+{
+    struct gm_shown *shown = &lane->shown;
+    *shown = lane->named;
+    snprintf(lane->schemes, sizeof lane->schemes, "%s", lane->first_scheme->title);
+    add_switches(lane, lane->schemes, sizeof lane->schemes);
+    if (lane->switch_count == 0) {
+        return;
+    }
+    if (shown->colour_name[0]) {
+        add_switches(lane, shown->colour_name, sizeof shown->colour_name);
+        return;
+    }
+    if (!shown->panel_name[0]) {
+        snprintf(shown->panel_name, sizeof shown->panel_name, "%s", lane->first_scheme->title);
+    }
+    add_switches(lane, shown->panel_name, sizeof shown->panel_name);
+}
+
+void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named)
+{
+    lane->named = *named;
+    compose(lane);
+}
+
+static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
+{
+    const int64_t step = lane->run->steps;
+    struct gm_switch *longer = realloc(lane->switches, (lane->switch_count + 1) * sizeof *lane->switches);
+    if (!longer) {
+        return false;
+    }
+    lane->switches = longer;
+    while (lane->switch_count > 0 && longer[lane->switch_count - 1].step >= step) {
+        lane->switch_count--;
+    }
+    const size_t count = lane->switch_count;
+    if (step == 0) { /* nothing was made by the one before */
+        gm_shown_rename(&lane->named, lane->first_scheme->title, scheme->title, false);
+        lane->first_scheme = scheme;
+    } else if (scheme != (count > 0 ? longer[count - 1].scheme : lane->first_scheme)) {
+        longer[lane->switch_count++] = (struct gm_switch){.scheme = scheme, .step = step, .t = lane->run->t};
+    }
+    lane->switches_kept = lane->switch_count;
+    compose(lane);
+    return true;
+}
+
+static void show_switches(struct gm_lane *lane, int64_t step)
+{
+    lane->switch_count = lane->switches_kept;
+    while (lane->switch_count > 0 && lane->switches[lane->switch_count - 1].step > step) {
+        lane->switch_count--;
+    }
+    compose(lane);
+}
+
+static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
+{
+    const size_t size = from->switch_count * sizeof *from->switches;
+    struct gm_switch *copy = malloc(size ? size : 1);
+    if (!copy) {
+        return false;
+    }
+    if (size > 0) {
+        memcpy(copy, from->switches, size);
+    }
+    free(lane->switches);
+    lane->switches = copy;
+    lane->switch_count = lane->switches_kept = from->switch_count;
+    lane->first_scheme = from->first_scheme;
+    gm_lane_show(lane, &from->named);
+    return true;
+}
+
+/* ---- from open to close ---- */
+
+void gm_lane_close(struct gm_lane *lane)
+{
+    if (!lane) {
+        return;
+    }
+    for (size_t i = 0; lane->entries && i < lane->scene->track_count; i++) {
+        gm_entries_close(&lane->entries[i]);
+    }
+    free(lane->entries);
+    free(lane->angles);
+    free(lane->behind.state);
+    gm_history_close(&lane->history);
+    for (size_t i = 0; lane->worked && i < GM_WORKED; i++) {
+        if (lane->worked[i].data) {
+            lane->worked[i].forget(lane->worked[i].data);
+        }
+    }
+    free(lane->worked);
+    free(lane->initials);
+    gm_run_close(lane->run);
+    if (lane->scene->close) {
+        lane->scene->close(&lane->problem);
+    }
+    free(lane->switches);
+    free(lane->start);
+    free(lane->parameters);
+    free(lane);
+}
+
+static bool open_tracks(struct gm_lane *lane)
+{
+    const struct gm_scene *scene = lane->scene;
+    lane->entries = calloc(scene->track_count ? scene->track_count : 1, sizeof *lane->entries);
+    lane->angles = calloc(scene->observable_count ? scene->observable_count : 1, sizeof *lane->angles);
+    if (!lane->entries || !lane->angles) {
+        return false;
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    for (size_t i = 0; i < scene->track_count; i++) {
+        if (!gm_entries_open(&lane->entries[i], &scene->tracks[i], &view, &lane->behind)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_fit(const struct gm_scene *scene, const struct gm_problem *problem,
+                      const struct gm_scheme *scheme, char *sentence)
+{
+    if (gm_scheme_fits(scheme, problem)) {
+        return true;
+    }
+    const char *lacks = gm_scheme_lacks(scheme, problem);
+    return gm_refuse(sentence, "scheme %s does not fit scene %s: it needs %s, which %s lacks", scheme->name,
+                     scene->name, lacks ? lacks : "a structure", problem->name);
+}
+
+static void *copy_of(const void *source, size_t size)
+{
+    void *copy = malloc(size);
+    if (copy) {
+        memcpy(copy, source, size);
+    }
+    return copy;
+}
+
+/* A lane up to its run, from a start (t0, y), or from the scene's own start where y is NULL. */
+static bool prepare(struct gm_lane *lane, char *sentence)
+{
+    const struct gm_scene *scene = lane->scene;
+    if (!lane->parameters) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    if (scene->observable_count + scene->asked_count > GM_MOST_OBSERVABLES) {
+        return gm_refuse(sentence, "%zu observables, and a scene has at most %d",
+                         scene->observable_count + scene->asked_count, GM_MOST_OBSERVABLES);
+    }
+    if (scene->resolve) {
+        scene->resolve(lane->parameters);
+    }
+    if (!scene->setup(lane->parameters, &lane->problem, sentence) ||
+        !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
+        return false;
+    }
+    if (scene->chosen) {
+        scene->chosen(&lane->problem, lane->parameters);
+    }
+    lane->t0 = gm_scene_t0(scene, lane->parameters);
+    lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
+    if (!lane->start) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    if (!scene->start_with) {
+        scene->start(lane->parameters, &lane->problem, lane->start);
+    } else if (!scene->start_with(lane->parameters, &lane->problem, lane->scheme, lane->start, sentence)) {
+        return false;
+    }
+    lane->run =
+        gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
+    lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
+    lane->initials = calloc(2 * scene->observable_count + 1, sizeof *lane->initials);
+    if (!lane->run || !lane->worked || !lane->initials ||
+        !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
+        !open_tracks(lane)) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    lane->cancelled = lane->initials + scene->observable_count;
+    look_at_start(lane);
+    if (scene->stop) {
+        lane->run->looks_back = true;
+        const struct gm_view view = gm_lane_view(lane);
+        lane->side = side_of(scene->stop(&view));
+        return gm_behind_open(&lane->behind, &lane->problem) || gm_refuse(sentence, "not enough memory");
+    }
+    return true;
+}
+
+struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
+                             const struct gm_settings *settings, const struct gm_scheme *scheme,
+                             char *sentence)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_lane *lane = calloc(1, sizeof *lane);
+    if (!lane) {
+        gm_refuse(sentence, "not enough memory");
+        return NULL;
+    }
+    lane->scene = scene;
+    lane->settings = *settings;
+    lane->scheme = lane->first_scheme = scheme;
+    gm_lane_show(lane, &(const struct gm_shown){0});
+    lane->parameters = copy_of(parameters, scene->size);
+    bool good = prepare(lane, sentence);
+    if (good) {
+        gm_lane_record(lane);
+    }
+    if (gm_memory_refusals() != refusals) {
+        /* whatever was made of it: a start or an observable cannot say so, a search for a mesh found none */
+        good = gm_refuse(sentence, "not enough memory");
+    }
+    if (!good) {
+        gm_lane_close(lane);
+        return NULL;
+    }
+    return lane;
+}
+
+bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence)
+{
+    if (!check_fit(lane->scene, &lane->problem, scheme, sentence)) {
+        return false;
+    }
+    struct gm_run *run = gm_run_switch(lane->run, scheme);
+    if (!run) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    if (!note_switch(lane, scheme)) {
+        gm_run_close(run);
+        return gm_refuse(sentence, "not enough memory");
+    }
+    gm_run_close(lane->run);
+    lane->run = run;
+    lane->scheme = scheme;
+    look_at_start(lane);
+    return true;
+}
+
+struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
+{
+    char sentence[GM_MESSAGE];
+    struct gm_timing *forwards = copy_of(lane->parameters, lane->scene->size);
+    if (!forwards) {
+        return NULL;
+    }
+    forwards->dt = fabs(forwards->dt); /* the start is one of a run that goes forwards */
+    struct gm_lane *other = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
+    free(forwards);
+    if (!other || !copy_switches(other, lane)) {
+        gm_lane_close(other);
+        return NULL;
+    }
+    memcpy(other->start, lane->start, lane->problem.n * lane->problem.m * sizeof *other->start);
+    look_at_start(other);
+    ((struct gm_timing *)other->parameters)->dt = lane->run->dt;
+    return other;
+}
+
+void gm_lane_set_step(struct gm_lane *lane, double dt)
+{
+    ((struct gm_timing *)lane->parameters)->dt = dt;
+    gm_run_set_step(lane->run, dt);
+}
+
+size_t gm_lane_snapshot_size(const struct gm_lane *lane)
+{
+    return gm_run_snapshot_size(lane->run);
+}
+
+void gm_lane_save(const struct gm_lane *lane, void *snapshot)
+{
+    gm_run_save(lane->run, snapshot);
+}
+
+bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
+{
+    /* a snapshot from before a switch: its scheme's memory has another shape */
+    const struct gm_run *then = snapshot;
+    if (then->scheme != lane->run->scheme) {
+        struct gm_run *run = gm_run_switch(lane->run, then->scheme);
+        if (!run) {
+            return false;
+        }
+        gm_run_close(lane->run);
+        lane->run = run;
+    }
+    if (!gm_run_load(lane->run, snapshot)) {
+        return false;
+    }
+    const int64_t step = lane->run->steps;
+    if (lane->scheme != lane->run->scheme) {
+        lane->scheme = lane->run->scheme;
+        look_at_start(lane);
+    }
+    ((struct gm_timing *)lane->parameters)->dt = lane->run->dt;
+    show_switches(lane, step);
+    gm_history_show(&lane->history, step);
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        gm_entries_show(&lane->entries[i], &lane->scene->tracks[i], lane->run);
+    }
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        const struct gm_history *history = &lane->history;
+        if (history->count > 0) {
+            lane->angles[i] = history->bins[(history->count - 1) * history->series + i].last;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A lane as bytes, for checkpoints and copies. What comes from a file is believed only if a lane can be
+   so. */
+#include "scenes/common/lane_pack.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
+   agree. */
+
+enum direction { MEASURE, PACK, UNPACK };
+
+struct walk {
+    enum direction direction;
+    unsigned char *bytes;
+    size_t used, size;
+    bool damaged;
+};
+
+static void pass(struct walk *walk, void *data, size_t size)
+{
+    if (walk->direction != MEASURE) {
+        if (walk->damaged || size > walk->size - walk->used) {
+            walk->damaged = true;
+            return;
+        }
+        unsigned char *place = walk->bytes + walk->used;
+        if (walk->direction == PACK) {
+            memcpy(place, data, size);
+        } else {
+            memcpy(data, place, size);
+        }
+    }
+    walk->used += size;
+}
+
+/* A count that says how much follows; `bound` is the room for it. */
+static void pass_count(struct walk *walk, size_t *count, size_t bound)
+{
+    size_t value = *count;
+    pass(walk, &value, sizeof value);
+    if (value > bound) {
+        walk->damaged = true;
+    } else {
+        *count = value;
+    }
+}
+
+static void pass_run(struct walk *walk, struct gm_run *run)
+{
+    const size_t size = gm_run_snapshot_size(run);
+    if (walk->direction == MEASURE) {
+        walk->used += size;
+        return;
+    }
+    if (walk->damaged || size > walk->size - walk->used) {
+        walk->damaged = true;
+        return;
+    }
+    if (walk->direction == PACK) {
+        gm_run_save(run, walk->bytes + walk->used);
+    } else {
+        walk->damaged = !gm_run_load(run, walk->bytes + walk->used);
+    }
+    walk->used += size;
+}
+
+/* Steps of a record, in order, none after the run's; `stride` lies between one and the next. */
+static bool are_steps(const int64_t *steps, size_t count, size_t stride, int64_t last)
+{
+    int64_t before = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int64_t step = *(const int64_t *)(const void *)((const char *)steps + i * stride);
+        if (step < before || step > last) {
+            return false;
+        }
+        before = step;
+    }
+    return true;
+}
+
+/* Numbers that are doubled, or counted on, and must not overflow. */
+static bool can_grow(int64_t number)
+{
+    return number >= 0 && number <= INT64_MAX / 4;
+}
+
+static void pass_history(struct walk *walk, struct gm_history *history, int64_t last)
+{
+    pass_count(walk, &history->count, GM_HISTORY_BINS);
+    pass(walk, &history->per_bin, sizeof history->per_bin);
+    pass(walk, &history->in_last, sizeof history->in_last);
+    pass(walk, history->bins, history->count * history->series * sizeof *history->bins);
+    if (walk->direction == UNPACK) {
+        history->kept = history->count;
+        history->in_kept = history->in_last;
+        walk->damaged |= history->per_bin < 1 || !can_grow(history->per_bin) || history->in_last < 0 ||
+                         history->in_last > history->per_bin ||
+                         !are_steps(&history->bins->step, history->series ? history->count : 0,
+                                    history->series * sizeof *history->bins, last);
+    }
+}
+
+static void pass_entries(struct walk *walk, struct gm_entries *entries, const struct gm_track *track,
+                         int64_t last)
+{
+    pass_count(walk, &entries->count, track->bound);
+    pass(walk, &entries->every, sizeof entries->every);
+    pass(walk, &entries->skipped, sizeof entries->skipped);
+    pass(walk, entries->before, entries->sections * sizeof *entries->before);
+    pass(walk, entries->times, entries->count * sizeof *entries->times);
+    pass(walk, entries->steps, entries->count * sizeof *entries->steps);
+    pass(walk, entries->values, entries->count * entries->width * sizeof *entries->values);
+    if (walk->direction == UNPACK) {
+        entries->kept = entries->count;
+        walk->damaged |= entries->every < 1 || !can_grow(entries->every) || !can_grow(entries->skipped) ||
+                         (entries->count == 0 && !track->section) ||
+                         !are_steps(entries->steps, entries->count, sizeof *entries->steps, last);
+    }
+}
+
+static void walk_lane(struct walk *walk, struct gm_lane *lane)
+{
+    pass_run(walk, lane->run);
+    const int64_t last = lane->run->steps;
+    pass(walk, &lane->side, sizeof lane->side);
+    walk->damaged |= lane->side < -1 || lane->side > 1;
+    pass_history(walk, &lane->history, last);
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        pass_entries(walk, &lane->entries[i], &lane->scene->tracks[i], last);
+    }
+    pass(walk, lane->angles, lane->scene->observable_count * sizeof *lane->angles);
+    if (lane->behind.state) {
+        pass(walk, lane->behind.state, gm_active_count(&lane->problem) * sizeof *lane->behind.state);
+        pass(walk, &lane->behind.t, sizeof lane->behind.t);
+    }
+}
+
+size_t gm_lane_pack_size(const struct gm_lane *lane)
+{
+    struct walk walk = {.direction = MEASURE};
+    walk_lane(&walk, (struct gm_lane *)lane); /* only looked at */
+    return walk.used;
+}
+
+void gm_lane_pack(const struct gm_lane *lane, void *bytes)
+{
+    struct walk walk = {.direction = PACK, .bytes = bytes, .size = gm_lane_pack_size(lane)};
+    walk_lane(&walk, (struct gm_lane *)lane);
+}
+
+bool gm_lane_unpack(struct gm_lane *lane, const void *bytes, size_t *size)
+{
+    struct walk walk = {.direction = UNPACK, .bytes = (unsigned char *)bytes, .size = *size};
+    walk_lane(&walk, lane);
+    *size = walk.used;
+    return !walk.damaged;
+}
+
+struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
+{
+    size_t size = gm_lane_pack_size(lane);
+    struct gm_lane *copy = gm_lane_reopen(lane);
+    void *bytes = malloc(size);
+    bool good = copy && bytes;
+    if (good) {
+        gm_lane_pack(lane, bytes);
+        good = gm_lane_unpack(copy, bytes, &size);
+    }
+    free(bytes);
+    if (!good) {
+        gm_lane_close(copy);
+        return NULL;
+    }
+    return copy;
+}

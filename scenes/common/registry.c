@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/memory.h"
+#include "scenes/common/scene.h"
+
+#define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
+#include "scenes/scenes.def"
+#undef GM_SCENE
+
+static const struct gm_scene *const scenes[] = {
+#define GM_SCENE(name) &gm_scene_##name,
+#include "scenes/scenes.def"
+#undef GM_SCENE
+};
+
+size_t gm_scene_count(void)
+{
+    return GM_COUNT(scenes);
+}
+
+const struct gm_scene *gm_scene_at(size_t index)
+{
+    return scenes[index];
+}
+
+const struct gm_scene *gm_scene_find(const char *name)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        if (strcmp(scenes[i]->name, name) == 0) {
+            return scenes[i];
+        }
+    }
+    return NULL;
+}
+
+const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size)
+{
+    const char *x = observable->symbol, *scale = observable->scale_text;
+    if (!observable->error) {
+        snprintf(text, size, "%s", observable->title);
+    } else {
+        snprintf(text, size, scale ? "%s  |%s − %s₀| / max(|%s₀|, %s)" : "%s  |%s − %s₀| / |%s₀|",
+                 observable->title, x, x, x, scale);
+    }
+    return text;
+}
+
+static bool is_largest_of(const char *key, const char *other)
+{
+    const size_t length = strlen(other);
+    return strncmp(key, other, length) == 0 && strcmp(key + length, "_max") == 0;
+}
+
+bool gm_observables_clash(const char *key, const char *other)
+{
+    return strcmp(key, other) == 0 || is_largest_of(key, other) || is_largest_of(other, key);
+}
+
+bool gm_view_stopped(const struct gm_view *view)
+{
+    return view->scene->stop && view->side != 0 && (view->scene->stop(view) < 0) != (view->side < 0);
+}
+
+double gm_observe(const struct gm_observable *observable, const struct gm_view *view)
+{
+    struct gm_view asked = *view;
+    asked.observable = observable;
+    return observable->evaluate(&asked);
+}
+
+double gm_observable_scale(const struct gm_observable *observable, const struct gm_view *view)
+{
+    const double natural = observable->scale ? observable->scale(view->parameters) : observable->least;
+    const bool cancels = observable->terms && view->cancelled;
+    return fmax(natural, cancels ? view->cancelled[observable - view->scene->observables] : 0);
+}
+
+void *gm_scene_defaults(const struct gm_scene *scene)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    void *parameters = calloc(1, scene->size);
+    if (parameters) {
+        if (scene->initial) {
+            memcpy(parameters, scene->initial, scene->size);
+        }
+        gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
+    }
+    if (gm_memory_refusals() != refusals) { /* a default that could not be read is another number */
+        free(parameters);
+        return NULL;
+    }
+    return parameters;
+}
+
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters)
+{
+    return scene->t0 ? scene->t0(parameters) : 0;
+}
+
+const char *gm_scene_idle(const struct gm_scene *scene, const void *parameters, const char *key)
+{
+    return scene->idle ? scene->idle(parameters, key) : NULL;
+}
+
+const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        if (strcmp(scene->parameters[i].key, key) == 0) {
+            return &scene->parameters[i];
+        }
+    }
+    return NULL;
+}
+
+int gm_scene_observable(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; gm_scene_observable_at(scene, i); i++) {
+        if (strcmp(gm_scene_observable_at(scene, i)->key, key) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+const struct gm_observable *gm_scene_observable_at(const struct gm_scene *scene, size_t number)
+{
+    if (number < scene->observable_count) {
+        return &scene->observables[number];
+    }
+    number -= scene->observable_count;
+    return number < scene->asked_count ? &scene->asked[number] : NULL;
+}
+
+const char *gm_scene_observable_key(size_t number, const void *scene)
+{
+    return gm_scene_observable_at(scene, number)->key;
+}
+
+void gm_choose(struct gm_choice *choice, const char *key, double value)
+{
+    choice->key = key;
+    snprintf(choice->value, sizeof choice->value, "%.3g", value == 0 ? 0.0 : value);
+}
+
+bool gm_is_given(const char *key, const char *const *keys, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(keys[i], key) == 0) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What scenes that are made of somebody's own text have in common. */
+#include "scenes/common/written.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/schemes.h"
+
+const char *gm_kept_texts_add(struct gm_kept_texts *texts, char *text)
+{
+    char **more = text ? realloc(texts->list, (texts->count + 1) * sizeof *more) : NULL;
+    if (!more) {
+        free(text);
+        return NULL;
+    }
+    texts->list = more;
+    return more[texts->count++] = text;
+}
+
+void gm_kept_texts_close(struct gm_kept_texts *texts)
+{
+    for (size_t i = 0; i < texts->count; i++) {
+        free(texts->list[i]);
+    }
+    free(texts->list);
+}
+
+/* FNV-1a */
+char *gm_written_mark(const char *name, const char *text)
+{
+    uint32_t sum = UINT32_C(2166136261);
+    char *mark = NULL;
+    for (const char *at = text; *at; at++) {
+        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
+    }
+    return asprintf(&mark, "%s:%08x", name, (unsigned)sum) < 0 ? NULL : mark;
+}
+
+bool gm_listed_word(const char **list, char *word, size_t size)
+{
+    const char *text = *list ? *list + strspn(*list, " ,") : "";
+    const size_t length = strcspn(text, " ,");
+    snprintf(word, size, "%.*s", (int)(length < size ? length : size), text);
+    *list = text + length;
+    return length > 0;
+}
+
+bool gm_written_schemes(const char *text, const struct gm_problem *problem, const char **schemes, size_t most,
+                        size_t *count, char *sentence)
+{
+    char name[64];
+    for (*count = 0; *count < most && gm_listed_word(&text, name, sizeof name);) {
+        const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
+        if (!(scheme && gm_scheme_fits(scheme, problem))) {
+            return gm_refuse(sentence, "schemes: %s %s", name,
+                             scheme ? "does not fit this system" : "is no scheme");
+        }
+        schemes[(*count)++] = scheme->name;
+    }
+    return true;
+}
+
+double gm_written_rounded(double value)
+{
+    const double scale = pow(10, floor(log10(value))), digits = value / scale;
+    return (digits < sqrt(2) ? 1 : digits < sqrt(10) ? 2 : digits < sqrt(50) ? 5 : 10) * scale;
+}

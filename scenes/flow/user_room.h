@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FLOW_OWN_ROOM_H
+#define GM_SCENES_FLOW_OWN_ROOM_H
+
+#include "core/flow/room.h"
+#include "scenes/common/scene.h"
+
+/* The scene of a room, which it takes; `word` is what it was asked for by, `path` that of its file, to which
+   the mesh's is relative. NULL with a sentence. */
+const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name, const char *word,
+                                         const char *path, char *sentence);
+void gm_user_room_close(const struct gm_scene *scene);
+
+#endif

@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Potentials that somebody wrote, on moving meshes: means by Gauss's formula against those of closed form, and the
+   claims of schemes on them. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/certify.h"
+#include "core/count.h"
+#include "core/mesh/certify/law.h"
+#include "core/mesh/families/multiplier.h"
+#include "core/mesh/soliton.h"
+#include "core/mesh/user/potential.h"
+#include "core/model/equations.h"
+#include "core/run.h"
+#include "core/schemes.h"
+
+static const struct gm_settings settings = {0};
+
+struct typed {
+    struct gm_user_system system;
+    struct gm_user_wave wave;
+    struct gm_problem problem;
+    struct gm_mesh mesh;
+};
+
+static void open_typed(struct typed *typed, const char *text, double half_length, long points, double alpha)
+{
+    struct gm_fault fault;
+    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
+        fail_msg("%s: %s", text, fault.sentence);
+    }
+    assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
+    double *values = gm_equations_start(&typed->system, NULL);
+    const struct gm_user_mesh chosen = {half_length, points, alpha, GM_ARCLENGTH};
+    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, &chosen));
+    free(values);
+    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+}
+
+static void close_typed(struct typed *typed)
+{
+    gm_user_mesh_close(&typed->problem);
+    gm_system_close(&typed->system);
+}
+
+static const char sine_gordon[] = "field: u\nV: 1 - cos(u)\nlet: g = 1/sqrt(1 - 0.9^2)\n"
+                                  "start: u = 4*atan(exp(g*x)), u_t = -1.8*g/cosh(g*x)\n";
+static const char phi4[] = "field: u\nV: (u^2 - 1)^2/4\nlet: g = 1/sqrt(2*(1 - 0.5^2))\n"
+                           "start: u = tanh(g*x), u_t = -0.5*g/cosh(g*x)^2\n";
+static const char both[] = "field: u\nV: 1 - cos(u) + 4*(1 - cos(u/2))\nlet: g = sqrt(2)/sqrt(1 - 0.5^2)\n"
+                           "start: u = 8*atan(exp(g*x)), u_t = -4*g/cosh(g*x)\n";
+
+/* w and its derivatives over m and r of elements from flat to a whole soliton's rise */
+static void means_are_those_of_closed_form(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        const struct gm_potential *closed;
+        size_t nodes;
+    } list[] = {{sine_gordon, &gm_potential_sine_gordon, 10}, {phi4, &gm_potential_phi4, 3}};
+    enum { COUNT = 400 }; /* more than are computed together */
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
+        struct typed typed;
+        open_typed(&typed, list[i].text, 12.5, 15, 2.5);
+        assert_int_equal(gm_user_mesh_order(&typed.wave), list[i].nodes);
+        double middle[COUNT], rise[COUNT], ours[3][COUNT], theirs[3][COUNT], farthest = 0;
+        for (size_t k = 0; k < COUNT; k++) {
+            middle[k] = 0.03 * (double)k - 3;
+            rise[k] = k % 5 == 0 ? 0 : 3.2 * sin((double)k);
+        }
+        const struct gm_potential *own = typed.mesh.potential, *closed = list[i].closed;
+        own->first(own, middle, rise, COUNT, ours[0], ours[1], ours[2]);
+        closed->first(closed, middle, rise, COUNT, theirs[0], theirs[1], theirs[2]);
+        for (size_t k = 0; k < COUNT; k++) {
+            double second[2][3], force[2][3];
+            own->second(own, middle[k], rise[k], &second[0][0], &second[0][1], &second[0][2]);
+            closed->second(closed, middle[k], rise[k], &second[1][0], &second[1][1], &second[1][2]);
+            own->force(own, middle[k], force[0]);
+            closed->force(closed, middle[k], force[1]);
+            const double scale = 1 + pow(fabs(middle[k]) + fabs(rise[k]), i == 1 ? 4 : 0);
+            for (size_t c = 0; c < 3; c++) {
+                farthest = fmax(farthest, fabs(ours[c][k] - theirs[c][k]) / scale);
+                farthest = fmax(farthest, fabs(second[0][c] - second[1][c]) / scale);
+                farthest = fmax(farthest, fabs(force[0][c] - force[1][c]) / scale);
+            }
+        }
+        print_message("    means by %zu points: within %.1e of closed form\n", list[i].nodes, farthest);
+        assert_true(farthest < 1e-14);
+        close_typed(&typed);
+    }
+}
+
+/* Every node of the built-in soliton, which begins at 0 and not at -half_length. */
+static void typed_again_the_soliton_is_the_same(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"multiplier-lobatto4", "multiplier-trapezoidal",
+                                        "multiplier-adaptive4", "control-gauss4", "uniform-lobatto4"};
+    for (int field = 0; field < 2; field++) {
+        const struct gm_soliton soliton = {.field = field,
+                                           .solitons = 1,
+                                           .points = 15,
+                                           .velocity = field == GM_PHI4 ? 0.5 : 0.9,
+                                           .length = 25,
+                                           .alpha = 2.5};
+        struct gm_problem problem;
+        struct gm_mesh mesh;
+        struct typed typed;
+        gm_soliton_problem(&soliton, &problem);
+        gm_moving_mesh_of(&problem)->describe(&problem, &mesh);
+        open_typed(&typed, field == GM_PHI4 ? phi4 : sine_gordon, 12.5, 15, 2.5);
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+            double state[2][60], farthest = 0;
+            for (int side = 0; side < 2; side++) {
+                const struct gm_problem *of = side ? &typed.problem : &problem;
+                assert_true(gm_mesh_start(side ? &typed.mesh : &mesh, gm_scheme_mesh(scheme),
+                                          gm_moving_mesh_of(of)->start, of->parameters, state[side]));
+                struct gm_run *run = gm_run_open(of, scheme, &settings, 0, 0.01, state[side]);
+                assert_int_equal(gm_run_advance(run, 500), GM_OK);
+                memcpy(state[side], gm_run_state(run), sizeof state[side]);
+                gm_run_close(run);
+            }
+            for (size_t k = 0; k < 30; k++) {
+                const double shift = k < 15 ? 0 : 12.5;
+                farthest = fmax(farthest, fabs(state[0][k] - state[1][k] - shift));
+            }
+            print_message("    %-24s after 500 steps: every node within %.1e\n", names[i], farthest);
+            if (!(farthest < 1e-9)) { /* equations are solved to 1e-11, and the ends differ by 1e-12 */
+                fail_msg("%s: %.3g", names[i], farthest);
+            }
+        }
+        close_typed(&typed);
+    }
+}
+
+/* The multipliers of Lobatto's method of order 4, whose coefficients have one. */
+static struct gm_scheme with_a_wrong_digit(void)
+{
+    static struct gm_tableau tableau;
+    static struct gm_multiplier digit;
+    tableau = gm_tableau_lobatto4;
+    tableau.abar[2][1] += 1e-3;
+    digit = gm_multiplier_lobatto4;
+    digit.tableau = &tableau;
+    struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
+    wrong.coefficients = &digit;
+    return wrong;
+}
+
+/* The order in the step of differences between runs, on 7 nodes. */
+static double order_of(const struct typed *typed, const struct gm_scheme *scheme)
+{
+    struct gm_mesh_subject subject;
+    double before[GM_MESH_SUBJECT_STATE] = {0}, end[GM_MESH_SUBJECT_STATE], changes[4];
+    assert_true(gm_mesh_subject_open_on(&subject, scheme, &typed->problem));
+    for (int i = 0; i < 4; i++) {
+        const long steps = 20L << i;
+        assert_true(gm_mesh_subject_advance(&subject, scheme, 1. / (double)steps, steps, subject.start, end));
+        changes[i] = 0;
+        for (size_t k = 0; k < subject.problem.n / 2; k++) {
+            changes[i] = fmax(changes[i], fabs(end[k] - before[k]));
+        }
+        memcpy(before, end, sizeof before);
+    }
+    return log2(changes[2] / changes[3]);
+}
+
+static void orders_are_claimed_ones(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"multiplier-lobatto4", "multiplier-lobatto2",
+                                        "multiplier-trapezoidal", "control-gauss4", "uniform-gauss4"};
+    static const char *const texts[] = {phi4, both};
+    for (size_t which = 0; which < GM_COUNT(texts); which++) {
+        struct typed typed;
+        open_typed(&typed, texts[which], 6, 7, NAN);
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+            const double order = order_of(&typed, scheme);
+            print_message("    %-24s order %.3f\n", names[i], order);
+            if (!(fabs(order - scheme->order) < 0.15)) {
+                fail_msg("%s: order %.3f", names[i], order);
+            }
+        }
+        const struct gm_scheme wrong = with_a_wrong_digit();
+        assert_false(fabs(order_of(&typed, &wrong) - 4) < 0.15);
+        close_typed(&typed);
+    }
+}
+
+/* The local law of the trapezoidal Lagrangian with somebody's means in it: to rounding for its own scheme, for no
+   other. */
+static void laws_hold_of_somebodys_potential(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {phi4, both};
+    for (size_t which = 0; which < GM_COUNT(texts); which++) {
+        struct typed typed;
+        struct gm_mesh_subject subject;
+        open_typed(&typed, texts[which], 6, 3, NAN);
+        static const char *const names[] = {"multiplier-trapezoidal", "uniform-gauss2", "multiplier-lobatto4",
+                                            "uniform-gauss4"};
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+            assert_true(gm_mesh_subject_open_on(&subject, scheme, &typed.problem));
+            const double defect = gm_mesh_law_defect(&subject, scheme, 0.2);
+            print_message("    %-24s multisymplectic law %.1e\n", names[i], defect);
+            if (scheme->claims & GM_MULTISYMPLECTIC ? !(defect < 1e-9) : !(defect > 1e-6)) {
+                fail_msg("%s: law %.3g", names[i], defect);
+            }
+        }
+        close_typed(&typed);
+    }
+}
+
+static struct gm_certificate certificate_of(const struct typed *typed, const struct gm_scheme *scheme)
+{
+    double start[4 * 3];
+    assert_true(gm_mesh_start(&typed->mesh, gm_scheme_mesh(scheme), gm_moving_mesh_of(&typed->problem)->start,
+                              typed->problem.parameters, start));
+    const struct gm_certified_system system = {.problem = &typed->problem, .start = start, .dt = 0.1};
+    return gm_certify_on(scheme, &system);
+}
+
+/* The claims of a row, measured on what somebody wrote; a wrong digit and a claim that is none are found out. */
+static void schemes_are_certified_on_somebodys_potential(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"multiplier-lobatto4", "multiplier-trapezoidal", "control-gauss4",
+                                        "uniform-gauss2", "multiplier-adaptive4"};
+    static const char *const texts[] = {phi4, both};
+    for (size_t which = 0; which < GM_COUNT(texts); which++) {
+        struct typed typed;
+        open_typed(&typed, texts[which], 6, 3, NAN);
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
+            const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+            const struct gm_certificate certificate = certificate_of(&typed, scheme);
+            if (!certificate.holds || !(fabs(certificate.order - scheme->order) < 0.15)) {
+                fail_msg("%s: order %.3f", names[i], certificate.order);
+            }
+        }
+        struct gm_scheme wrong = with_a_wrong_digit();
+        assert_false(certificate_of(&typed, &wrong).holds);
+        wrong = *gm_scheme_find("control-gauss4");
+        assert_true(certificate_of(&typed, &wrong).holds);
+        wrong.claims |= GM_MULTISYMPLECTIC;
+        assert_false(certificate_of(&typed, &wrong).holds);
+        close_typed(&typed);
+    }
+}
+
+/* A kink of phi^4 over three quarters of its way: the energy swings, the less the shorter the step, and does not
+   drift; with the control-theoretic strategy it does not come back. */
+static void energy_is_kept(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    open_typed(&typed, phi4, 12.5, 31, NAN);
+    double changes[2];
+    for (int i = 0; i < 2; i++) {
+        const struct gm_scheme *scheme = gm_scheme_find("multiplier-lobatto4");
+        double state[4 * 31];
+        assert_true(gm_mesh_start(&typed.mesh, GM_MESH_MOVING, gm_moving_mesh_of(&typed.problem)->start,
+                                  typed.problem.parameters, state));
+        const double initial = gm_mesh_energy(&typed.mesh, state);
+        /* M gamma, of the continuum */
+        assert_true(fabs(initial / (2 * M_SQRT2 / 3 / sqrt(1 - 0.25)) - 1) < 0.02);
+        struct gm_run *run = gm_run_open(&typed.problem, scheme, &settings, 0, ldexp(0.1, -i), state);
+        changes[i] = 0;
+        for (int k = 0; k < 100; k++) {
+            assert_int_equal(gm_run_advance(run, 1L << i), GM_OK);
+            changes[i] = fmax(changes[i], fabs(gm_mesh_energy(&typed.mesh, gm_run_state(run)) - initial));
+        }
+        gm_run_close(run);
+    }
+    print_message("    energy changes by %.1e, with half the step %.1e\n", changes[0], changes[1]);
+    assert_true(changes[0] < 1e-3);
+    assert_true(changes[1] < changes[0] / 8);
+    close_typed(&typed);
+}
+
+static void what_does_not_rest_is_refused(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"field: u\nV: u^2/2\nstart: u = 1/(x^2 - 4), u_t = 0\n",
+                                        "field: u\nV: u^2/2\nstart: u = exp(-x^2), u_t = 1\n",
+                                        "field: u\nV: u^2/2\nstart: u = sqrt(x - 1), u_t = 0\n",
+                                        "field: u\nV: u^2/2\nstart: u = 0, u_t = exp(-x^2)\n"};
+    static const char *const told[] = {"not finite where x = -2", "held at both ends",
+                                       "not finite where x = -4", NULL};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        struct typed typed;
+        char sentence[200] = "";
+        open_typed(&typed, texts[i], 4, 7, NAN);
+        assert_int_equal(gm_user_mesh_rests(&typed.problem, "u", sentence, sizeof sentence), !told[i]);
+        assert_true(!told[i] || strstr(sentence, told[i]));
+        close_typed(&typed);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_are_those_of_closed_form),
+        cmocka_unit_test(typed_again_the_soliton_is_the_same),
+        cmocka_unit_test(orders_are_claimed_ones),
+        cmocka_unit_test(laws_hold_of_somebodys_potential),
+        cmocka_unit_test(schemes_are_certified_on_somebodys_potential),
+        cmocka_unit_test(energy_is_kept),
+        cmocka_unit_test(what_does_not_rest_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
