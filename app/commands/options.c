@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"

@@ -24,7 +24,7 @@
 #include "app/output/say.h"
 #include "app/words/chosen.h"
 #include "app/words/drive.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"

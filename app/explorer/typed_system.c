@@ -12,7 +12,7 @@
 #include "app/explorer/surface/keystroke.h"
 #include "app/grid/kinds/study.h"
 #include "app/words/replacing.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "render/message.h"
 

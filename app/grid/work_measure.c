@@ -11,7 +11,7 @@
 #include "app/base/pool.h"
 #include "app/native/engine.h"
 #include "app/words/drive.h"
-#include "core/larger.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "render/clock.h"
 

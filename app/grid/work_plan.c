@@ -8,8 +8,8 @@
 #include "app/grid/work.h"
 #include "app/words/chosen.h"
 #include "app/words/words.h"
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/expression/lines.h"
 #include "core/schemes.h"
 

@@ -12,7 +12,7 @@
 #include "app/base/arguments.h"
 #include "app/tours/tour.h"
 #include "app/words/scheme.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"

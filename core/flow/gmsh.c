@@ -3,7 +3,7 @@
    1309; Gmsh's reference manual, "MSH file format"): by tables of the sections to a complex with names on its
    edges. */
 #include "core/flow/gmsh.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -959,7 +959,6 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
     if (reader->old && !drop_repeated(reader)) {
         return false;
     }
-    const double plane[2] = {0, 0};
     double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);
     int *corners = malloc(3 * reader->triangle_count * sizeof *corners);
     mesh->tags = malloc((reader->node_count + 1) * sizeof *mesh->tags);
@@ -970,8 +969,13 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
     }
     good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
     if (good) {
-        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, star,
-                                        mesh->tags, reader->fault);
+        mesh->complex = gm_complex_open(&(struct gm_triangles){.points = points,
+                                                               .vertices = vertices,
+                                                               .corners = corners,
+                                                               .count = reader->triangle_count,
+                                                               .star = star,
+                                                               .tags = mesh->tags},
+                                        reader->fault);
         good = mesh->complex != NULL;
         if (!good && reader->fault->triangle > 0 && !reader->binary) {
             reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/user/form.h"

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/larger.h"
+#include "core/basics.h"
 #include "scenes/flow/flows.h"
 
 /* What an observable of a room looks at. */

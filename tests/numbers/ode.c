@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/common/laboratory.h"
 
 /* `digits` significant digits of the number to match are right to half a unit. */

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_fft_complex.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/numbers/field_runs.h"
 
 static double value_at_end(const char *words, const char *observable)

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/common/meshes.h"
 
 static struct gm_triangulation_fault fault_of(const char *text, size_t size)

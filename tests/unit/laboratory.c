@@ -14,7 +14,7 @@
 
 #include "app/grid/stability.h"
 #include "app/grid/work.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/layout/labels.h"
 #include "render/layout/layout.h"
 #include "tests/common/layout_faults.h"

@@ -14,8 +14,8 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sf_elljac.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/model/equations.h"

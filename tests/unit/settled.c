@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
 

@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dirac.h"

@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"

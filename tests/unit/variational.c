@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"

@@ -11,7 +11,7 @@
 #include "app/commands/measuring/charted.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 

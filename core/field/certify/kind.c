@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/certify/quantities.h"
 #include "core/field/certify/runs.h"
 #include "core/field/families/burgers.h"
@@ -21,7 +21,6 @@
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/larger.h"
 #include "core/run.h"
 
 static unsigned facets(const struct gm_problem *problem)

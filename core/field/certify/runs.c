@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/field/multisymplectic.h"
-#include "core/larger.h"
 
 static const struct gm_settings no_settings;
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/coefficients.h"

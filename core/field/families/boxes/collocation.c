@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 #include "core/scheme.h"
 
 /* ---- the workspace ---- */

@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/boxes/modes.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/boxes/collocation.h"
 #include "core/field/families/families.h"
 

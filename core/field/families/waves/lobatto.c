@@ -24,10 +24,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
-#include "core/larger.h"
 #include "core/linear/differences.h"
 #include "core/linear/settled.h"
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/settled.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/modes.h"
