@@ -88,7 +88,7 @@ static const struct row rows[] = {
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
-    {"--jobs", WHOLE, GM_SWEEP, AT(jobs), "N", "N runs at once (one a core)"},
+    {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one a core)"},
     {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS",
      "rows of the table with this status, or with a warning, are made anew"},
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
