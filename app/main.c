@@ -11,9 +11,9 @@
 #include <sys/mman.h>
 
 #include "app/base/interrupt.h"
-#include "app/base/share.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
+#include "app/native/sources.h"
 #include "app/output/say.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
@@ -147,7 +147,7 @@ static int run(int argc, char *argv[])
     if (gm_options_parse(&options, command->bit, argc, argv, first, message) &&
         (!(command->bit & GM_PAINTS) || gm_canvas_choose(options.painter, message))) {
         char kernels[4096];
-        gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
+        gm_kernel_folder(kernels, sizeof kernels);
         gm_engine_choose(options.engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         status = command->function(&options);
         gm_canvas_settle();

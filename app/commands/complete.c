@@ -3,21 +3,21 @@
    The completions of the shells ask this, so that they know what the tables know. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/base/arguments.h"
+#include "app/base/files.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "app/tours/tour.h"
 #include "app/words/fitting.h"
-#include "app/words/lookup.h"
 #include "app/words/replacing.h"
-#include "app/words/room.h"
 #include "app/words/system.h"
 #include "app/words/words.h"
 #include "core/schemes.h"
+#include "render/cells/text.h"
 
 /* The word that is being typed: what stays of it, and what the candidates have to begin with. */
 struct stem {
@@ -50,14 +50,19 @@ static struct stem behind_last(const char *word, const char *breaks)
     return stem;
 }
 
-static void offer_system(const char *name, const void *stem)
+static void offer_file(const char *name, const struct gm_file *file, const void *stem)
 {
-    offer(stem, name, "a system");
+    const struct gm_file_titles titles = gm_file_titles(file);
+    offer(stem, name, titles.title ? gm_text_tame(titles.title) : "");
+    free(titles.title);
+    free(titles.about);
 }
 
-static void offer_room(const char *name, const void *stem)
+/* A folder that cannot be opened is for `geomint list` to tell. */
+static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 {
-    offer(stem, name, "a room");
+    char message[GM_MESSAGE];
+    gm_files_each(kind, offer_file, stem, message);
 }
 
 static void offer_scenes(const struct stem *stem)
@@ -65,8 +70,8 @@ static void offer_scenes(const struct stem *stem)
     for (size_t i = 0; i < gm_scene_count(); i++) {
         offer(stem, gm_scene_at(i)->name, gm_scene_at(i)->title);
     }
-    gm_system_each(offer_system, stem);
-    gm_room_each(offer_room, stem);
+    offer_files(stem, GM_FILE_SYSTEM);
+    offer_files(stem, GM_FILE_ROOM);
 }
 
 static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
@@ -86,17 +91,6 @@ static void offer_figures(const struct stem *stem)
             offer(stem, gm_scene_at(s)->figures[f].name, gm_scene_at(s)->figures[f].statement);
         }
     }
-}
-
-static void offer_tours(const struct stem *stem)
-{
-    char message[GM_MESSAGE];
-    size_t count = 0;
-    struct gm_tour *tours = gm_tours_read(&count, message);
-    for (size_t i = 0; i < count; i++) {
-        offer(stem, tours[i].name, tours[i].title);
-    }
-    gm_tours_close(tours, count);
 }
 
 static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
@@ -294,7 +288,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
         offer_schemes(&stem, NULL);
         return;
     case GM_TOUR:
-        offer_tours(&stem);
+        offer_files(&stem, GM_FILE_TOUR);
         return;
     case GM_TUI:
     case GM_RUN:
@@ -321,7 +315,7 @@ static void offer_formulas(const char *word, const char *system, const struct gm
 {
     const struct stem stem = whole(word);
     struct gm_arguments formulas = {0};
-    if (gm_room_is(system)) {
+    if (gm_file_is(GM_FILE_ROOM, system)) {
         return; /* it has its lines in the file alone */
     }
     const bool known = scene && gm_replacing_words(scene->text, &formulas);

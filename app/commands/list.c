@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/files.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/commands/reference/system.h"
@@ -17,10 +18,11 @@
 #include "app/words/system.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
-#include "core/model/equations.h"
+#include "core/model/system.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
+#include "render/files/regular_file.h"
 
 static void list_scenes(const struct gm_options *options)
 {
@@ -48,19 +50,15 @@ static void list_scenes(const struct gm_options *options)
     }
 }
 
-/* A system by its name: one that cannot be opened has its name alone. */
-static void list_system(const char *name, const void *data)
+/* A system or a room by its name, with the word for it in JSON. */
+static void list_file(const char *word, const char *name, const struct gm_file *file,
+                      const struct gm_options *options)
 {
-    const struct gm_options *options = data;
-    char path[4096], message[GM_MESSAGE];
-    struct gm_user_system system = {0};
-    const bool found = gm_system_path(name, path, sizeof path);
-    const bool good = found && gm_system_open(&system, path, NULL, 0, message) == GM_EXIT_OK;
-    const char *title = good && system.texts[GM_WORD_TITLE] ? system.texts[GM_WORD_TITLE] : "";
-    const char *about = good && system.texts[GM_WORD_ABOUT] ? system.texts[GM_WORD_ABOUT] : "";
+    const struct gm_file_titles titles = gm_file_titles(file);
+    const char *title = titles.title ? titles.title : "", *about = titles.about ? titles.about : "";
     if (options->json) {
         printf("{");
-        gm_json_pair("system", name);
+        gm_json_pair(word, name);
         printf(",");
         gm_json_pair("title", title);
         printf(",");
@@ -72,32 +70,29 @@ static void list_system(const char *name, const void *data)
             gm_print_wrapped(about, printf("  "), 2);
         }
     }
-    if (found) {
-        gm_system_close(&system);
-    }
+    free(titles.title);
+    free(titles.about);
 }
 
-/* A room likewise. */
-static void list_room(const char *name, const void *data)
+static void list_system(const char *name, const struct gm_file *file, const void *options)
 {
-    const struct gm_options *options = data;
+    list_file("system", name, file, options);
+}
+
+static void list_room(const char *name, const struct gm_file *file, const void *options)
+{
+    list_file("room", name, file, options);
+}
+
+/* Returns an exit status. */
+static int list_files(enum gm_file_kind kind, const struct gm_options *options)
+{
     char message[GM_MESSAGE];
-    int status;
-    const struct gm_scene *scene = gm_room_scene(name, &status, message);
-    if (options->json) {
-        printf("{");
-        gm_json_pair("room", name);
-        printf(",");
-        gm_json_pair("title", scene ? scene->title : "");
-        printf(",");
-        gm_json_pair("about", scene ? scene->blurb : "");
-        printf("}\n");
-    } else {
-        gm_print_wrapped(scene ? scene->title : "", printf("%-21s ", name), 22);
-        if (options->longer && scene) {
-            gm_print_wrapped(scene->blurb, printf("  "), 2);
-        }
+    const bool good = gm_files_each(kind, kind == GM_FILE_ROOM ? list_room : list_system, options, message);
+    if (!good) {
+        gm_complain("%s", message);
     }
+    return gm_finish(good ? GM_EXIT_OK : GM_EXIT_FILE);
 }
 
 static void print_formula(const char *text)
@@ -314,7 +309,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     print_legend(entry->schemes, entry->scheme_count);
 }
 
-static void print_entry_json(const struct entry *entry)
+static void print_entry_json(const struct entry *entry, const struct gm_file *file)
 {
     const struct gm_scene *scene = entry->scene;
     printf("{");
@@ -346,10 +341,14 @@ static void print_entry_json(const struct entry *entry)
     for (size_t i = 0; i < entry->scheme_count; i++) {
         printf("%s\"%s\"", i ? "," : "", entry->schemes[i]->name);
     }
-    printf("]}\n");
+    printf("]");
+    gm_list_file_json(file, entry->scene->room);
+    printf("}\n");
 }
 
-static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_options *options)
+/* `file`: of a room; NULL: it is a scene of the program. */
+static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
+                       const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct entry entry;
@@ -357,7 +356,7 @@ static bool list_scene(const struct gm_scene *scene, const char *name, const str
     if (!good) {
         gm_complain("%s", message);
     } else if (options->json) {
-        print_entry_json(&entry);
+        print_entry_json(&entry, file);
     } else {
         print_entry(&entry, options);
     }
@@ -387,18 +386,68 @@ static const char *list_name(size_t i, const void *data)
     return (void)data, lists[i];
 }
 
+static int refuse_name(const char *word)
+{
+    char near[GM_NEAR], folder[GM_MESSAGE] = "";
+    const char *list = gm_nearest(word, LISTS, list_name, NULL);
+    const bool found = list || gm_system_near(word, near, folder);
+    if (!found && folder[0]) {
+        gm_complain("%s", folder);
+        return GM_EXIT_FILE;
+    }
+    gm_complain(
+        "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems and "
+        "rooms, not \"%.60s\"%s%s",
+        word, found ? "; did you mean " : "",
+        list    ? list
+        : found ? near
+                : "");
+    return GM_EXIT_USAGE;
+}
+
+/* The text of the file that a word means. */
+static int list_source(const char *word)
+{
+    struct gm_file file;
+    char reason[GM_REGULAR_REASON];
+    size_t length = 0;
+    enum gm_file_kind kind = GM_FILE_SYSTEM;
+    while (kind < GM_FILE_MESH && (gm_scene_find(word) || !gm_file_find(kind, word, &file))) {
+        kind++;
+    }
+    bool known = gm_scene_find(word) || gm_scheme_find(word);
+    for (size_t i = 0; i < LISTS; i++) {
+        known |= strcmp(word, list_name(i, NULL)) == 0;
+    }
+    if (kind == GM_FILE_MESH && known) {
+        gm_complain("%.60s has no file", word);
+        return GM_EXIT_USAGE;
+    }
+    if (kind == GM_FILE_MESH) {
+        return refuse_name(word);
+    }
+    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, reason);
+    if (!text) {
+        gm_complain("%.300s could not be read: %s", file.path, reason);
+        return GM_EXIT_FILE;
+    }
+    fwrite(text, 1, length, stdout);
+    free(text);
+    return gm_finish(GM_EXIT_OK);
+}
+
 static int command_list(const struct gm_options *options)
 {
-    char path[4096];
+    struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool is_system = *first && !gm_scene_find(first) && gm_system_path(first, path, sizeof path);
-    if ((is_system || typed) && !options->markdown) {
+    const bool is_system = *first && !gm_scene_find(first) && gm_file_find(GM_FILE_SYSTEM, first, &file);
+    if ((is_system || typed) && !options->markdown && !options->source) {
         const enum gm_telling telling = options->json     ? GM_TELL_JSON
                                         : options->latex  ? GM_TELL_LATEX
                                         : options->longer ? GM_TELL_ALL
                                                           : GM_TELL_SHORT;
-        return gm_list_system(&options->arguments, typed ? NULL : path, telling);
+        return gm_list_system(&options->arguments, typed ? NULL : &file, telling);
     }
     if (options->latex) {
         gm_complain("--latex writes the equations of a system, such as share/systems/toda.system");
@@ -410,11 +459,15 @@ static int command_list(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
+    if (options->source) {
+        return list_source(what);
+    }
     if (options->markdown) {
         return list_markdown(what);
     }
     const struct gm_scene *scene = gm_scene_find(what);
-    if (!scene && gm_room_is(what)) {
+    const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file);
+    if (room) {
         int status;
         char message[GM_MESSAGE];
         scene = gm_room_scene(what, &status, message);
@@ -426,27 +479,18 @@ static int command_list(const struct gm_options *options)
     if (strcmp(what, "scenes") == 0) {
         list_scenes(options);
     } else if (strcmp(what, "systems") == 0) {
-        gm_system_each(list_system, options);
+        return list_files(GM_FILE_SYSTEM, options);
     } else if (strcmp(what, "rooms") == 0) {
-        gm_room_each(list_room, options);
+        return list_files(GM_FILE_ROOM, options);
     } else if (strcmp(what, "schemes") == 0) {
         list_schemes(options);
     } else if (strcmp(what, "figures") == 0) {
         list_figures(options);
     } else if (strcmp(what, "tours") == 0) {
         return gm_list_tours(options->json);
-    } else if (scene) {
-        if (!list_scene(scene, what, options)) {
-            return GM_EXIT_USAGE;
-        }
-    } else {
-        char found[GM_NEAR];
-        const char *list = gm_nearest(what, LISTS, list_name, NULL);
-        const char *near = list ? list : gm_system_near(what, found);
-        gm_complain(
-            "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems and "
-            "rooms, not \"%.60s\"%s%s",
-            what, near ? "; did you mean " : "", near ? near : "");
+    } else if (!scene) {
+        return refuse_name(what);
+    } else if (!list_scene(scene, what, room ? &file : NULL, options)) {
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);

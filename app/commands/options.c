@@ -51,6 +51,8 @@ static const struct row rows[] = {
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
+    {"--source", FLAG, GM_LIST, AT(source), "",
+     "the text of a system's, a room's, a scheme's or a tour's file"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, of all steps the value of largest magnitude"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},

@@ -34,7 +34,7 @@ enum gm_command {
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes, clear;
+    int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *judge, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */

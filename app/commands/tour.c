@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/base/files.h"
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/tui.h"
@@ -86,9 +87,10 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
 
 static int command_tour(const struct gm_options *options)
 {
-    char message[GM_MESSAGE], path[8192];
+    char message[GM_MESSAGE];
+    struct gm_file file;
     struct gm_tour tour;
-    bool file = false;
+    bool unreadable = false;
     if (options->arguments.count > 1) {
         gm_complain("tour takes one name; one of several words stands in quotation marks");
         return GM_EXIT_USAGE;
@@ -100,10 +102,10 @@ static int command_tour(const struct gm_options *options)
     if (options->arguments.count == 0) {
         return gm_list_tours(false);
     }
-    const bool found = gm_tour_find(options->arguments.words[0], path, sizeof path, &file, message);
-    if (!found || !gm_tour_read(&tour, path, message)) {
+    const bool found = gm_tour_find(options->arguments.words[0], &file, &unreadable, message);
+    if (!found || !gm_tour_read(&tour, &file, message)) {
         gm_complain("%s", message);
-        return found || file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        return found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
     }
     int status = GM_EXIT_OK;
     if (options->listing) {

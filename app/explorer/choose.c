@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/share.h"
+#include "app/base/files.h"
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
-#include "app/words/lookup.h"
-#include "app/words/room.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 
@@ -36,41 +34,36 @@ static bool is_listed(const struct gm_list *list, const char *name)
 }
 
 /* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
-static void add_file(struct gm_list *list, enum gm_start_group group, const char *name, const char *path)
+static void add_file(struct gm_list *list, enum gm_start_group group, const char *name,
+                     const struct gm_file *file)
 {
-    char title[128];
-    gm_share_title(path, title, sizeof title);
+    struct gm_file_titles told = gm_file_titles(file);
     struct gm_start_entry *longer = NULL;
-    char *names = NULL, *titles = NULL;
-    if (!is_listed(list, name) && !gm_scene_find(name) && gm_text_is_plain(name)) {
+    char *names = NULL;
+    if (told.title && !is_listed(list, name) && !gm_scene_find(name) && gm_text_is_plain(name)) {
         longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
         list->files = longer ? longer : list->files;
         names = strdup(name);
-        titles = strdup(gm_text_tame(title));
     }
-    if (longer && names && titles) {
+    if (longer && names) {
         list->files[list->file_count++] =
-            (struct gm_start_entry){.group = group, .name = names, .title = titles};
+            (struct gm_start_entry){.group = group, .name = names, .title = gm_text_tame(told.title)};
+        told.title = NULL;
     } else {
         free(names);
-        free(titles);
     }
+    free(told.title);
+    free(told.about);
 }
 
-static void add_system(const char *name, const void *list)
+static void add_system(const char *name, const struct gm_file *file, const void *list)
 {
-    char path[4096];
-    if (gm_system_path(name, path, sizeof path)) {
-        add_file(*(struct gm_list *const *)list, GM_START_SYSTEMS, name, path);
-    }
+    add_file(*(struct gm_list *const *)list, GM_START_SYSTEMS, name, file);
 }
 
-static void add_room(const char *name, const void *list)
+static void add_room(const char *name, const struct gm_file *file, const void *list)
 {
-    char path[4096];
-    if (gm_room_path(name, path, sizeof path)) {
-        add_file(*(struct gm_list *const *)list, GM_START_ROOMS, name, path);
-    }
+    add_file(*(struct gm_list *const *)list, GM_START_ROOMS, name, file);
 }
 
 static void close_files(struct gm_list *list)
@@ -210,14 +203,14 @@ static void find_all(struct gm_explorer *explorer)
 
 void gm_explorer_show_start(struct gm_explorer *explorer)
 {
-    char message[GM_MESSAGE]; /* a tour that cannot be read is for `geomint tour` to tell */
+    char message[GM_MESSAGE]; /* what cannot be read is for `geomint list` to tell */
     if (!explorer->list.tours) {
         explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
     }
     struct gm_list *list = &explorer->list;
     close_files(list);
-    gm_system_each(add_system, &list);
-    gm_room_each(add_room, &list);
+    gm_files_each(GM_FILE_SYSTEM, add_system, &list, message);
+    gm_files_each(GM_FILE_ROOM, add_room, &list, message);
     explorer->list.shown = true;
     explorer->editing = false;
     explorer->list.start.typed[0] = '\0';

@@ -23,22 +23,6 @@ struct seal {
 };
 static const char magic[8] = {'g', 'e', 'o', 'm', 'i', 'n', 't', '1'};
 
-struct gm_digest gm_digest_open(void)
-{
-    return (struct gm_digest){UINT64_C(0xcbf29ce484222325), UINT64_C(0x9e3779b97f4a7c15)};
-}
-
-/* Two sums of Fowler, Noll & Vo's kind, of different multipliers: against accidents, not against malice. */
-void gm_digest_add(struct gm_digest *digest, const void *bytes, size_t count)
-{
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < count; i++) {
-        digest->a = (digest->a ^ at[i]) * UINT64_C(0x100000001b3);
-        digest->b = (digest->b ^ at[i]) * UINT64_C(0xbf58476d1ce4e5b9);
-        digest->b ^= digest->b >> 29;
-    }
-}
-
 struct gm_cache_key gm_digest_key(const struct gm_digest *digest)
 {
     struct gm_cache_key key;

@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 #include <time.h>
+
+#include "core/digest.h"
 
 /* The folder of loops that were compiled: $XDG_CACHE_HOME/geomint, or ~/.cache/geomint. Nobody but its owner
    may look into it, else it is not used. An entry is a shared library that ends with its checksum, named by
@@ -17,12 +18,6 @@ enum { GM_KEY_TEXT = 33, GM_CACHE_PATH = 4096 };
 struct gm_cache_key {
     char text[GM_KEY_TEXT];
 };
-/* Begins or goes on with a key's numbers. */
-struct gm_digest {
-    uint64_t a, b;
-};
-struct gm_digest gm_digest_open(void);
-void gm_digest_add(struct gm_digest *digest, const void *bytes, size_t count);
 struct gm_cache_key gm_digest_key(const struct gm_digest *digest);
 
 /* The folder, which is made if it is not there. False with a sentence (GM_MESSAGE bytes). */

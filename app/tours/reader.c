@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "app/base/arguments.h"
+#include "app/base/files.h"
 #include "app/tours/tour.h"
 #include "app/words/scheme.h"
 #include "core/basics.h"
@@ -560,16 +561,16 @@ static void shorten_name(struct gm_tour *tour)
     }
 }
 
-bool gm_tour_read(struct gm_tour *tour, const char *path, char *message)
+bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *message)
 {
     *tour = (struct gm_tour){0};
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
-    char *text = gm_regular_read(path, MOST_BYTES, &size, reason);
+    char *text = gm_file_read(file, MOST_BYTES, &size, reason);
     if (!text) {
-        gm_refuse(message, "%.300s could not be read: %s", path, reason);
+        gm_refuse(message, "%.300s could not be read: %s", file->path, reason);
     }
-    const bool good = text && gm_tour_parse(tour, path, text, size, message);
+    const bool good = text && gm_tour_parse(tour, file->path, text, size, message);
     free(text);
     if (good) {
         shorten_name(tour);

@@ -45,7 +45,8 @@ struct gm_tour {
 
 /* Reads a tour and tries out everything that it shows. False with one sentence that names file and line
    (GM_MESSAGE bytes); the tour is then empty. */
-bool gm_tour_read(struct gm_tour *tour, const char *path, char *message);
+struct gm_file;
+bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *message);
 /* The same from memory; `name` stands for the file in sentences, and paths of schemes are from its folder. */
 bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message);
 void gm_tour_close(struct gm_tour *tour);
@@ -57,12 +58,12 @@ double gm_tour_begin(const struct gm_tour *tour, size_t step);
 
 /* ---- where tours are ---- */
 
-/* The path of the tour that a word names: a file, a name in the folder, or a title. False with a sentence;
- *file: because the folder could not be read. */
-bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *message);
+/* The file of the tour that a word means: a path, a name, or a title. False with a sentence; *unreadable: because a
+   folder or a tour could not be read. */
+bool gm_tour_find(const char *word, struct gm_file *file, bool *unreadable, char *message);
 
-/* The readable tours of the folder in their order; sets *count. Those that cannot be read are left out, the
-   sentence of the first of them in message, which is otherwise empty. malloc'ed; free with gm_tours_close. */
+/* The readable tours in their order; sets *count. Those that cannot be read are left out, the sentence of the first of
+   them, or of a folder that cannot be opened, in message, which is otherwise empty. malloc'ed; free with gm_tours_close. */
 struct gm_tour *gm_tours_read(size_t *count, char *message);
 void gm_tours_close(struct gm_tour *tours, size_t count);
 

@@ -6,34 +6,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "app/base/exit.h"
+#include "app/base/files.h"
 #include "core/expression/reader.h"
 #include "core/model/system.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"
 
-char *gm_system_lines_read(const char *path, size_t *length, char *message)
+char *gm_system_lines_read(const struct gm_file *file, size_t *length, char *message)
 {
     char reason[GM_REGULAR_REASON];
-    FILE *file = gm_regular_open(path, SIZE_MAX, length, reason);
-    if (!file) {
-        gm_refuse(message, "%.300s could not be read: %s", path, reason);
-        return NULL;
+    struct stat about;
+    const bool large = !file->built_in && stat(file->path, &about) == 0 && S_ISREG(about.st_mode) &&
+                       about.st_size > GM_LARGEST_SYSTEM;
+    *length = large ? (size_t)about.st_size : 0;
+    char *text = large ? strdup("") : gm_file_read(file, GM_LARGEST_SYSTEM, length, reason);
+    if (!text) {
+        gm_refuse(message, "%.300s could not be read: %s", file->path, large ? strerror(ENOMEM) : reason);
     }
-    const bool large = *length > GM_LARGEST_SYSTEM;
-    char *text = malloc(large ? 1 : *length + 1);
-    if (text && !large) {
-        *length = fread(text, 1, *length, file);
-        text[*length] = '\0';
-    }
-    if (!text || ferror(file)) {
-        gm_refuse(message, "%.300s could not be read: %s", path,
-                  text ? strerror(errno) : "not enough memory");
-        free(text);
-        text = NULL;
-    }
-    fclose(file);
     return text;
 }
 

@@ -9,6 +9,7 @@
 #include "app/base/place.h"
 
 struct gm_fault;
+struct gm_file;
 
 /* A system as lines: those of a file, of words, or of a file whose formulas words replace; what is wrong with
    them is told where somebody typed it. */
@@ -29,8 +30,8 @@ struct gm_system_lines { /* {0} is an empty text */
 };
 void gm_system_lines_close(struct gm_system_lines *written);
 
-/* The whole of a regular file, or of one that is too large nothing but its length; NULL with a sentence. */
-char *gm_system_lines_read(const char *path, size_t *length, char *message);
+/* The whole of a file, or of one that is too large nothing but its length; NULL with a sentence. */
+char *gm_system_lines_read(const struct gm_file *file, size_t *length, char *message);
 
 /* Puts a piece of text, or of a word, from `offset` on, behind what `lines` has, which becomes the text. */
 void gm_system_lines_put(struct gm_system_lines *written, FILE *lines, const char *text, size_t length);

@@ -497,15 +497,14 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_worded_is_formula(words[0])) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
     } else if (!scene) {
-        char found[GM_NEAR], folder[4096];
-        const char *near = gm_system_near(words[0], found);
-        if (near) {
+        char near[GM_NEAR], folder[GM_MESSAGE];
+        if (gm_system_near(words[0], near, folder)) {
             gm_refuse(message, "there is no scene \"%.40s\"; did you mean %.200s", words[0], near);
-        } else if (gm_system_folder(folder, sizeof folder)) {
-            gm_refuse(message, "there is no scene \"%.40s\"; see geomint list", words[0]);
+        } else if (folder[0]) {
+            *status = GM_EXIT_FILE;
+            gm_refuse(message, "there is no scene \"%.40s\": %.400s", words[0], folder);
         } else {
-            gm_refuse(message, "there is no scene \"%.40s\", and no folder of systems %.200s", words[0],
-                      folder);
+            gm_refuse(message, "there is no scene \"%.40s\"; see geomint list", words[0]);
         }
     }
     return scene;

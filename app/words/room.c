@@ -8,42 +8,13 @@
 #include <string.h>
 
 #include "app/base/exit.h"
+#include "app/base/files.h"
 #include "app/base/place.h"
-#include "app/base/share.h"
 #include "core/expression/reader.h"
 #include "core/memory.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"
 #include "scenes/flow/user_room.h"
-
-static const char ending[] = ".room";
-
-static const char *folder_of(char *folder, size_t size)
-{
-    return gm_share_folder("rooms", "GEOMINT_ROOMS", folder, size);
-}
-
-bool gm_room_path(const char *word, char *path, size_t size)
-{
-    char folder[4096];
-    if (gm_word_ends(word, ending)) {
-        return snprintf(path, size, "%s", word) < (int)size;
-    }
-    return word[0] && !strchr(word, '/') &&
-           gm_share_find(folder_of(folder, sizeof folder), word, ending, path, size);
-}
-
-bool gm_room_is(const char *word)
-{
-    char path[4096];
-    return gm_room_path(word, path, sizeof path);
-}
-
-void gm_room_each(void (*each)(const char *name, const void *data), const void *data)
-{
-    char folder[4096];
-    gm_share_each(folder_of(folder, sizeof folder), ending, each, data);
-}
 
 /* The scenes that were made. */
 struct made {
@@ -64,8 +35,8 @@ static void free_made(struct made *made)
     }
 }
 
-static const struct gm_scene *make(struct made *made, const char *word, const char *path, size_t length,
-                                   int *status, char *message)
+static const struct gm_scene *make(struct made *made, const char *word, const struct gm_file *file,
+                                   size_t length, int *status, char *message)
 {
     struct gm_room room;
     struct gm_fault fault;
@@ -74,45 +45,46 @@ static const struct gm_scene *make(struct made *made, const char *word, const ch
         size_t line, column;
         gm_text_place(made->text, fault.offset, &line, &column);
         if (fault.sentence[0] && gm_memory_refusals() == refusals) {
-            gm_refuse(message, "%.150s:%zu:%zu: %.300s", path, line, column, fault.sentence);
+            gm_refuse(message, "%.150s:%zu:%zu: %.300s", file->path, line, column, fault.sentence);
             gm_place_show(made->text, length, fault.offset, message);
         } else {
             *status = GM_EXIT_MEMORY;
-            gm_refuse(message, "%.300s: not enough memory", path);
+            gm_refuse(message, "%.300s: not enough memory", file->path);
         }
         gm_room_close(&room);
         return NULL;
     }
-    const char *slash = strrchr(path, '/');
+    const char *slash = strrchr(file->path, '/');
     made->word = strdup(word);
-    made->name = strdup(slash ? slash + 1 : path);
+    made->name = strdup(slash ? slash + 1 : file->path);
     if (!made->word || !made->name) {
         *status = GM_EXIT_MEMORY;
         gm_refuse(message, "not enough memory");
         gm_room_close(&room);
         return NULL;
     }
-    made->name[strlen(made->name) - (sizeof ending - 1)] = '\0';
+    made->name[strlen(made->name) - strlen(gm_file_endings[GM_FILE_ROOM])] = '\0';
     *status = GM_EXIT_FILE;
-    made->scene = gm_user_room_open(&room, made->name, word, path, message);
+    made->scene = gm_user_room_open(&room, made->name, word, file->path, file->built_in, message);
     *status = made->scene ? GM_EXIT_USAGE : *status;
     return made->scene;
 }
 
 const struct gm_scene *gm_room_scene(const char *word, int *status, char *message)
 {
-    char path[4096], reason[GM_REGULAR_REASON];
+    struct gm_file file;
+    char reason[GM_REGULAR_REASON];
     size_t length = 0;
     const unsigned long refusals = gm_memory_refusals();
-    if (!gm_room_path(word, path, sizeof path)) {
+    if (!gm_file_find(GM_FILE_ROOM, word, &file)) {
         *status = GM_EXIT_USAGE;
         gm_refuse(message, "there is no room %.300s", word);
         return NULL;
     }
-    char *text = gm_regular_read(path, GM_LARGEST_ROOM, &length, reason);
+    char *text = gm_file_read(&file, GM_LARGEST_ROOM, &length, reason);
     *status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : GM_EXIT_FILE;
     if (!text) {
-        gm_refuse(message, "%.300s could not be read: %s", path, reason);
+        gm_refuse(message, "%.300s could not be read: %s", file.path, reason);
         return NULL;
     }
     *status = GM_EXIT_USAGE;
@@ -128,7 +100,7 @@ const struct gm_scene *gm_room_scene(const char *word, int *status, char *messag
     if (!scene && made) {
         made->text = text;
         text = NULL;
-        scene = make(made, word, path, length, status, message);
+        scene = make(made, word, &file, length, status, message);
         if (scene) {
             made->next = all;
             all = made;

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "app/base/exit.h"
+#include "app/base/files.h"
 #include "app/base/place.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
@@ -16,13 +17,16 @@
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"
 
-static const char ending[] = ".scheme";
+static bool is_path(const char *name)
+{
+    return gm_word_ends(name, gm_file_endings[GM_FILE_SCHEME]);
+}
 
 /* Whether what stands for a scheme's name means one's own: a path that ends with .scheme, or a word such as
    composition(verlet; g, 1 - 2*g, g). */
 static bool is_user(const char *name)
 {
-    return gm_word_ends(name, ending) || gm_written_is_word(name, strlen(name));
+    return is_path(name) || gm_written_is_word(name, strlen(name));
 }
 
 enum { DEEPEST = 8 };
@@ -35,17 +39,20 @@ struct reading {
     char message[GM_MESSAGE];
 };
 
-static const struct gm_scheme *read_file(const char *name, const char *path, struct reading *reading);
+static const struct gm_scheme *read_file(const char *name, const struct gm_file *file,
+                                         struct reading *reading);
 
 /* A file that a file names is found from the folder of that one. */
 static const struct gm_scheme *bring(void *data, const char *name, char *sentence)
 {
     struct reading *by = data, reading = {.by = by};
     const char *slash = by->path ? strrchr(by->path, '/') : NULL;
-    char path[4096];
+    struct gm_file file = {0};
+    char *path = file.path;
     const int folder = slash && name[0] != '/' ? (int)(slash - by->path) + 1 : 0;
     sentence[0] = '\0';
-    if (snprintf(path, sizeof path, "%.*s%s", folder, by->path ? by->path : "", name) >= (int)sizeof path) {
+    if (snprintf(path, sizeof file.path, "%.*s%s", folder, by->path ? by->path : "", name) >=
+        (int)sizeof file.path) {
         snprintf(sentence, GM_FAULT_SENTENCE, "the path is too long");
         return NULL;
     }
@@ -64,7 +71,7 @@ static const struct gm_scheme *bring(void *data, const char *name, char *sentenc
         snprintf(sentence, GM_FAULT_SENTENCE, "files name files at most %d deep", DEEPEST);
         return NULL;
     }
-    const struct gm_scheme *scheme = read_file(path, path, &reading);
+    const struct gm_scheme *scheme = read_file(path, &file, &reading);
     if (!scheme) {
         by->unreadable = reading.unreadable;
         const char *line = strchr(reading.message, '\n');
@@ -125,18 +132,19 @@ struct file {
     struct gm_user_scheme_source source;
 };
 
-static bool open_file(struct file *file, const char *name, const char *path, struct reading *reading)
+static bool open_file(struct file *file, const char *name, const struct gm_file *from,
+                      struct reading *reading)
 {
     char reason[GM_REGULAR_REASON];
     size_t length = 0;
-    file->text = gm_regular_read(path, GM_LARGEST_SCHEME, &length, reason);
+    file->text = gm_file_read(from, GM_LARGEST_SCHEME, &length, reason);
     if (!file->text) {
         reading->unreadable = true;
-        return gm_refuse(reading->message, "%.300s could not be read: %s", path, reason);
+        return gm_refuse(reading->message, "%.300s could not be read: %s", from->path, reason);
     }
-    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    const char *slash = strrchr(from->path, '/'), *base = slash ? slash + 1 : from->path;
     /* a title, without what ends one where the scheme is one word, and no half letter */
-    size_t letters = strlen(base) - (sizeof ending - 1);
+    size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
     letters = letters < sizeof file->title ? letters : sizeof file->title - 1;
     while (letters > 0 && ((unsigned char)base[letters] & 0xC0) == 0x80) {
         letters--;
@@ -156,10 +164,11 @@ static bool open_file(struct file *file, const char *name, const char *path, str
     return true;
 }
 
-static const struct gm_scheme *read_file(const char *name, const char *path, struct reading *reading)
+static const struct gm_scheme *read_file(const char *name, const struct gm_file *from,
+                                         struct reading *reading)
 {
     struct file file;
-    if (!open_file(&file, name, path, reading)) {
+    if (!open_file(&file, name, from, reading)) {
         return NULL;
     }
     const struct gm_scheme *scheme = read_text(&file.source, reading);
@@ -169,7 +178,9 @@ static const struct gm_scheme *read_file(const char *name, const char *path, str
 
 char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unreadable, char *message)
 {
-    struct reading reading = {.path = gm_word_ends(name, ending) ? name : NULL};
+    struct gm_file from;
+    const bool path = is_path(name) && gm_file_find(GM_FILE_SCHEME, name, &from);
+    struct reading reading = {.path = path ? from.path : NULL};
     struct file file = {
         .source = {.text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading}};
     char *text = NULL;
@@ -177,7 +188,7 @@ char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unrea
         gm_refuse(reading.message, "the scheme's name holds a character that cannot be shown");
     } else if (!is_user(name)) {
         gm_refuse(reading.message, "--polish takes a file or a word, not a scheme of the program");
-    } else if (!reading.path || open_file(&file, name, name, &reading)) {
+    } else if (!reading.path || open_file(&file, name, &from, &reading)) {
         struct gm_fault fault;
         text = gm_user_scheme_polish(&file.source, polish, &fault);
         if (!text) {
@@ -218,16 +229,19 @@ const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char
         *unreadable = false;
         return NULL;
     }
-    const struct gm_scheme *scheme = gm_word_ends(name, ending) ? NULL : gm_scheme_find(name);
-    if (!scheme && gm_word_ends(name, ending)) {
-        reading.path = name;
-        scheme = read_file(name, name, &reading);
+    struct gm_file file;
+    const struct gm_scheme *scheme = is_path(name) ? NULL : gm_scheme_find(name);
+    if (!scheme && gm_file_find(GM_FILE_SCHEME, name, &file)) {
+        reading.path = file.path;
+        scheme = read_file(name, &file, &reading);
     } else if (!scheme && is_user(name)) {
         const struct gm_user_scheme_source source = {
             .text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading};
         scheme = read_text(&source, &reading);
-    } else if (!scheme) {
+    } else if (!scheme && gm_files_folder_opens(GM_FILE_SCHEME, reading.message)) {
         tell_kind(name, reading.message);
+    } else if (!scheme) {
+        reading.unreadable = true;
     }
     *unreadable = reading.unreadable;
     memcpy(message, reading.message, sizeof reading.message);
@@ -254,6 +268,8 @@ const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *me
 char *gm_scheme_words_from(const char *path, const char *word)
 {
     static const char key[] = "scheme=";
+    const char *ending = gm_file_endings[GM_FILE_SCHEME];
+    const size_t end_length = strlen(ending);
     const char *slash = strrchr(path, '/');
     char *text = NULL;
     size_t size = 0;
@@ -270,9 +286,8 @@ char *gm_scheme_words_from(const char *path, const char *word)
         const size_t end = gm_span_until(word, rest, ",");
         const char *name = word + rest.begin;
         const int length = (int)(end - rest.begin);
-        const bool file = length >= (int)sizeof ending &&
-                          memcmp(name + length - (sizeof ending - 1), ending, sizeof ending - 1) == 0 &&
-                          name[0] != '/';
+        const bool file = length > (int)end_length &&
+                          memcmp(name + length - end_length, ending, end_length) == 0 && name[0] != '/';
         fprintf(stream, "%s%.*s%.*s", before, file ? (int)(slash - path) + 1 : 0, path, length, name);
         before = ",";
         rest.begin = end + 1;
@@ -286,7 +301,7 @@ bool gm_scheme_check(const char *name, size_t *at, char *message)
     struct gm_fault fault;
     bool unreadable;
     *at = 0;
-    if (gm_word_ends(name, ending) || !is_user(name) || !gm_text_is_plain(name)) {
+    if (is_path(name) || !is_user(name) || !gm_text_is_plain(name)) {
         const bool found = gm_scheme_named(name, &unreadable, message) != NULL;
         if (!found && !message[0]) {
             gm_refuse(message, "there is no scheme \"%.60s\"", name);

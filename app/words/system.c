@@ -9,9 +9,9 @@
 
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
+#include "app/base/files.h"
 #include "app/base/place.h"
 #include "app/words/lines.h"
-#include "app/words/lookup.h"
 #include "app/words/replacing.h"
 #include "app/words/room.h"
 #include "app/words/worded.h"
@@ -35,19 +35,19 @@ static int lines_fault(const struct gm_system_lines *written, char *const words[
     return gm_system_lines_fault(written, words, fault, place, message);
 }
 
-int gm_system_open(struct gm_user_system *system, const char *path, const struct gm_system_value *values,
-                   size_t count, char *message)
+int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
+                   const struct gm_system_value *values, size_t count, char *message)
 {
     size_t length = 0;
     const unsigned long refusals = gm_memory_refusals();
-    char *text = gm_system_lines_read(path, &length, message);
+    char *text = gm_system_lines_read(file, &length, message);
     *system = (struct gm_user_system){0};
     if (!text) {
         return gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : GM_EXIT_FILE;
     }
     struct gm_fault fault;
     struct gm_word_place place;
-    struct gm_system_lines written = {.path = path, .text = text, .length = length};
+    struct gm_system_lines written = {.path = file->path, .text = text, .length = length};
     int status = GM_EXIT_OK;
     if (!gm_equations_open(system, text, length, values, count, &fault)) {
         status = lines_fault(&written, NULL, &fault, refusals, &place, message);
@@ -122,9 +122,8 @@ bool gm_system_recall(const char *word, const char *text)
 
 bool gm_system_is(const char *word)
 {
-    char path[4096];
-    return strcmp(word, gm_system_typed) == 0 || find_made(all_texts, word) || gm_room_is(word) ||
-           gm_system_path(word, path, sizeof path);
+    return strcmp(word, gm_system_typed) == 0 || find_made(all_texts, word) ||
+           gm_file_is(GM_FILE_ROOM, word) || gm_file_is(GM_FILE_SYSTEM, word);
 }
 
 /* The file's name, without what no file's name should have. */
@@ -132,8 +131,9 @@ static char *name_of(const char *word)
 {
     const char *slash = strrchr(word, '/');
     char *name = strdup(slash ? slash + 1 : word);
-    if (name && gm_word_ends(name, gm_system_ending)) {
-        name[strlen(name) - strlen(gm_system_ending)] = '\0';
+    const char *ending = gm_file_endings[GM_FILE_SYSTEM];
+    if (name && gm_word_ends(name, ending)) {
+        name[strlen(name) - strlen(ending)] = '\0';
     }
     for (char *at = name; at && *at; at++) {
         const bool usual =
@@ -369,21 +369,21 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
 }
 
 /* The lines that the words mean. */
-static bool write_lines(struct gm_system_lines *written, char *path, size_t size, int count,
-                        char *const words[], struct gm_system_trial *trial, char *message)
+static bool write_lines(struct gm_system_lines *written, struct gm_file *file, int count, char *const words[],
+                        struct gm_system_trial *trial, char *message)
 {
     const struct gm_made_system *recalled = find_made(all_texts, words[0]);
     if (strcmp(words[0], gm_system_typed) == 0) {
         return gm_worded_write(written, count, words, &trial->place, message);
     }
-    written->path = path;
+    written->path = file->path;
     if (recalled) {
         written->text = strdup(recalled->text);
         written->length = strlen(recalled->text);
-        snprintf(path, size, "%s", words[0]);
-    } else if (gm_system_path(words[0], path, size)) {
+        snprintf(file->path, sizeof file->path, "%s", words[0]);
+    } else if (gm_file_find(GM_FILE_SYSTEM, words[0], file)) {
         trial->status = GM_EXIT_FILE;
-        written->text = gm_system_lines_read(path, &written->length, message);
+        written->text = gm_system_lines_read(file, &written->length, message);
     } else {
         return gm_refuse(message, "there is no system \"%.60s\"", words[0]);
     }
@@ -406,17 +406,17 @@ static bool write_lines(struct gm_system_lines *written, char *path, size_t size
 
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message)
 {
-    char path[4096];
+    struct gm_file file;
     struct gm_system_lines written = {0};
     *trial = (struct gm_system_trial){.status = GM_EXIT_USAGE, .place = {.word = -1}};
-    if (gm_room_is(words[0]) && !gm_system_path(words[0], path, sizeof path)) {
+    if (gm_file_is(GM_FILE_ROOM, words[0]) && !gm_file_is(GM_FILE_SYSTEM, words[0])) {
         trial->scene = gm_room_scene(words[0], &trial->status, message);
         return trial->scene != NULL;
     }
     struct gm_made_system *made = calloc(1, sizeof *made);
     trial->made = made;
     bool good = made || gm_refuse(message, "not enough memory");
-    good = good && write_lines(&written, path, sizeof path, count, words, trial, message);
+    good = good && write_lines(&written, &file, count, words, trial, message);
     if (good) {
         trial->status = GM_EXIT_USAGE;
         pthread_mutex_lock(&making);

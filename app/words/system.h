@@ -9,6 +9,7 @@
 
 #include "app/base/place.h"
 
+struct gm_file;
 struct gm_user_system;
 struct gm_scene;
 struct gm_system_value;
@@ -16,8 +17,8 @@ struct gm_system_value;
 extern const char gm_system_typed[]; /* "system": what stands before a formula */
 
 /* Opens the system of a file. Returns 0, or an exit status with a sentence. To be closed in both cases. */
-int gm_system_open(struct gm_user_system *system, const char *path, const struct gm_system_value *values,
-                   size_t count, char *message);
+int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
+                   const struct gm_system_value *values, size_t count, char *message);
 
 /* The same of what words "system H=... key=value ..." say. */
 int gm_system_open_typed(struct gm_user_system *system, int count, char *const words[], char *message);

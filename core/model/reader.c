@@ -494,6 +494,49 @@ static bool read_choice(struct gm_reading *reading, const struct gm_system_line 
                                   gm_system_words[line->word].word, one, other, text));
 }
 
+/* A graph of which the build writes kernels: `yes`, that of the file; N = 3 .. 5, where the parameter is in an index; or
+   KEY = VALUE, with the value in the parameter's place. */
+static bool read_compiled(struct gm_reading *reading, const struct gm_system_line *line, struct gm_span piece)
+{
+    struct gm_user_system *system = reading->system;
+    const char *text = reading->text;
+    const size_t equals = gm_span_until(text, piece, "=");
+    const struct gm_span name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals}),
+                         value = {equals + 1, piece.end};
+    const struct gm_entry *entry =
+        gm_reading_entry(reading, text + name.begin, name.end - name.begin, false, 0);
+    double number;
+    long low, high;
+    if (equals == piece.end && name.end - name.begin == 3 && memcmp(text + name.begin, "yes", 3) == 0) {
+        return true;
+    }
+    if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
+        return gm_fail_first(&reading->fault, piece.begin,
+                             "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
+    }
+    const size_t variable = system->parameters + entry->number;
+    if (gm_reading_bounds(reading, value, "graphs", &low, &high) || reading->fault.failed ||
+        !gm_reading_number(reading, value, &number)) {
+        return !reading->fault.failed;
+    }
+    struct gm_system_item *item = add_item(reading, line, name);
+    if (item) {
+        item->scale = number;
+        item->variable = variable;
+    }
+    return item != NULL;
+}
+
+static bool read_compile(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    bool good = true;
+    while (good && gm_span_take(reading->text, &rest, ";", &piece)) {
+        good = read_compiled(reading, line, piece);
+    }
+    return good;
+}
+
 static bool read_what_is_said(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_user_system *system = reading->system;
@@ -527,6 +570,8 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_MEMBERS:
         system->texts[line->word] = gm_reading_text(reading, line->value);
         return true;
+    case GM_WORD_COMPILE:
+        return read_compile(reading, line);
     case GM_WORD_SPACE:
         return read_choice(reading, line, "differences", "fourier");
     case GM_WORD_BOUNDARY:

@@ -59,7 +59,8 @@ struct gm_system_item {
     size_t place; /* of the line's text */
     gm_node_id *nodes;
     size_t count;
-    double scale;           /* of an invariant */
+    double scale;           /* of an invariant; of compile the value of a parameter, and */
+    size_t variable;        /* its number */
     bool periodic;          /* a section at equal times: nodes[0] is the period */
     enum gm_identity check; /* of invariants, Casimirs and symmetries */
 };

@@ -52,7 +52,7 @@ static struct gm_flow *open_square(const struct gm_flows *flows, unsigned char *
 static struct gm_flow *open_file(const struct gm_flows *flows, unsigned char **sides, char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence)) {
+    if (!gm_flows_file(flows->mesh, NULL, (enum gm_star)flows->star, &mesh, sentence)) {
         return NULL;
     }
     const long lid = gm_flows_group(&mesh, "lid", flows->lid, sentence);

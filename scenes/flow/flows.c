@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "render/files/regular_file.h"
 
@@ -165,17 +166,19 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
     return flow;
 }
 
-bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation *mesh, char *sentence)
+bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                   struct gm_triangulation *mesh, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
-    char *text = gm_regular_read(path, LARGEST, &size, reason);
-    if (!text) {
+    char *text = inside ? NULL : gm_regular_read(path, LARGEST, &size, reason);
+    if (!text && !inside) {
         return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
     }
     struct gm_triangulation_fault fault;
-    const bool good = gm_triangulation_read(text, size, star, mesh, &fault);
+    const bool good = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
+                                            star, mesh, &fault);
     free(text);
     if (!good) {
         explain(path, &fault, sentence);
@@ -214,7 +217,7 @@ bool gm_flows_readable(const void *parameters, char *sentence)
     if (strcmp(flows->mesh, "none") == 0) {
         return true;
     }
-    const bool good = gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence);
+    const bool good = gm_flows_file(flows->mesh, NULL, (enum gm_star)flows->star, &mesh, sentence);
     if (good) {
         gm_triangulation_close(&mesh);
     }

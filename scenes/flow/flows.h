@@ -80,8 +80,11 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
 bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
                      char *sentence);
 
-/* The mesh of a file. False with a sentence that names the line or triangle. */
-bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation *mesh, char *sentence);
+/* The mesh of a file, or of one that is built in (NULL: it is not). False with a sentence that names the line or
+   triangle. */
+struct gm_built_in;
+bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                   struct gm_triangulation *mesh, char *sentence);
 
 /* Notes the star that was taken where it was left to the mesh. */
 void gm_flows_chosen(const struct gm_problem *problem, void *parameters);

@@ -116,7 +116,7 @@ static struct gm_flow *open_file(const struct gm_flows *flows, const char *outle
                                  char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(flows->mesh, (enum gm_star)flows->star, &mesh, sentence) ||
+    if (!gm_flows_file(flows->mesh, NULL, (enum gm_star)flows->star, &mesh, sentence) ||
         !gm_flows_refine(flows->mesh, (enum gm_star)flows->star, flows->refine, &mesh, sentence)) {
         return NULL;
     }

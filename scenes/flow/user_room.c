@@ -8,8 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/basics.h"
+#include "core/files/files.h"
 #include "scenes/flow/flows.h"
 
 /* What an observable of a room looks at. */
@@ -25,6 +27,7 @@ struct gm_user_room {
     struct gm_room room;
     struct gm_flows initial;
     char *path, *word, *mesh, *mark;
+    const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
     const char *words[2];
     struct gm_parameter rows[ROWS];
     char numbers[4][40];
@@ -205,7 +208,7 @@ static double hole_circulation(const struct gm_view *view)
 static bool read_mesh(const struct gm_user_room *user_room, const struct gm_flows *chosen,
                       struct gm_triangulation *mesh, char *sentence)
 {
-    return gm_flows_file(user_room->mesh, (enum gm_star)chosen->star, mesh, sentence);
+    return gm_flows_file(user_room->mesh, user_room->inside, (enum gm_star)chosen->star, mesh, sentence);
 }
 
 /* What is wrong with the room, at its line; of its boundary as a whole, without one. Nothing where nothing is. */
@@ -612,8 +615,8 @@ static bool make_mark(struct gm_user_room *user_room, const char *name, const st
     return user_room->mark != NULL;
 }
 
-/* Its words and the mesh's path. */
-static bool copy_words(struct gm_user_room *user_room, const char *word, const char *path)
+/* Its words and where the mesh is. */
+static bool copy_words(struct gm_user_room *user_room, const char *word, const char *path, bool built_in)
 {
     const char *slash = user_room->room.mesh[0] == '/' ? NULL : strrchr(path, '/');
     user_room->path = strdup(path);
@@ -621,12 +624,15 @@ static bool copy_words(struct gm_user_room *user_room, const char *word, const c
                  user_room->room.mesh) < 0) {
         user_room->mesh = NULL;
     }
+    if (built_in || (user_room->mesh && access(user_room->mesh, F_OK) != 0)) {
+        user_room->inside = gm_built_in_find(GM_FILE_MESH, user_room->room.mesh);
+    }
     user_room->words[0] = user_room->word = strdup(word);
     return user_room->path && user_room->word && user_room->mesh;
 }
 
 const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name, const char *word,
-                                         const char *path, char *sentence)
+                                         const char *path, bool built_in, char *sentence)
 {
     static const char *const schemes[] = {"semi-implicit", NULL}, *const compared[] = {"semi-implicit",
                                                                                        "crank-nicolson",
@@ -652,8 +658,8 @@ const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name,
         return NULL;
     }
     user_room->room = *room;
-    bool good = copy_words(user_room, word, path) || gm_refuse(sentence, "not enough memory");
-    if (good && gm_flows_file(user_room->mesh, GM_STAR_AUTO, &mesh, sentence)) {
+    bool good = copy_words(user_room, word, path, built_in) || gm_refuse(sentence, "not enough memory");
+    if (good && gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, &mesh, sentence)) {
         good = (make_observables(user_room, &mesh) && make_mark(user_room, name, &mesh)) ||
                gm_refuse(sentence, "not enough memory");
         gm_triangulation_close(&mesh);

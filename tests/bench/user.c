@@ -321,9 +321,6 @@ static void read_large(size_t terms)
 int main(int argc, char *argv[])
 {
     const char *source = argc > 1 ? argv[1] : ".";
-    char systems[4096];
-    snprintf(systems, sizeof systems, "%s/share/systems", source);
-    setenv("GEOMINT_SYSTEMS", systems, 1);
     gm_engine_choose(GM_ENGINE_NATIVE, source, tell, never);
     static const char *const schemes[] = {"verlet", "yoshida4", "blanes-moan-nystrom6",
                                           "rk4",    "midpoint", "gauss4"};

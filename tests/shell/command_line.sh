@@ -58,8 +58,8 @@ refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shares, with I from 1
 refused 1 '^geomint: --out is empty$' render disc --out ''
 # a word that names no tour is wrong usage, a folder that cannot be read is not
 GEOMINT_TOURS=$folder refused 1 'there is no tour "nope"' tour nope
-GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour nope
-GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour
+GEOMINT_TOURS=$folder/none refused 3 'could not be opened' tour nope
+GEOMINT_TOURS=$folder/none refused 3 'could not be opened' tour
 # a comma where the decimal point belongs
 refused 1 'dt=0,01: the decimal mark is a point (0.01)' run kepler dt=0,01
 refused 1 'the decimal mark is a point (0.1)' run kepler dt=0,1

@@ -61,12 +61,8 @@ offers 'alpha=' run "$bump" scheme=multiplier-lobatto4 al
 offers 'scheme=leapfrog' run "$bump" scheme=multiplier-lobatto4 scheme=leap
 printf 'boundary: walls\n' >>"$bump"
 offers '' run "$bump" scheme=multiplier-l
-# tours: those of the folder
-GEOMINT_TOURS=$2/share/tours
-GEOMINT_SYSTEMS=$2/share/systems # which tours show
-export GEOMINT_SYSTEMS
-export GEOMINT_TOURS
-offers "$(cd "$GEOMINT_TOURS" && ls | sed 's/\.tour$//')" tour ''
+# tours: those of the program, and those of a folder
+offers "$(cd "$2/share/tours" && ls | sed 's/\.tour$//')" tour ''
 offers 'mesh' tour me
 offers '' tour nothing
 offers '--theme' tour --th
@@ -74,7 +70,9 @@ offers 'dark light mono' tour --theme ''
 offers 'kitty' tour --graphics k
 offers '16 256 none truecolor' terminal --colours ''
 offers 'dark light' render disc --theme ''
-GEOMINT_TOURS=/nowhere offers '' tour ''
+touch "$files/mine.tour"
+GEOMINT_TOURS=$files offers 'made mesh mine' tour m
+GEOMINT_TOURS=/nowhere offers 'mesh' tour me
 [ "$("$geomint" complete | wc -l)" -gt 15 ] || fail 'without a word, commands and scenes'
 
 # bash asks a function; only what stands behind = is replaced

@@ -28,9 +28,9 @@ esac
 exec "$GEOMINT_TESTED" "$@"
 SCRIPT
 chmod +x "$folder/bin/geomint"
-GEOMINT_TESTED=$geomint GEOMINT_SYSTEMS=$source/share/systems GEOMINT_KERNEL=$source XDG_CACHE_HOME=$folder/caches
+GEOMINT_TESTED=$geomint GEOMINT_KERNEL=$source XDG_CACHE_HOME=$folder/caches
 PATH=$folder/bin:$PATH
-export GEOMINT_TESTED GEOMINT_SYSTEMS GEOMINT_KERNEL XDG_CACHE_HOME PATH
+export GEOMINT_TESTED GEOMINT_KERNEL XDG_CACHE_HOME PATH
 
 # blocks FILE KIND: the text of the blocks with that first line
 blocks() {

@@ -22,7 +22,6 @@ for tool in ("rsvg-convert", "pdftoppm", "pdftotext", "ffmpeg"):
         sys.exit(77)
 
 GEOMINT = os.path.abspath(sys.argv[1])
-os.environ["GEOMINT_SYSTEMS"] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "share", "systems")
 FEW = "few" in sys.argv[2:]
 LIKE = 0.95  # the least structural similarity
 MOST_BYTES = 2000000

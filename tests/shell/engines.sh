@@ -4,9 +4,8 @@
 # emptied; what is refused. engines.sh GEOMINT SOURCE
 set -u
 GEOMINT_KERNEL=$2
-GEOMINT_SYSTEMS=$2/share/systems
 GEOMINT_COMPILER_SECONDS=200 # the machine may have much else to do
-export GEOMINT_KERNEL GEOMINT_SYSTEMS GEOMINT_COMPILER_SECONDS
+export GEOMINT_KERNEL GEOMINT_COMPILER_SECONDS
 . "$(dirname "$0")/answers.sh"
 XDG_CACHE_HOME=$folder/caches
 export XDG_CACHE_HOME
@@ -19,9 +18,9 @@ numbers() {
     sed -E 's/"engine":"[a-z]*",//; s/"seconds":[^,]*,//' out
 }
 
-numbers interpreted figure-eight until=20 scheme=verlet >interpreted
+numbers interpreted kepler-space until=20 scheme=verlet >interpreted
 grep -q '"engine":"interpreted"' out || fail "an interpreted run tells no engine"
-numbers native figure-eight until=20 scheme=verlet >native
+numbers native kepler-space until=20 scheme=verlet >native
 grep -q '"engine":"native"' out || fail "a native run tells no engine: $(cat err)"
 cmp -s interpreted native || fail "the engines' numbers differ"
 entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
@@ -34,7 +33,7 @@ printf '#!/bin/sh\necho called >>"%s/calls"\nexec "%s" "$@"\n' "$folder" "$(comm
 chmod +x bin/cc
 PATH=$folder/bin:$PATH
 for until in 20 21; do
-    status 0 run figure-eight until=$until scheme=verlet --engine native --json
+    status 0 run kepler-space until=$until scheme=verlet --engine native --json
     grep -q '"engine":"native"' out || fail "with a compiler of its own: $(cat err)"
 done
 [ "$(wc -l <calls)" = 1 ] || fail "the compiler was called $(wc -l <calls) times, not once"
@@ -59,7 +58,7 @@ PATH=$real
 # of several processes at once one entry stays
 status 0 cache --clear
 for i in 1 2 3; do
-    "$geomint" run figure-eight until=21 scheme=yoshida4 --engine native --json >out$i 2>err$i &
+    "$geomint" run kepler-space until=21 scheme=yoshida4 --engine native --json >out$i 2>err$i &
 done
 wait
 for i in 1 2 3; do
@@ -69,31 +68,31 @@ entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
 [ "$entries" = 1 ] || fail "$entries files in the cache, not 1, after others"
 
 # nor does it matter that somebody empties the cache all the while: who loses its entry is interpreted, and told
-numbers interpreted figure-eight until=21 scheme=yoshida4 >interpreted21
+numbers interpreted kepler-space until=21 scheme=yoshida4 >interpreted21
 { while [ ! -e done ]; do "$geomint" cache --clear >/dev/null; done; } &
 clearing=$!
 for i in 1 2 3 4; do
-    numbers native figure-eight until=21 scheme=yoshida4 >native21
+    numbers native kepler-space until=21 scheme=yoshida4 >native21
     cmp -s interpreted21 native21 || fail "while the cache is emptied the numbers differ"
     [ ! -s err ] || grep -q interpreted: err || fail "while the cache is emptied: $(cat err)"
 done
 touch done
 wait "$clearing"
 status 0 cache --clear
-status 0 run figure-eight until=21 scheme=yoshida4 --engine native --json
+status 0 run kepler-space until=21 scheme=yoshida4 --engine native --json
 
 # another build has entries of its own in the same cache
 cp "$geomint" other_build
 here=$geomint
 geomint=$folder/other_build
-numbers native figure-eight until=21 scheme=yoshida4 >native21
+numbers native kepler-space until=21 scheme=yoshida4 >native21
 geomint=$here
 grep -q '"engine":"native"' out || fail "another build is not native: $(cat err)"
 cmp -s interpreted21 native21 || fail "another build's numbers differ"
 entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
 [ "$entries" = 2 ] || fail "$entries files in the cache of two builds, not 2"
 status 0 cache --clear
-status 0 run figure-eight until=21 scheme=yoshida4 --engine native --json
+status 0 run kepler-space until=21 scheme=yoshida4 --engine native --json
 
 status 0 cache
 grep -q '^1 kernel of [0-9]* bytes in ' out || fail "cache tells $(cat out)"
@@ -103,7 +102,7 @@ grep -q '^1 removed from ' out || fail "cache --clear tells $(cat out)"
 
 # where it cannot be had a sentence says why, and the numbers are there
 PATH=$folder/bin:/usr/bin:/bin
-numbers native figure-eight until=20 scheme=verlet,ruth3 >other
+numbers native kepler-space until=20 scheme=verlet,ruth3 >other
 [ "$(grep -c interpreted: err)" = 1 ] || fail "with a compiler that fails: $(cat err)"
 head -n 1 other | sed 's/"message":"[^"]*",//' >one
 sed 's/"message":"[^"]*",//' interpreted | cmp -s - one || fail "with a compiler that fails the numbers differ"

@@ -1,13 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Drives tours and background studies in tmux. Usage: explorer_tour.sh GEOMINT TOURS
+# Drives tours and background studies in tmux. Usage: explorer_tour.sh GEOMINT
 set -u
 
 . "$(dirname "$0")/tmux.sh"
-tours=$2
 
 open_tour() { # SIZE TOUR
-    start "$1" COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours"
+    start "$1" COLORTERM=truecolor TERM=tmux-256color
     keys "\"$geomint\" tour $2; echo \"left \$?\"" Enter
     wait_for '1/[0-9]+: '
 }
@@ -91,7 +90,7 @@ wait_for 'left 0'
 
 # ---- in the list of scenes ----
 
-start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours" GEOMINT_SYSTEMS="$tours/../systems"
+start 80x24 COLORTERM=truecolor TERM=tmux-256color
 keys "\"$geomint\"; echo \"left \$?\"" Enter
 wait_for '▸ disc'
 keys Tab
@@ -99,6 +98,8 @@ wait_for '▸ area'
 wait_for '7\. +What area cannot tell'
 keys Tab
 wait_for '▸ argon'
+keys Tab
+wait_for '▸ age'
 keys Tab
 wait_for '▸ disc'
 keys train # a word of what a tour is about
@@ -125,7 +126,7 @@ settled | grep -q 'Moving with the flow' && fail "the tour is not over"
 keys l
 wait_for '▸ disc'
 keys End
-wait_for '▸ toda'
+wait_for '▸ shedding'
 keys Home Tab
 wait_for '▸ area'
 for tour in energy chaos space-time mesh galilei room worth; do
@@ -137,18 +138,8 @@ wait_for 'What is it worth\? 1/5'
 keys q
 wait_for 'left 0'
 
-# without tours there are none
-start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS=/nowhere
-keys "\"$geomint\"; echo \"left \$?\"" Enter
-wait_for '▸ disc'
-screen | grep -qE 'TOURS|tab tours' && fail "tours without a folder"
-keys Tab
-wait_for '▸ disc'
-keys q
-wait_for 'left 0'
-
 # the terminal's options
-start 80x24 TERM=xterm GEOMINT_TOURS="$tours"
+start 80x24 TERM=xterm
 keys "\"$geomint\" tour area --colours truecolor --theme light --graphics ascii; echo \"left \$?\"" Enter
 wait_for '1/7: '
 wait_for 'paused'
@@ -156,7 +147,7 @@ wait_for 'paused'
 settled | LC_ALL=C grep -q '[^ -~]' && fail "a tour in ASCII has other letters"
 keys q
 wait_for 'left 0'
-[ "$(GEOMINT_TOURS="$tours" "$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
+[ "$("$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
     'geomint: --theme mono is none of: light, dark' ] || fail "a movie in no colours"
 
 # ---- studies ----

@@ -1,13 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The prompts of the explorer: a system of one's own is typed, corrected, edited and saved; so is a scheme.
-# Usage: explorer_own.sh GEOMINT SYSTEMS
+# Usage: explorer_own.sh GEOMINT
 set -u
 
 . "$(dirname "$0")/tmux.sh"
 
 open() { # WORDS
-    keys "clear; GEOMINT_SYSTEMS='$systems' \"$geomint\" $*; echo \"left \$?\"" Enter
+    keys "clear; \"$geomint\" $*; echo \"left \$?\"" Enter
 }
 
 # caret TEXT: below the first letter of TEXT stands the caret
@@ -33,7 +33,6 @@ click() { # COLUMN ROW
     tm send-keys -t "$pane" -H $(printf '\033[<0;%d;%dM\033[<0;%d;%dm' "$1" "$2" "$1" "$2" | od -An -tx1)
 }
 
-systems=$(realpath "$2")
 for size in 80x24 160x45; do
     start $size TERM=tmux-256color GEOMINT_COLOURS=truecolor
     rm -f "$folder"/*.system

@@ -172,8 +172,7 @@ class Command:
         meshes = os.path.join(tests, "reference", "meshes")
         share = os.path.join(os.path.dirname(tests), "share")
         usual = dict(
-            os.environ, GEOMINT_KERNEL=os.path.dirname(tests), XDG_CACHE_HOME=os.path.join(self.folder, "cache"),
-            **{"GEOMINT_" + kind.upper(): os.path.join(share, kind) for kind in ("tours", "systems", "rooms")})
+            os.environ, GEOMINT_KERNEL=os.path.dirname(tests), XDG_CACHE_HOME=os.path.join(self.folder, "cache"))
         environment = dict(usual, GM_FAULT=fault, GM_FAULT_COUNT=count, GM_FAULT_FOLDER=ends,
                            LD_PRELOAD=self.arguments.library)
 

@@ -1,9 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Indicators of chaos from the command line, and what the systems of share/systems are known for: indicators.sh PROGRAM SYSTEMS
+# Indicators of chaos from the command line, and what the systems of share/systems are known for: indicators.sh PROGRAM
 set -u
-GEOMINT_SYSTEMS=$2
-export GEOMINT_SYSTEMS
 . "$(dirname "$0")/answers.sh"
 
 refused 1 "did you mean lyapunov" run kepler until=1 --measure lyapunow

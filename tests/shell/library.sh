@@ -41,7 +41,7 @@ if command -v c++ >/dev/null; then
 fi
 LD_LIBRARY_PATH=$(dirname "$(dirname "$pc")")
 export LD_LIBRARY_PATH
-(cd "$folder" && unset GEOMINT_SYSTEMS GEOMINT_KERNEL && ./example >out 2>err) || fail 'the example fails'
+(cd "$folder" && unset GEOMINT_KERNEL && ./example >out 2>err) || fail 'the example fails'
 [ -s "$folder/err" ] && fail "the example complains: $(cat "$folder/err")"
 [ "$(wc -l <"$folder/out")" = 10 ] || fail "the example prints $(cat "$folder/out")"
 grep -q '^<svg' "$folder/pendulum.svg" || grep -q '<svg' "$folder/pendulum.svg" || fail 'the example draws nothing'
@@ -64,7 +64,7 @@ cc -o "$folder/beside" "$folder/beside.c" $(pkg-config --cflags --libs geomint) 
 # the installed program has all that its compiler of loops includes: a system is run by them, where there is a compiler
 program=$(find "$folder/root" -path '*/bin/geomint' -type f)
 if [ -n "$program" ] && command -v cc >/dev/null; then
-    (unset GEOMINT_KERNEL GEOMINT_SYSTEMS && XDG_CACHE_HOME=$folder/cache GEOMINT_COMPILER_SECONDS=300 \
+    (unset GEOMINT_KERNEL && XDG_CACHE_HOME=$folder/cache GEOMINT_COMPILER_SECONDS=300 \
         "$program" run system 'H=p^2/2 - cos(q)' q=1 p=0 dt=.1 scheme=verlet steps=10 --engine native --json) \
         >"$folder/native" 2>&1
     grep -q '"engine":"native"' "$folder/native" || fail "the installed engine: $(tail -n 1 "$folder/native" | cut -c1-300)"

@@ -14,8 +14,6 @@ assert run["status"] == "ok" and float(sys.argv[2]) <= value <= float(sys.argv[3
 }
 
 # rooms have names, which are proposed
-GEOMINT_ROOMS=$rooms
-export GEOMINT_ROOMS
 status 0 list rooms
 grep -q '^heated  *A heated room' out || fail "list rooms: $(head -n 3 out)"
 refused 1 'did you mean heated' run heeted
@@ -45,8 +43,6 @@ python3 -c 'import json; seen = json.load(open("out"))["observables"]
 assert 0.110 < seen["front_pressure"] - seen["back_pressure"] < 0.118' || fail "the pressure difference of the cylinder"
 within cylinder_circulation -3e-4 3e-4 # U D is 0.02
 # what the program brings goes by name, and is listed
-GEOMINT_ROOMS=$rooms
-export GEOMINT_ROOMS
 status 0 run lab until=1 --json
 grep -q '"scene":"lab"' out || fail "a room is not known by its name"
 within supply_flow 0.23999 0.24001

@@ -44,8 +44,7 @@ class Session:
         self.folder = tempfile.mkdtemp()
         self.seen, self.pending, self.modes, self.keypad = b'', b'', {}, False
         self.status, self.error, self.reads = None, None, True
-        environ = dict(os.environ, TERM='xterm-256color', LC_ALL='C.UTF-8', PS1='ready> ',
-                       GEOMINT_TOURS=os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../share/tours'))
+        environ = dict(os.environ, TERM='xterm-256color', LC_ALL='C.UTF-8', PS1='ready> ')
         for name in ('TMUX', 'NO_COLOR', 'COLORTERM', 'GEOMINT_COLOURS', 'GEOMINT_GRAPHICS', 'GEOMINT_THEME'):
             environ.pop(name, None)
         self.pid, self.master = pty.fork()

@@ -3,11 +3,10 @@
 # Systems on the command line: those that the program brings are listed; what is wrong is said with its place.
 # systems.sh GEOMINT SYSTEMS
 set -u
-GEOMINT_SYSTEMS=$2
-export GEOMINT_SYSTEMS
+systems=$2
 . "$(dirname "$0")/answers.sh"
 
-for file in "$GEOMINT_SYSTEMS"/*.system; do
+for file in "$systems"/*.system; do
     name=$(basename "$file" .system)
     for form in --long --latex; do
         "$geomint" list "$name" $form >out 2>err || fail "list $name $form: $(cat err)"
@@ -241,7 +240,7 @@ refused 1 'of a system' list kepler --latex
 refused 1 'names of scenes' list nothing
 
 # every one of them runs, is drawn, and is made again without its file
-for file in "$GEOMINT_SYSTEMS"/*.system; do
+for file in "$systems"/*.system; do
     name=$(basename "$file" .system)
     "$geomint" run "$name" steps=20 --json >out 2>err || fail "run $name: $(cat err)"
     python3 -c '
@@ -254,7 +253,7 @@ for key, value in run["observables"].items():
     assert value is None or not key.endswith("_error") or value < limit, (key, value)
 ' || fail "run $name"
 done
-cp "$GEOMINT_SYSTEMS/lotka-volterra.system" mine.system
+cp "$systems/lotka-volterra.system" mine.system
 "$geomint" render ./mine.system a=1,2 until=3 --size 200x120 -o first.svg 2>err || fail "render: $(cat err)"
 rm mine.system
 "$geomint" again first.svg -o second.svg 2>err || fail "again: $(cat err)"

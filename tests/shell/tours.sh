@@ -3,9 +3,7 @@
 # Tours are rendered small; broken ones are refused in one sentence. tours.sh GEOMINT TOURS all|third
 set -u
 which=$3
-GEOMINT_TOURS=$2
-GEOMINT_SYSTEMS=$2/../systems
-export GEOMINT_TOURS GEOMINT_SYSTEMS
+tours=$2
 . "$(dirname "$0")/answers.sh"
 
 # broken PATTERN: the tour on standard input is refused with that
@@ -21,7 +19,7 @@ broken() {
 "$geomint" list tours >same || fail 'list tours'
 cmp -s list same || fail 'list tours and tour differ'
 "$geomint" list tours --json >same || fail 'list tours --json'
-[ "$(grep -c '^{"tour":".*","title":".*","about":".*","steps":[0-9]*}$' same)" = "$(find "$GEOMINT_TOURS" -name '*.tour' | wc -l)" ] ||
+[ "$(grep -c '^{"tour":".*","title":".*","about":".*","steps":[0-9]*}$' same)" = "$(find "$tours" -name '*.tour' | wc -l)" ] ||
     fail "list tours --json: $(cat same)"
 for title in 'Area' 'Energy' 'Chaos or error?' 'Both directions of space-time' 'Let the mesh run' \
     'Moving with the flow' 'A room with no leaks' 'What is it worth?' \
@@ -29,7 +27,7 @@ for title in 'Area' 'Energy' 'Chaos or error?' 'Both directions of space-time' '
     grep -qF "$title" list || fail "no tour is called $title"
 done
 number=0
-for file in "$GEOMINT_TOURS"/*.tour; do
+for file in "$tours"/*.tour; do
     number=$((number + 1))
     name=$(basename "$file" .tour)
     steps=$(grep -c '^step:' "$file")
@@ -46,7 +44,7 @@ for file in "$GEOMINT_TOURS"/*.tour; do
 done
 
 # what a text names is there in a small terminal too, which has one graph
-grep -nE '(second|third|first) graph' "$GEOMINT_TOURS"/*.tour && fail "a tour counts graphs"
+grep -nE '(second|third|first) graph' "$tours"/*.tour && fail "a tour counts graphs"
 
 # ---- a tour of one's own, found by its path, its name and its title ----
 
@@ -98,7 +96,7 @@ refused 1 'did you mean area' tour aera
 refused 1 'which tour' tour --movie x.mp4
 refused 1 'takes one name' tour a b
 refused 3 'could not be read' tour ./nowhere.tour
-GEOMINT_TOURS=$folder/nowhere refused 3 'no folder' tour
+GEOMINT_TOURS=$folder/nowhere refused 3 'could not be opened' tour
 refused 1 'needs a terminal' tour area
 
 broken 'broken.tour, line 1: a tour begins with title:' </dev/null

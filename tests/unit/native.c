@@ -771,7 +771,6 @@ int main(int argc, char *argv[])
     struct stat about;
     kernels = argc > 1 ? argv[1] : ".";
     systems = argc > 2 ? argv[2] : "share/systems";
-    setenv("GEOMINT_SYSTEMS", systems, 1);
     for (int i = 3; i < argc; i++) {
         const bool is_all = strcmp(argv[i], "all") == 0, is_baseline = strcmp(argv[i], "baseline") == 0,
                    is_avx2 = strcmp(argv[i], "avx2") == 0;

@@ -510,7 +510,7 @@ static void print_structure_json(const struct report *report)
     printf("}");
 }
 
-static void print_json(const struct report *report)
+static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
     printf("{");
@@ -530,7 +530,9 @@ static void print_json(const struct report *report)
             comma = ",";
         }
     }
-    printf("]}\n");
+    printf("]");
+    gm_list_file_json(file, report->system.source);
+    printf("}\n");
 }
 
 /* What was derived as it is to be printed; what was typed stays. False: out of memory. */
@@ -698,16 +700,17 @@ static bool tidy_all(struct report *report)
 }
 
 /* The system of a file with other values, or of words alone: NULL. An exit status, told. */
-static int open_system(struct report *report, const struct gm_arguments *arguments, const char *path)
+static int open_system(struct report *report, const struct gm_arguments *arguments,
+                       const struct gm_file *file)
 {
     char message[GM_MESSAGE];
     size_t count = 0;
     struct gm_system_value *values = calloc((size_t)arguments->count, sizeof *values);
     int status = !values                                           ? GM_EXIT_MEMORY
-                 : !path || read_values(arguments, values, &count) ? GM_EXIT_OK
+                 : !file || read_values(arguments, values, &count) ? GM_EXIT_OK
                                                                    : GM_EXIT_USAGE;
     if (status == GM_EXIT_OK) {
-        status = path ? gm_system_open(&report->system, path, values, count, message)
+        status = file ? gm_system_open(&report->system, file, values, count, message)
                       : gm_system_open_typed(&report->system, arguments->count, arguments->words, message);
         if (status != GM_EXIT_OK) {
             gm_complain("%s", message);
@@ -734,15 +737,27 @@ static int check_scene(const struct gm_arguments *arguments)
     return status;
 }
 
-int gm_list_system(const struct gm_arguments *arguments, const char *path, enum gm_telling telling)
+void gm_list_file_json(const struct gm_file *file, const char *source)
+{
+    if (!file) {
+        printf(",\"file\":null,\"source\":null");
+        return;
+    }
+    printf(",");
+    gm_json_pair("file", file->path);
+    printf(",");
+    gm_json_pair("source", source);
+}
+
+int gm_list_system(const struct gm_arguments *arguments, const struct gm_file *file, enum gm_telling telling)
 {
     struct report report = {.problem = {0}};
-    int status = open_system(&report, arguments, path);
+    int status = open_system(&report, arguments, file);
     status = status == GM_EXIT_OK ? check_scene(arguments) : status;
     /* what was not checked for want of memory is not called unchecked */
     if (status == GM_EXIT_OK && open_problem(&report) && tidy_all(&report) && !gm_memory_was_short()) {
         if (telling == GM_TELL_JSON) {
-            print_json(&report);
+            print_json(&report, file);
         } else if (telling == GM_TELL_LATEX) {
             print_latex(&report);
         } else {

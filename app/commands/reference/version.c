@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <suitesparse/cholmod.h>
 
-#include "app/base/share.h"
 #include "app/commands/reference/version.h"
 #include "app/native/compiler.h"
+#include "app/native/sources.h"
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
@@ -55,7 +55,7 @@ static void print_features(void)
                                   ? painter
                                   : "auto (osmesa for PNG and movies where it can be loaded, else own)");
     }
-    gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
+    gm_kernel_folder(kernels, sizeof kernels);
     const bool sources = stat(kernels, &about) == 0, compiler = sources && gm_compiler_find(path, &unused);
     gm_say("loops: %s; systems of one's own: interpreted%s%s", gm_isa_name(gm_isa_best()),
            compiler  ? ", or compiled by "

@@ -147,6 +147,11 @@ const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
         },
 };
 
+#ifdef GM_KERNEL_KEY
+const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
+    {GM_KERNEL_KEY}, GM_COMPONENTS, &GM_LOOPS_NAME(GM_PROBLEM, GM_ISA)};
+#endif
+
 #if defined(GM_ALONE) && defined(GM_LOOPS_X86)
 /* where the program looks for those of other instruction sets */
 #define GM_SAME_LOOPS(isa)                                                                                   \

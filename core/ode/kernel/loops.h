@@ -3,6 +3,8 @@
 #ifndef GM_CORE_ODE_KERNEL_LOOPS_H
 #define GM_CORE_ODE_KERNEL_LOOPS_H
 
+#include <stdint.h>
+
 #include "core/ode/ode.h"
 
 /* The families that have a loop over kernels: gm_family.over_kernels. */
@@ -46,6 +48,19 @@ struct gm_loops {
         &gm_loops_##problem##_baseline                                                                       \
     }
 #endif
+
+/* The loops of a system of share/systems whose file has a line `compile:`. */
+struct gm_compiled_kernel {
+    uint64_t key[2]; /* the digest of its kernel's text */
+    size_t components;
+    const struct gm_loops *loops;
+};
+#define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)
+#define GM_COMPILED_NAME_(problem) gm_compiled_##problem
+/* Those of the program whose kernel has this text; NULL: there are none. They are for single runs. */
+const struct gm_loops *gm_compiled_loops(const char *text);
+/* Whether there are some of a system with so many components. */
+bool gm_compiled_has(size_t components);
 
 /* f(y) of the active components of m members, whichever way the problem gives it. */
 void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);

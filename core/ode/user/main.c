@@ -3,15 +3,19 @@
    that is compiled of somebody's own system while the program runs, with its constants in it. Parameters of
    the file are the numbers that the problem's `parameters` lead to, in their order. The energy, for
    core/ode/compiled/over_energy.c, is the file's H, or what it observes or keeps by that name where it has
-   rates instead. Usage: write_kernel FILE.system FILE.kernel.h */
+   rates instead. Usage: write_kernel FILE.system FILE.kernel.h
+   With a third word, a system of share/ whose file has a line `compile:`: the kernel file that the program would write of
+   it, with the digest by which the program finds its loops. The word is `yes`, or PARAMETER=VALUE. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/digest.h"
 #include "core/expression/derivative.h"
 #include "core/model/equations.h"
 #include "core/ode/user/kernel.h"
+#include "core/ode/user/model.h"
 
 static char *read_all(const char *name, size_t *size)
 {
@@ -83,13 +87,54 @@ static char *with_formula(char *kernels, const struct gm_user_system *system, gm
     return out && fclose(out) == 0 ? text : NULL;
 }
 
+/* Rates and their Jacobian, and what their tapes depend on (core/tape.h). */
+struct rates {
+    const struct gm_formula *graph;
+    const gm_node_id *nodes;
+    size_t components, half; /* half of them without t */
+    const struct gm_sparse *jacobian;
+    size_t inputs;
+    const double *values;
+};
+enum { TAPES = GM_KERNEL_JACOBIAN + 1 };
+
+/* False: out of memory. */
+static bool open_tapes(struct gm_tape tapes[TAPES], const struct rates *rates)
+{
+    const size_t n = rates->components, half = rates->half, inputs = rates->inputs;
+    gm_node_id *slopes = malloc((rates->jacobian->count + 1) * sizeof *slopes);
+    for (size_t i = 0; slopes && i < rates->jacobian->count; i++) {
+        slopes[i] = rates->jacobian->entries[i].node;
+    }
+    const struct {
+        const gm_node_id *nodes;
+        size_t count;
+    } parts[TAPES] = {[GM_KERNEL_FIELD] = {rates->nodes, n},
+                      [GM_KERNEL_VELOCITY] = {rates->nodes, half},
+                      [GM_KERNEL_FORCE] = {rates->nodes + half, half},
+                      [GM_KERNEL_JACOBIAN] = {slopes, rates->jacobian->count}};
+    bool good = slopes != NULL;
+    for (int i = 0; i < TAPES && good; i++) {
+        good = gm_tape_open(&tapes[i], rates->graph, parts[i].nodes, parts[i].count, inputs, rates->values);
+    }
+    free(slopes);
+    return good;
+}
+
+static void close_tapes(struct gm_tape tapes[TAPES])
+{
+    for (int i = 0; i < TAPES; i++) {
+        gm_tape_close(&tapes[i]);
+    }
+}
+
 /* The text of the system's kernels; malloc'ed. NULL with what it lacks, or NULL for want of memory. */
 static char *kernel_of(struct gm_user_system *system, const char **lacks)
 {
-    const size_t n = system->n, half = n / 2, inputs = system->velocities;
+    const size_t n = system->n;
     struct gm_formula *graph = &system->graph;
     struct gm_sparse jacobian = {0};
-    struct gm_tape field, velocity, force, slopes = {0}, energy = {0}, potential;
+    struct gm_tape tapes[TAPES] = {0}, energy = {0}, potential;
     char *text = NULL;
     bool *marked = calloc(system->variable_count, sizeof *marked);
     *lacks = system->kind == GM_LAGRANGIAN || system->timed ? "it is not of the form y' = f(y)" : NULL;
@@ -102,54 +147,98 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
     bool good = potential_open(&potential, system);
     good = good && gm_sparse_jacobian(graph, system->rates, n, marked, system->variable_count, &jacobian) &&
            gm_formula_quicken(graph, system->rates, n);
-    gm_node_id *nodes = malloc((jacobian.count + 1) * sizeof *nodes);
-    for (size_t i = 0; nodes && i < jacobian.count; i++) {
-        nodes[i] = jacobian.entries[i].node;
-    }
-    good = gm_tape_open(&field, graph, system->rates, n, inputs, NULL) && nodes && good;
-    good = gm_tape_open(&velocity, graph, system->rates, half, inputs, NULL) && good;
-    good = gm_tape_open(&force, graph, system->rates + half, n - half, inputs, NULL) && good;
+    const struct rates rates = {graph, system->rates, n, n / 2, &jacobian, system->velocities, NULL};
+    good = good && open_tapes(tapes, &rates);
     if (hamiltonian != GM_NO_NODE) {
-        good = gm_tape_open(&energy, graph, &hamiltonian, 1, inputs, NULL) && good;
+        good = good && gm_tape_open(&energy, graph, &hamiltonian, 1, system->velocities, NULL);
     }
-    good = good && gm_tape_open(&slopes, graph, nodes, jacobian.count, inputs, NULL);
     if (good) {
         struct gm_kernel_source source = {
             .components = n,
-            .tapes = {&field, &velocity, &force, &slopes, energy.outputs > 0 ? &energy : NULL,
+            .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY], &tapes[GM_KERNEL_FORCE],
+                      &tapes[GM_KERNEL_JACOBIAN], energy.outputs > 0 ? &energy : NULL,
                       potential.outputs > 0 ? &potential : NULL},
             .jacobian = &jacobian,
             .jacobian_wanted = true,
             .written_out = true,
             .parameters = system->parameters,
         };
-        if (!gm_kernel_splits(&source)) {
+        if (n % 2 != 0 || !gm_kernel_splits(&source)) {
             source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
         }
         text = with_formula(gm_kernel_text(&source, lacks), system, hamiltonian);
     }
-    gm_tape_close(&field);
-    gm_tape_close(&velocity);
-    gm_tape_close(&force);
-    gm_tape_close(&slopes);
+    close_tapes(tapes);
     gm_tape_close(&energy);
     gm_tape_close(&potential);
     free(jacobian.entries);
-    free(nodes);
     free(marked);
     return text;
+}
+
+/* The text of the kernels of a system of share/, which struct gm_user_problem of the program writes as well
+   (gm_user_problem_kernel), with its digest; for all values of the parameters, or for those of the system. */
+static char *own_kernel_of(struct gm_user_system *system, bool general, const char **lacks)
+{
+    struct gm_user_model model;
+    struct gm_tape tapes[TAPES] = {0};
+    char *text = NULL, *keyed = NULL;
+    const bool opened = gm_user_model_open(&model, system);
+    double *start = opened ? gm_equations_start(system, NULL) : NULL;
+    *lacks = start ? gm_user_model_refuses_kernels(&model) : NULL;
+    const struct gm_user_rates *chosen = !start || general ? model.rates : gm_user_model_rates(&model, start);
+    struct rates rates = {.graph = &system->graph,
+                          .components = model.components,
+                          .half = system->n / 2,
+                          .inputs = model.components,
+                          .values = start};
+    if (start) {
+        rates.nodes = chosen->nodes;
+        rates.jacobian = &chosen->jacobian;
+    }
+    if (start && !*lacks && open_tapes(tapes, &rates)) {
+        const bool splits = gm_user_model_splits(&model, start);
+        const struct gm_kernel_source source = {
+            .components = model.components,
+            .tapes = {&tapes[GM_KERNEL_FIELD], splits ? &tapes[GM_KERNEL_VELOCITY] : NULL,
+                      splits ? &tapes[GM_KERNEL_FORCE] : NULL,
+                      model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL},
+            .jacobian = &chosen->jacobian,
+            .jacobian_wanted = true};
+        text = gm_kernel_text(&source, lacks);
+    }
+    struct gm_digest key = gm_digest_open();
+    if (text) {
+        gm_digest_add(&key, text, strlen(text));
+        const unsigned long long a = key.a, b = key.b;
+        if (asprintf(&keyed, "%s#define GM_KERNEL_KEY UINT64_C(0x%llx), UINT64_C(0x%llx)\n", text, a, b) <
+            0) {
+            keyed = NULL;
+        }
+    }
+    close_tapes(tapes);
+    free(text);
+    free(start);
+    gm_user_model_close(&model);
+    return keyed;
 }
 
 int main(int argc, char *argv[])
 {
     struct gm_user_system system;
     struct gm_fault fault;
+    struct gm_system_value value;
     const char *lacks = "it could not be read";
     size_t size = 0;
-    char *source = argc == 3 ? read_all(argv[1], &size) : NULL, *text = NULL;
+    char *source = argc == 3 || argc == 4 ? read_all(argv[1], &size) : NULL, *text = NULL,
+         *equals = argc == 4 ? strchr(argv[3], '=') : NULL;
+    if (equals) {
+        *equals = '\0';
+        value = (struct gm_system_value){argv[3], equals + 1};
+    }
     if (source) {
-        if (gm_equations_open(&system, source, size, NULL, 0, &fault)) {
-            text = kernel_of(&system, &lacks);
+        if (gm_equations_open(&system, source, size, &value, equals != NULL, &fault)) {
+            text = argc == 4 ? own_kernel_of(&system, !equals, &lacks) : kernel_of(&system, &lacks);
         } else {
             lacks = fault.sentence;
         }

@@ -45,6 +45,7 @@ struct own {
     struct gm_poisson poisson;
     double *values; /* of the system's variables */
     const struct gm_user_model *model;
+    const struct gm_user_rates *rates; /* of the model */
 };
 
 /* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
@@ -59,143 +60,6 @@ static bool energy_formula(const struct gm_problem *problem, struct gm_formula *
     const struct gm_user_system *system = self->model->system;
     *node = gm_formula_graft(graph, &system->graph, system->energy, problem->n, self->values);
     return *node != GM_NO_NODE;
-}
-
-static bool is_forced(const struct gm_user_system *system)
-{
-    bool forced = false;
-    for (size_t i = 0; i < system->n; i++) {
-        forced |= system->variables[i].force != GM_NO_NODE;
-    }
-    return forced;
-}
-
-/* In the words of struct gm_ode; "": too many or too long to be told apart there. */
-static char *names_of(const struct gm_user_system *system)
-{
-    char *names = NULL;
-    size_t size;
-    FILE *stream = open_memstream(&names, &size);
-    if (!stream) {
-        return NULL;
-    }
-    /* lists are named as such where they have one length, else all by their own names, as far as there is
-       room */
-    const size_t n = system->n + system->timed;
-    size_t lists = 0, scalars = 0, longest = 0, shortest = SIZE_MAX, length = 0;
-    bool fit = true;
-    for (size_t i = 0; i < n; i++) {
-        const char *name = system->variables[i].name;
-        const size_t letters = strcspn(name, "[");
-        fit = fit && letters < sizeof((struct gm_quantity *)0)->name;
-        if (name[letters] == '\0') {
-            scalars++;
-            continue;
-        }
-        const char *next = i + 1 < n ? system->variables[i + 1].name : "";
-        length++;
-        if (strncmp(name, next, letters + 1) != 0) {
-            longest = length > longest ? length : longest;
-            shortest = length < shortest ? length : shortest;
-            length = 0;
-            lists++;
-        }
-    }
-    fit = fit && (lists == 0 || longest == shortest) && lists + scalars <= GM_QUANTITIES;
-    for (size_t i = 0; i < n && fit; i++) {
-        const char *name = system->variables[i].name;
-        const size_t letters = strcspn(name, "[");
-        const bool goes_on =
-            i > 0 && name[letters] && strncmp(name, system->variables[i - 1].name, letters + 1) == 0;
-        if (!goes_on) {
-            fprintf(stream, "%s%.*s%s", i > 0 ? " " : "", (int)letters, name, name[letters] ? "[]" : "");
-        }
-    }
-    fclose(stream);
-    return names;
-}
-
-/* The monitor's node and those of its gradient; false: out of memory. */
-static bool open_slopes(struct gm_user_model *model, struct gm_user_system *system, bool *marked)
-{
-    const size_t n = model->components;
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_MONITOR) {
-            model->monitor = system->items[i].nodes[0];
-            model->slopes = malloc((system->variable_count + 1) * sizeof *model->slopes);
-            memset(marked, false, system->variable_count * sizeof *marked);
-            memset(marked, true, n * sizeof *marked);
-            return model->slopes &&
-                   gm_gradient(&system->graph, model->monitor, marked, system->variable_count, model->slopes);
-        }
-    }
-    return true;
-}
-
-bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system)
-{
-    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
-    const size_t n = model->components;
-    if (!gm_facts_find(system, model->findings)) {
-        return false;
-    }
-    model->rates = malloc((n + 1) * sizeof *model->rates);
-    model->names = names_of(system);
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    if (!model->rates || !model->names || !marked) {
-        free(marked);
-        return false;
-    }
-    memcpy(model->rates, system->rates, system->n * sizeof *model->rates);
-    if (system->timed) {
-        model->rates[system->n] = gm_formula_constant(&system->graph, 1);
-    }
-    model->has_jacobian = n <= GM_NEWTON_LARGEST;
-    bool good = gm_user_constraints_model_open(&model->constraints, system);
-    if (system->kind == GM_LAGRANGIAN) {
-        gm_user_lagrangian_model_open(&model->lagrangian, system);
-    } else if (model->has_jacobian) {
-        memset(marked, true, n);
-        gm_sparse_jacobian(&system->graph, model->rates, n, marked, system->variable_count, &model->jacobian);
-    }
-    if (good) {
-        good = open_slopes(model, system, marked) && gm_user_bracket_model_open(&model->bracket, system);
-    }
-    free(marked);
-    const bool has_rates = system->kind != GM_LAGRANGIAN;
-    return good && (!has_rates || gm_formula_quicken(&system->graph, model->rates, n)) &&
-           !system->graph.failed;
-}
-
-void gm_user_model_close(struct gm_user_model *model)
-{
-    gm_user_lagrangian_model_close(&model->lagrangian);
-    gm_user_constraints_model_close(&model->constraints);
-    gm_user_bracket_model_close(&model->bracket);
-    free(model->rates);
-    free(model->jacobian.entries);
-    free(model->slopes);
-    free(model->names);
-    *model = (struct gm_user_model){0};
-}
-
-/* Whether variational schemes know what to do with it. */
-static bool has_action(const struct gm_user_model *model)
-{
-    const enum gm_system_kind kind = model->system->kind;
-    return model->has_jacobian &&
-           (kind == GM_LAGRANGIAN || (kind == GM_CANONICAL && model->findings[GM_FACT_NYSTROM].holds));
-}
-
-const char *gm_user_model_lacks(const struct gm_user_model *model)
-{
-    if (model->constraints.count == 0) {
-        return "";
-    }
-    return model->system->timed   ? "with constraints the time may not occur"
-           : !model->has_jacobian ? "with constraints there may be at most 64 components"
-           : !has_action(model)   ? "constraints take L, or H = T(p) + V(q) with a quadratic T"
-                                  : "";
 }
 
 static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
@@ -221,7 +85,7 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
 static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
     struct own *self = own_of(problem);
-    const struct gm_sparse *entries = &self->model->jacobian;
+    const struct gm_sparse *entries = &self->rates->jacobian;
     double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
     gm_late_tape_values(&self->jacobian, y, values, 1);
     memset(matrix, 0, problem->n * problem->n * sizeof *matrix);
@@ -364,18 +228,6 @@ static void potential(const struct gm_problem *problem, double q, double values[
     gm_tape_values(&own_of(problem)->potential, &q, values, 1);
 }
 
-/* What was tested, not proved, holds for the parameters that it was tested with. */
-static bool holds(const struct gm_user_model *model, const double *values, enum gm_fact fact)
-{
-    const struct gm_user_system *system = model->system;
-    const struct gm_finding *finding = &model->findings[fact];
-    bool same = true;
-    for (size_t i = system->parameters; i < system->velocities; i++) {
-        same = same && values[i] == system->variables[i].value;
-    }
-    return finding->asked && finding->holds && (same || finding->how == GM_ZERO_PROVED);
-}
-
 static struct gm_late_tape late_tape(const struct own *self, const gm_node_id *nodes, size_t count,
                                      size_t inputs)
 {
@@ -394,7 +246,7 @@ static bool open_mechanical(struct own *self, const double *values)
     const struct gm_finding *findings = model->findings;
     const size_t half = model->system->n / 2;
     bool good = true;
-    if (holds(model, values, GM_FACT_FAST_LINEAR)) {
+    if (gm_user_model_holds(model, values, GM_FACT_FAST_LINEAR)) {
         struct gm_tape tape;
         const gm_node_id *nodes = findings[GM_FACT_FAST_LINEAR].nodes;
         bool real = true;
@@ -411,7 +263,7 @@ static bool open_mechanical(struct own *self, const double *values)
         self->fast_linear = (struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force};
         self->ode.fast_linear = real ? &self->fast_linear : NULL;
     }
-    if (holds(model, values, GM_FACT_KEPLER_SPLIT)) {
+    if (gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)) {
         const gm_node_id *nodes = findings[GM_FACT_KEPLER_SPLIT].nodes;
         good = good && gm_tape_open(&self->attraction, graph, nodes, 1, 2, values) &&
                gm_tape_open(&self->perturbation, graph, nodes + 1, 2, 2, values);
@@ -419,7 +271,7 @@ static bool open_mechanical(struct own *self, const double *values)
             (struct gm_kepler_split){.potential = attraction, .perturbing_force = perturbing_force};
         self->ode.kepler_split = &self->kepler_split;
     }
-    if (holds(model, values, GM_FACT_LAGRANGIAN)) {
+    if (gm_user_model_holds(model, values, GM_FACT_LAGRANGIAN)) {
         good =
             good && gm_tape_open(&self->potential, graph, findings[GM_FACT_LAGRANGIAN].nodes, 3, 1, values);
         self->one_degree.potential = potential;
@@ -433,8 +285,8 @@ static bool open_action(struct own *self, const double *values)
 {
     const struct gm_user_model *model = self->model;
     const bool constrained = model->constraints.count > 0;
-    if (!has_action(model) ||
-        (model->system->kind == GM_CANONICAL && !holds(model, values, GM_FACT_NYSTROM))) {
+    if (!gm_user_model_has_action(model) ||
+        (model->system->kind == GM_CANONICAL && !gm_user_model_holds(model, values, GM_FACT_NYSTROM))) {
         return true;
     }
     self->action = (struct gm_action){.motion = model->system->kind == GM_LAGRANGIAN ? motion : NULL,
@@ -443,7 +295,7 @@ static bool open_action(struct own *self, const double *values)
                                       .constrain = constrain};
     self->ode.action = &self->action;
     bool good = !constrained || gm_user_constraints_open(&self->constraints, &model->constraints, values);
-    if (holds(model, values, GM_FACT_CONFORMAL)) {
+    if (gm_user_model_holds(model, values, GM_FACT_CONFORMAL)) {
         struct gm_tape tape;
         const gm_node_id *nodes = model->findings[GM_FACT_CONFORMAL].nodes;
         good = good && gm_tape_open(&tape, &model->system->graph, nodes, 1, 0, values);
@@ -518,12 +370,13 @@ static bool open_monitor(struct own *self, const double *values)
            gm_tape_open(&self->slopes, graph, model->slopes, model->components, model->components, values);
 }
 
-static bool is_unit_mass(const struct gm_user_model *model)
+static bool is_unit_mass(const struct own *self)
 {
+    const struct gm_user_model *model = self->model;
     const size_t half = model->system->n / 2;
     bool unit = true;
     for (size_t i = 0; i < half; i++) {
-        const struct gm_node *rate = &model->system->graph.nodes[model->rates[i]];
+        const struct gm_node *rate = &model->system->graph.nodes[self->rates->nodes[i]];
         unit = unit && rate->operation == GM_VARIABLE && rate->a == half + i;
     }
     return unit;
@@ -532,26 +385,27 @@ static bool is_unit_mass(const struct gm_user_model *model)
 static bool open_tapes(struct own *self, const double *values)
 {
     const struct gm_user_model *model = self->model;
+    const struct gm_user_rates *rates = self->rates;
     const struct gm_user_system *system = model->system;
     const size_t n = model->components, half = system->n / 2;
     if (system->kind == GM_LAGRANGIAN) {
         return gm_user_lagrangian_open(&self->lagrangian, &model->lagrangian, values);
     }
-    self->field = late_tape(self, model->rates, n, n);
-    self->velocity = late_tape(self, model->rates, half, n);
-    self->force = late_tape(self, model->rates + half, half, n);
+    self->field = late_tape(self, rates->nodes, n, n);
+    self->velocity = late_tape(self, rates->nodes, half, n);
+    self->force = late_tape(self, rates->nodes + half, half, n);
     self->energy = late_tape(self, &system->energy, 1, n);
     if (model->has_jacobian) {
-        gm_node_id *nodes = self->slopes_of_rates = malloc((model->jacobian.count + 1) * sizeof *nodes);
-        for (size_t i = 0; nodes && i < model->jacobian.count; i++) {
-            nodes[i] = model->jacobian.entries[i].node;
+        gm_node_id *nodes = self->slopes_of_rates = malloc((rates->jacobian.count + 1) * sizeof *nodes);
+        for (size_t i = 0; nodes && i < rates->jacobian.count; i++) {
+            nodes[i] = rates->jacobian.entries[i].node;
         }
-        self->jacobian = late_tape(self, nodes, model->jacobian.count, n);
+        self->jacobian = late_tape(self, nodes, rates->jacobian.count, n);
     }
     if (self->ode.volume) {
         self->pieces = malloc(n * sizeof *self->pieces);
         for (size_t i = 0; self->pieces && i < n; i++) {
-            self->pieces[i] = late_tape(self, &model->rates[i], 1, n);
+            self->pieces[i] = late_tape(self, &rates->nodes[i], 1, n);
         }
     }
     return (self->slopes_of_rates || !model->has_jacobian) && (self->pieces || !self->ode.volume);
@@ -591,6 +445,7 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
     }
     problem->facets = &self->ode;
     self->model = model;
+    self->rates = gm_user_model_rates(model, values);
     self->values = malloc((system->variable_count + 1) * sizeof *self->values);
     if (!self->values) {
         return false;
@@ -606,27 +461,28 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         self->free = self->loops;
         self->loops = (struct gm_loops){.field = gm_manifold_field};
     }
-    self->ode = (struct gm_ode){.written = true,
-                                .components = model->names[0] ? model->names : NULL,
-                                .quadratic = !constrained && holds(model, values, GM_FACT_QUADRATIC),
-                                .rough = !holds(model, values, GM_FACT_SMOOTH),
-                                .prepare = lagrangian ? NULL : prepare};
+    self->ode =
+        (struct gm_ode){.written = true,
+                        .components = model->names[0] ? model->names : NULL,
+                        .quadratic = !constrained && gm_user_model_holds(model, values, GM_FACT_QUADRATIC),
+                        .rough = !gm_user_model_holds(model, values, GM_FACT_SMOOTH),
+                        .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         self->ode.loops[isa] = &self->loops;
     }
-    self->ode.forced = system->kind <= GM_LAGRANGIAN && is_forced(system);
+    self->ode.forced = system->kind <= GM_LAGRANGIAN && gm_user_model_is_forced(model);
     if (system->kind <= GM_LAGRANGIAN && !self->ode.forced) {
         /* what moves with the time generates no field of the whole state: it splits, and that is all */
-        self->split.nystrom = holds(model, values, GM_FACT_NYSTROM);
-        self->split.unit_mass = !lagrangian && is_unit_mass(model);
+        self->split.nystrom = gm_user_model_holds(model, values, GM_FACT_NYSTROM);
+        self->split.unit_mass = !lagrangian && is_unit_mass(self);
         self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;
         self->hamiltonian.formula = lagrangian || constrained ? NULL : energy_formula;
-        self->ode.split = !constrained && holds(model, values, GM_FACT_SEPARABLE) ? &self->split : NULL;
+        self->ode.split = gm_user_model_splits(model, values) ? &self->split : NULL;
         self->ode.hamiltonian = system->timed ? NULL : &self->hamiltonian;
         self->loops.velocity = !self->ode.split ? NULL : lagrangian ? lagrangian_velocity : velocity;
         self->loops.force = !self->ode.split ? NULL : lagrangian ? lagrangian_force : force;
     }
-    if (!constrained && holds(model, values, GM_FACT_VOLUME)) {
+    if (!constrained && gm_user_model_holds(model, values, GM_FACT_VOLUME)) {
         self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
         self->ode.volume = &self->volume;
     }
@@ -658,18 +514,13 @@ static bool tapes_of_kernels(struct own *self, const struct gm_tape *tapes[GM_KE
 char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const char **lacks)
 {
     struct own *self = own_of(problem);
-    if (self->model->system->kind == GM_LAGRANGIAN) {
-        *lacks = "the velocities of a Lagrangian are found by an iteration, which is not compiled";
-        return NULL;
-    }
-    if (self->model->constraints.count > 0) {
-        *lacks = "the multipliers of constraints are found by an iteration, which is not compiled";
+    *lacks = gm_user_model_refuses_kernels(self->model);
+    if (*lacks) {
         return NULL;
     }
     struct gm_kernel_source source = {.components = problem->n,
-                                      .jacobian = &self->model->jacobian,
+                                      .jacobian = &self->rates->jacobian,
                                       .jacobian_wanted = over == GM_OVER_NONE || over == GM_OVER_IMPLICIT};
-    *lacks = NULL;
     return tapes_of_kernels(self, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
 }
 

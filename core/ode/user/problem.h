@@ -4,35 +4,8 @@
 #ifndef GM_CORE_ODE_OWN_OWN_H
 #define GM_CORE_ODE_OWN_OWN_H
 
-#include "core/expression/derivative.h"
-#include "core/model/facts.h"
 #include "core/ode/ode.h"
-#include "core/ode/user/bracket.h"
-#include "core/ode/user/constraints.h"
-#include "core/ode/user/lagrangian.h"
-
-/* What follows from a system once, whatever its parameters. It does not change afterwards: runs and threads
-   share it. */
-struct gm_user_model {
-    const struct gm_user_system *system;
-    struct gm_finding findings[GM_FACTS];
-    size_t components;                          /* of the state: the system's and, where it is timed, t */
-    gm_node_id *rates;                          /* of these */
-    bool has_jacobian;                          /* not where it would be too large a matrix */
-    struct gm_sparse jacobian;                  /* d rate[row] / d component */
-    struct gm_user_lagrangian_model lagrangian; /* of a Lagrangian, in place of rates and Jacobian */
-    struct gm_user_constraints_model constraints;
-    gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
-    struct gm_user_bracket_model bracket;
-    char *names; /* of the components, as in struct gm_ode */
-};
-
-/* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */
-bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
-void gm_user_model_close(struct gm_user_model *model);
-
-/* Why no scheme can advance such a system, "" where some can. */
-const char *gm_user_model_lacks(const struct gm_user_model *model);
+#include "core/ode/user/model.h"
 
 /* The problem with these values of the system's variables, those of parameters and where components start
    (gm_equations_start), of which the latter tell whether it attracts there. The model outlives it. m is 1, and

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files that are part of the program, and those of the user's folders. */
+#include "app/base/files.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/expression/reader.h"
+#include "core/memory.h"
+#include "render/files/regular_file.h"
+#include "render/message.h"
+
+static const char *const variables[GM_FILE_MESH] = {"GEOMINT_SYSTEMS", "GEOMINT_ROOMS", "GEOMINT_SCHEMES",
+                                                    "GEOMINT_TOURS"};
+
+/* A file that is larger is listed by its name alone. */
+enum { LARGEST_DESCRIBED = 1 << 24 };
+
+/* The folders that are searched, in this order. */
+enum { OF_THE_ENVIRONMENT, OF_THE_USER, FOLDERS };
+
+/* Returns folder; "": there is none. */
+static const char *find_folder(enum gm_file_kind kind, int which, char folder[4096])
+{
+    const char *named = getenv(variables[kind]), *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    folder[0] = '\0';
+    if (which == OF_THE_ENVIRONMENT) {
+        snprintf(folder, 4096, "%s", named ? named : "");
+    } else if (config && *config) {
+        snprintf(folder, 4096, "%s/geomint", config);
+    } else if (home) {
+        snprintf(folder, 4096, "%s/.config/geomint", home);
+    }
+    return folder;
+}
+
+bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file)
+{
+    char folder[4096];
+    *file = (struct gm_file){0};
+    if (gm_word_ends(word, gm_file_endings[kind])) {
+        snprintf(file->path, sizeof file->path, "%s", word); /* no file has a path that is longer */
+        return true;
+    }
+    if (strchr(word, '/') || word[0] == '\0') {
+        return false;
+    }
+    file->built_in = gm_built_in_find(kind, word);
+    if (file->built_in) {
+        snprintf(file->path, sizeof file->path, "%s", file->built_in->path);
+    }
+    bool found = file->built_in != NULL;
+    for (int which = 0; which < FOLDERS && !found; which++) {
+        found = find_folder(kind, which, folder)[0] &&
+                snprintf(file->path, sizeof file->path, "%s/%s%s", folder, word, gm_file_endings[kind]) <
+                    (int)sizeof file->path &&
+                access(file->path, F_OK) == 0;
+    }
+    return found;
+}
+
+bool gm_file_is(enum gm_file_kind kind, const char *word)
+{
+    struct gm_file file;
+    return gm_file_find(kind, word, &file);
+}
+
+char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason)
+{
+    if (!file->built_in) {
+        return gm_regular_read(file->path, most, length, reason);
+    }
+    char *text = malloc(file->built_in->length + 1);
+    if (text) {
+        *length = file->built_in->length;
+        memcpy(text, file->built_in->text, *length + 1);
+    } else {
+        snprintf(reason, GM_REGULAR_REASON, "%s", strerror(ENOMEM));
+    }
+    return text;
+}
+
+struct gm_file_titles gm_file_titles(const struct gm_file *file)
+{
+    char reason[GM_REGULAR_REASON];
+    size_t length = 0;
+    if (file->built_in) {
+        return (struct gm_file_titles){strdup(file->built_in->title), strdup(file->built_in->about)};
+    }
+    char *text = gm_regular_read(file->path, LARGEST_DESCRIBED, &length, reason);
+    const struct gm_file_titles titles = {gm_file_line(text ? text : "", length, "title"),
+                                          gm_file_line(text ? text : "", length, "about")};
+    free(text);
+    return titles;
+}
+
+bool gm_files_folder_opens(enum gm_file_kind kind, char *message)
+{
+    char folder[4096];
+    return !find_folder(kind, OF_THE_ENVIRONMENT, folder)[0] || access(folder, R_OK | X_OK) == 0 ||
+           gm_refuse(message, "the folder %.300s of %s could not be opened: %s", folder, variables[kind],
+                     strerror(errno));
+}
+
+/* Those of a folder that no earlier folder has, and the program has not. */
+static void each_of_folder(enum gm_file_kind kind, const char *folder,
+                           void (*each)(const char *name, const struct gm_file *file, const void *data),
+                           const void *data)
+{
+    struct dirent **entries = NULL;
+    const int count = folder[0] ? scandir(folder, &entries, NULL, alphasort) : 0;
+    if (count < 0 && errno == ENOMEM) {
+        gm_memory_refused();
+    }
+    for (int i = 0; i < count; i++) {
+        char *name = entries[i]->d_name;
+        const size_t length = strlen(name);
+        struct gm_file file;
+        if (gm_word_ends(name, gm_file_endings[kind])) {
+            name[length - strlen(gm_file_endings[kind])] = '\0';
+            if (gm_file_find(kind, name, &file) && !file.built_in &&
+                strncmp(file.path, folder, strlen(folder)) == 0 &&
+                strlen(file.path) == strlen(folder) + 1 + length) {
+                each(name, &file, data);
+            }
+        }
+        free(entries[i]);
+    }
+    free(entries);
+}
+
+bool gm_files_each(enum gm_file_kind kind,
+                   void (*each)(const char *name, const struct gm_file *file, const void *data),
+                   const void *data, char *message)
+{
+    char folder[4096];
+    struct gm_file file;
+    for (size_t i = 0; i < gm_built_in_count; i++) {
+        if (gm_built_in_files[i].kind == kind && gm_file_find(kind, gm_built_in_files[i].name, &file)) {
+            each(gm_built_in_files[i].name, &file, data);
+        }
+    }
+    for (int which = 0; which < FOLDERS; which++) {
+        each_of_folder(kind, find_folder(kind, which, folder), each, data);
+    }
+    return gm_files_folder_opens(kind, message);
+}

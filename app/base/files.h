@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
+   name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
+   GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
+#ifndef GM_APP_GROUND_FILES_H
+#define GM_APP_GROUND_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/files/files.h"
+
+struct gm_file {
+    const struct gm_built_in *built_in; /* NULL: it is at the path */
+    char path[4096];                    /* of a built-in one below share/ */
+};
+
+/* The file that a word means; false: no name of this kind is that word. */
+bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file);
+/* Whether it means one. */
+bool gm_file_is(enum gm_file_kind kind, const char *word);
+
+/* Its text with a zero behind it; malloc'ed. NULL with a reason (GM_REGULAR_REASON bytes), as where it has more than
+   `most` bytes. */
+char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason);
+
+/* What it says in its lines `title:` and `about:`; "" where it cannot be read. To be freed both. */
+struct gm_file_titles {
+    char *title, *about;
+};
+struct gm_file_titles gm_file_titles(const struct gm_file *file);
+
+/* Calls `each` for every file that has a name of this kind. False, with a sentence, where the environment names a folder
+   that cannot be opened. */
+bool gm_files_each(enum gm_file_kind kind,
+                   void (*each)(const char *name, const struct gm_file *file, const void *data),
+                   const void *data, char *message);
+/* Whether that folder can be opened, or there is none; false with the sentence. */
+bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of share/ that are part of the program: systems, rooms, the meshes of rooms, schemes and tours. The build
+   writes them into an array (core/files/main.c), and nothing opens them at run time. */
+#ifndef GM_CORE_FILES_FILES_H
+#define GM_CORE_FILES_FILES_H
+
+#include <stddef.h>
+
+enum gm_file_kind { GM_FILE_SYSTEM, GM_FILE_ROOM, GM_FILE_SCHEME, GM_FILE_TOUR, GM_FILE_MESH, GM_FILE_KINDS };
+
+/* How the names of their files end, ".system". */
+extern const char *const gm_file_endings[GM_FILE_KINDS];
+
+struct gm_built_in {
+    enum gm_file_kind kind;
+    const char *path;          /* below share/, "systems/toda.system" */
+    const char *name;          /* "toda"; of a mesh with its ending */
+    const char *title, *about; /* the lines of these words; "" */
+    const char *text;          /* closed by a zero */
+    size_t length;             /* of the text */
+};
+extern const struct gm_built_in gm_built_in_files[];
+extern const size_t gm_built_in_count;
+
+/* The built-in file of that kind and name; NULL: there is none. */
+const struct gm_built_in *gm_built_in_find(enum gm_file_kind kind, const char *name);
+
+/* The value of the text's first line `word:`, with one blank between its words; "" where there is none. malloc'ed,
+   NULL: out of memory. */
+char *gm_file_line(const char *text, size_t length, const char *word);
+
+#endif

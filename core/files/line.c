@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One line of a file, without reading what else the file says. */
+#include <string.h>
+
+#include "core/expression/lines.h"
+#include "core/files/files.h"
+
+const char *const gm_file_endings[GM_FILE_KINDS] = {".system", ".room", ".scheme", ".tour", ".msh"};
+
+char *gm_file_line(const char *text, size_t length, const char *word)
+{
+    struct gm_text_line line;
+    struct gm_fault fault;
+    size_t at = 0;
+    while (gm_lines_next(text, length, &at, &line, &fault)) {
+        if (line.word.end - line.word.begin == strlen(word) &&
+            memcmp(text + line.word.begin, word, strlen(word)) == 0) {
+            return gm_span_words(text, line.value);
+        }
+    }
+    return strdup("");
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A program that the build runs: writes files of share/ as the array gm_built_in_files.
+   Usage: write_files OUT.c share/FOLDER/NAME.ENDING ... */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/reader.h"
+#include "core/files/files.h"
+
+/* Of "../share/systems/toda.system" what stands behind share/. */
+static const char *path_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    while (slash && slash > path && slash[-1] != '/') {
+        slash--;
+    }
+    return slash ? slash : path;
+}
+
+/* A string of C; a line of the text is a line of it. */
+static void put_string(FILE *out, const char *text, size_t length)
+{
+    fputs("\"", out);
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char byte = (unsigned char)text[i];
+        if (byte < ' ' || byte > '~' || strchr("\"\\?", byte)) {
+            fprintf(out, byte == '\n' ? "\\n\"\n\"" : "\\%03o", byte);
+        } else {
+            fputc(byte, out);
+        }
+    }
+    fputs("\"", out);
+}
+
+static bool put_line(FILE *out, const char *text, size_t length, const char *word)
+{
+    char *line = gm_file_line(text, length, word);
+    if (line) {
+        fprintf(out, ", .%s = ", word);
+        put_string(out, line, strlen(line));
+    }
+    free(line);
+    return line;
+}
+
+static bool put_file(FILE *out, const char *given)
+{
+    const char *path = path_of(given), *name = strrchr(path, '/');
+    char *text = NULL, part[4096];
+    size_t length = 0;
+    enum gm_file_kind kind = GM_FILE_SYSTEM;
+    while (kind < GM_FILE_KINDS && !gm_word_ends(path, gm_file_endings[kind])) {
+        kind++;
+    }
+    FILE *in = kind < GM_FILE_KINDS && name ? fopen(given, "r") : NULL,
+         *memory = in ? open_memstream(&text, &length) : NULL;
+    for (size_t count; memory && (count = fread(part, 1, sizeof part, in)) > 0;) {
+        fwrite(part, 1, count, memory);
+    }
+    bool good = memory && !ferror(in);
+    good = memory && fclose(memory) == 0 && good;
+    if (in) {
+        fclose(in);
+    }
+    if (good) {
+        const size_t letters = strlen(name + 1) - (kind == GM_FILE_MESH ? 0 : strlen(gm_file_endings[kind]));
+        fprintf(out, "{.kind = %d, .path = \"%s\", .name = \"%.*s\"", (int)kind, path, (int)letters,
+                name + 1);
+        const size_t described = kind == GM_FILE_MESH ? 0 : length;
+        good = put_line(out, text, described, "title") && put_line(out, text, described, "about");
+        fprintf(out, ", .length = %zu, .text = ", length);
+        put_string(out, text, length);
+        fputs("},\n", out);
+    }
+    free(text);
+    return good;
+}
+
+int main(int argc, char *argv[])
+{
+    FILE *out = argc > 2 ? fopen(argv[1], "w") : NULL;
+    bool good = out != NULL;
+    if (good) {
+        fputs("#include \"core/files/files.h\"\n\nconst struct gm_built_in gm_built_in_files[] = {\n", out);
+    }
+    for (int i = 2; i < argc && good; i++) {
+        good = put_file(out, argv[i]);
+        if (!good) {
+            fprintf(stderr, "%s could not be read\n", argv[i]);
+        }
+    }
+    if (out) {
+        fprintf(out, "};\nconst size_t gm_built_in_count = %d;\n", argc - 2);
+        good = !ferror(out) && good;
+        good = fclose(out) == 0 && good;
+    }
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loops of systems that the build compiled: a copy of their file, or another file with the same formulas, has them
+   too. GM_COMPILED_ROWS is a row GM_ROW(NAME) for each. */
+#include <string.h>
+
+#include "core/digest.h"
+#include "core/ode/kernel/loops.h"
+
+#define GM_ROW(name) extern const struct gm_compiled_kernel gm_compiled_##name;
+GM_COMPILED_ROWS
+#undef GM_ROW
+
+static const struct gm_compiled_kernel *const compiled[] = {
+#define GM_ROW(name) &gm_compiled_##name,
+    GM_COMPILED_ROWS
+#undef GM_ROW
+        NULL};
+
+const struct gm_loops *gm_compiled_loops(const char *text)
+{
+    struct gm_digest digest = gm_digest_open();
+    gm_digest_add(&digest, text, strlen(text));
+    for (size_t i = 0; compiled[i]; i++) {
+        if (compiled[i]->key[0] == digest.a && compiled[i]->key[1] == digest.b) {
+            return compiled[i]->loops;
+        }
+    }
+    return NULL;
+}
+
+bool gm_compiled_has(size_t components)
+{
+    size_t i = 0;
+    while (compiled[i] && compiled[i]->components != components) {
+        i++;
+    }
+    return compiled[i] != NULL;
+}
