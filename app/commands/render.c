@@ -381,6 +381,7 @@ static int paint_all(struct work *work, const char *name)
                     gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
     }
     good = good && resume(work, message) && make_frames(work, message);
+    gm_interrupts_seen();
     const bool closed = close_sinks(work, good, message);
     if (!closed || !good) {
         gm_complain("%s", message);

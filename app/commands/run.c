@@ -452,6 +452,7 @@ static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
         good = good && (!keeps || keep_pace(outcome, &pace, message));
     }
     free(trace);
+    gm_interrupts_seen();
     return good;
 }
 

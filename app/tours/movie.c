@@ -287,6 +287,7 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *outp
     }
     /* an interrupted movie is finished with the frames it has */
     char failure[GM_MESSAGE] = "";
+    gm_interrupts_seen();
     const bool made = !show.sink || gm_sink_close(show.sink, good || gm_interrupted, failure);
     if (!made) {
         gm_complain("%s", failure);

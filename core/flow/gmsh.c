@@ -198,7 +198,7 @@ static bool expect_end(struct reader *reader)
 /* The sections, as tables. */
 
 /* types of elements */
-enum { LINE = 1, TRIANGLE = 2, POINT = 15 };
+enum { LINE = 1, TRIANGLE = 2, LINE_OF_3 = 8, TRIANGLE_OF_6 = 9, POINT = 15 };
 
 /* What follows the line's end is binary, if the file is. */
 static void begin_raw(struct reader *reader)
@@ -502,25 +502,36 @@ static bool read_parametric_nodes(struct reader *reader)
     return read_nodes(reader);
 }
 
-static int corners_of(long type)
+static int nodes_of(long type)
 {
-    return type == POINT ? 1 : type == LINE ? 2 : type == TRIANGLE ? 3 : 0;
+    static const struct {
+        long type;
+        int nodes;
+    } known[] = {{POINT, 1}, {LINE, 2}, {TRIANGLE, 3}, {LINE_OF_3, 3}, {TRIANGLE_OF_6, 6}};
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
+        if (known[i].type == type) {
+            return known[i].nodes;
+        }
+    }
+    return 0;
 }
 
-/* The nodes of an element, whose tag and further tags are read. */
+/* The nodes of an element, whose tag and further tags are read: the corners come first, and those on sides that may be
+   curved are passed over. */
 static bool read_corners(struct reader *reader, long type, struct element element)
 {
-    for (int k = 0; k < corners_of(type); k++) {
-        if (!take_tag(reader, &element.nodes[k], "a node's tag")) {
+    for (int k = 0; k < nodes_of(type); k++) {
+        long tag = 0;
+        if (!take_tag(reader, k < 3 ? &element.nodes[k] : &tag, "a node's tag")) {
             return false;
         }
         if (!reader->raw && reader->line != element.line) {
             return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
         }
     }
-    if (type == TRIANGLE) {
+    if (type == TRIANGLE || type == TRIANGLE_OF_6) {
         reader->triangles[reader->triangle_count++] = element;
-    } else if (type == LINE) {
+    } else if (type == LINE || type == LINE_OF_3) {
         reader->lines[reader->line_count++] = element;
     }
     return true;
@@ -534,7 +545,7 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
         !take_count(reader, &count, "a number of elements")) {
         return false;
     }
-    if (corners_of(type) == 0) {
+    if (nodes_of(type) == 0) {
         return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
     }
     if ((size_t)count > total - *done) {
@@ -573,7 +584,7 @@ static bool read_old_elements(struct reader *reader, size_t total, size_t *done)
                              !take_count(reader, &tags, "a number of tags"))) {
             return false;
         }
-        if (corners_of(type) == 0) {
+        if (nodes_of(type) == 0) {
             return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, element.line, type);
         }
         for (long k = 0; k < tags; k++) {
@@ -712,7 +723,8 @@ static void exchange_if_above(long *a, long *b)
     *a = low;
 }
 
-/* Version 2.2 writes a triangle once for each of its physical surfaces: the first stays. */
+/* Version 2.2 writes a triangle once for each of its physical surfaces, and a surface that was meshed twice is there
+   twice in any: the first stays. */
 static bool drop_repeated(struct reader *reader)
 {
     struct corners *all = malloc((reader->triangle_count + 1) * sizeof *all);
@@ -956,7 +968,7 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
     if (reader->triangle_count == 0) {
         return fail(reader, GM_TRIANGULATION_EMPTY, "");
     }
-    if (reader->old && !drop_repeated(reader)) {
+    if (!drop_repeated(reader)) {
         return false;
     }
     double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);

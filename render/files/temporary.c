@@ -28,6 +28,38 @@ bool gm_temporary_can_replace(const char *path, char *message)
 
 enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
 
+/* The names that are in use. Whoever takes one out has it for itself. */
+enum { HELD = 64 };
+static _Atomic(char *) held[HELD];
+
+/* In a place whose file is not there: it was renamed, or was never made. */
+static void hold(const char *name)
+{
+    char *copy = strdup(name);
+    for (size_t i = 0; copy && i < HELD; i++) {
+        char *before = atomic_exchange(&held[i], NULL), *none = NULL;
+        const bool there = before && access(before, F_OK) == 0;
+        if (!there || !atomic_compare_exchange_strong(&held[i], &none, before)) {
+            free(before);
+        }
+        none = NULL;
+        if (!there && atomic_compare_exchange_strong(&held[i], &none, copy)) {
+            return;
+        }
+    }
+    free(copy);
+}
+
+void gm_temporary_remove_all(void)
+{
+    for (size_t i = 0; i < HELD; i++) {
+        const char *name = atomic_exchange(&held[i], NULL);
+        if (name) {
+            unlink(name);
+        }
+    }
+}
+
 char *gm_temporary_name(const char *path, const char *ending)
 {
     static atomic_uint counter;
@@ -41,6 +73,7 @@ char *gm_temporary_name(const char *path, const char *ending)
         errno = ENOMEM;
         return NULL;
     }
+    hold(temporary);
     return temporary;
 }
 

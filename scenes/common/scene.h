@@ -39,7 +39,7 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
-    const double *memory;                   /* the scheme's own; NULL if it has none, and at the start */
+    const double *memory;                   /* the scheme's own; NULL if it has none */
     const struct gm_entries *tracks;        /* the scene's, as recorded so far; NULL while a lane is opened */
     const struct gm_run *run;               /* for what a scheme says of itself */
     size_t member;                          /* that a track with `each` is asked of */

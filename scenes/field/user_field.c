@@ -384,12 +384,12 @@ static double solution_error(const struct gm_view *view)
 
 static double form_energy(const struct gm_view *view)
 {
-    return gm_form_energy(view->problem, view->scheme, view->state);
+    return gm_form_energy(view->problem, view->scheme, view->memory);
 }
 
 static double form_momentum(const struct gm_view *view)
 {
-    return gm_form_momentum(view->problem, view->scheme, view->state);
+    return gm_form_momentum(view->problem, view->scheme, view->memory);
 }
 
 /* What linear theory says about the state, before a step beyond it blows up. */
@@ -421,7 +421,7 @@ static double integral_of_cells(const struct gm_view *view, const struct gm_tape
     const struct gm_grid1 *grid = &view->problem->line;
     const struct gm_collocation_tableau *tableau = view->scheme->coefficients;
     const size_t r = tableau->r;
-    double *stages = gm_any_form_stages(view->problem, view->scheme, view->dt, view->state, view->memory);
+    const double *stages = view->memory ? gm_any_form_stages(view->memory) : NULL;
     double *values = values_of(view->parameters, NULL), sum = values && stages ? 0 : NAN, value;
     for (size_t at = 0; values && stages && at < r * grid->points; at++) {
         const size_t i = at / r, m = at % r;
@@ -433,7 +433,6 @@ static double integral_of_cells(const struct gm_view *view, const struct gm_tape
         sum += tableau->b[m] * (magnitude ? fabs(value) : value);
     }
     free(values);
-    free(stages);
     return sum * grid->dx;
 }
 

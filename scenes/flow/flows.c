@@ -64,7 +64,7 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     case GM_TRIANGULATION_ELEMENT:
         snprintf(
             sentence, GM_MESSAGE,
-            "%.100s%s: elements of type %ld; only triangles with three nodes (type 2) and their sides are read",
+            "%.100s%s: elements of type %ld; only triangles of three or six nodes (types 2 and 9) and their sides are read",
             what, where, n[0]);
         return;
     case GM_TRIANGULATION_THREE_D:

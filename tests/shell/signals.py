@@ -236,6 +236,39 @@ def taken(session):
         return 0
 
 
+def opens_for_long(what):
+    """A run whose files are open, and whose lane takes long to open, which does not look at signals."""
+    session = Session(what, [geomint, 'run', 'taylor-green', 'columns=512', 'until=100', '--csv', 'rows.csv'])
+    yield session
+    yield lambda: session.ended() or os.path.exists(os.path.join(session.folder, 'rows.csv'))
+    return session
+
+
+def ended_at_once(session, status, most):
+    before = time.monotonic()
+    yield session.ended
+    if session.status != status << 8:
+        session.error = f'its status is {session.status:#x}'
+    elif time.monotonic() - before > most:
+        session.error = f'it goes on for {time.monotonic() - before:.1f} s'
+    elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
+        session.error = f'it leaves {left}'
+
+
+def cut_off(name):
+    session = yield from opens_for_long(f'{name} while a lane opens')
+    session.send(name)
+    yield from ended_at_once(session, 128 + NUMBERS[name], 4)
+
+
+def insisted():
+    session = yield from opens_for_long('two signals while a lane opens')
+    session.send('SIGTERM')
+    yield passed(0.3)
+    session.send('SIGINT')
+    yield from ended_at_once(session, 128 + NUMBERS['SIGTERM'], 1)
+
+
 def interrupted(name, words, under_way=0.5, most=2):
     """A command that would go on for long, and has begun to: it ends within so many seconds of a processor."""
     session = Session(f'{name} in geomint {words}', [geomint, *words.split()])
@@ -372,6 +405,7 @@ def plays(folder):
         for words in LONG:
             yield interrupted(name, words)
         yield interrupted(name, 'render disc --size 12000x12000', 1)
+        yield cut_off(name)
         yield interrupted(name, 'again ' + long_picture(folder))
         if shutil.which('ffmpeg'):
             yield interrupted(name, 'tour area --movie area.mp4', most=20)  # with all that ffmpeg took
@@ -380,6 +414,7 @@ def plays(folder):
     yield faulting(0)
     yield faulting(1)
     yield deaf()
+    yield insisted()
     for pause in (0, 0.001, 0.003, 0.01, 0.03):
         yield never_stopped(pause)
     yield stopped()

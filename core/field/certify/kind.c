@@ -479,7 +479,8 @@ static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_
 static double form_energy(const void *subject, const double *y)
 {
     const struct gm_field_subject *of = subject;
-    return gm_form_energy(&of->problem, of->scheme, y);
+    (void)y; /* the run's */
+    return gm_form_energy(&of->problem, of->scheme, gm_run_memory(of->run));
 }
 
 /* Why no step of this length can tell of a claim; NULL: steps can. */

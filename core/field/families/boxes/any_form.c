@@ -219,29 +219,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-double *gm_any_form_stages(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                           const double *y, const double *remembered)
+const double *gm_any_form_stages(const double *memory)
 {
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
-    double *begun = calloc(memory(problem, scheme), sizeof *begun);
-    double *stages = work ? malloc(of_level(work) * sizeof *stages) : NULL;
-    if (stages && begun) {
-        const struct gm_task task = {
-            .problem = problem, .scheme = scheme, .dt = dt, .y = y, .memory_out = begun, .workspace = work};
-        if (!remembered) {
-            start(&task);
-        }
-        memcpy(stages, (remembered ? remembered : begun) + ARRAYS, of_level(work) * sizeof *stages);
-    }
-    if (work) {
-        gm_collocation_close(work);
-    }
-    if (!begun) {
-        free(stages);
-        stages = NULL;
-    }
-    free(begun);
-    return stages;
+    return memory + ARRAYS;
 }
 
 /* The solution becomes the first of the past ones. */
@@ -409,7 +389,7 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
     {                                                                                                        \
         .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
         .family = &gm_family_any_form, .coefficients = tableau_, .order = order_, .needs = GM_NEEDS_ALL,     \
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC, .in_cells = true,                                       \
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,                                                         \
     }
 
 static const struct gm_scheme schemes[] = {

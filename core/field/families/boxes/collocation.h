@@ -73,6 +73,8 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt);
 /* Values at the nodes, [component * points + node], to those at the stages of cells, and back. */
 void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages);
 void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes);
+/* The slopes of values at the stages, there. */
+void gm_collocation_slopes(struct gm_collocation *work, const double *stages, double *slopes);
 /* basis' s at the nodes, as a guess of y. */
 void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes);
 
