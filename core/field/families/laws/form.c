@@ -5,7 +5,6 @@
 
 #include <stdlib.h>
 
-#include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
 
