@@ -12,14 +12,14 @@
 enum { PATIENCE = 2 }; /* seconds */
 
 volatile sig_atomic_t gm_interrupted;
-static volatile sig_atomic_t ends, first_number;
+static volatile sig_atomic_t ends;
 static struct timespec first_came;
 
 static void cut_off(int number)
 {
     (void)number;
     gm_temporary_remove_all();
-    _exit(128 + first_number);
+    _exit(GM_EXIT_INTERRUPTED);
 }
 
 static void interrupt(int number)
@@ -31,7 +31,6 @@ static void interrupt(int number)
         _exit(GM_EXIT_INTERRUPTED);
     }
     if (gm_interrupted == 0) {
-        first_number = number;
         first_came = now;
         alarm(PATIENCE);
     } else if ((double)(now.tv_sec - first_came.tv_sec) + 1e-9 * (double)(now.tv_nsec - first_came.tv_nsec) >

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_INTERRUPT_H
-#define GM_APP_REQUEST_INTERRUPT_H
+#ifndef GM_APP_BASE_INTERRUPT_H
+#define GM_APP_BASE_INTERRUPT_H
 
 #include <signal.h>
 #include <stdbool.h>
@@ -8,9 +8,9 @@
 /* How often SIGINT or SIGTERM came; long work looks at it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
 
-/* From now on they are counted. Work that does not look at the count for 2 s, as a long step, is cut off: the process ends
-   with status 128 + the signal's number, without the files that it has not completed. So does another signal, if it
-   comes not with the first one, as those of timeout do. */
+/* From now on they are counted. Work that does not look at the count for 2 s, as a long step, is cut off: the process
+   ends with status 130, without the files that it has not completed. A second signal cuts it off at once, unless it
+   comes together with the first one: timeout sends its signal twice. */
 void gm_catch_interrupts(void);
 /* An interruption was seen: what there is is written now, for as long as it takes. */
 void gm_interrupts_seen(void);

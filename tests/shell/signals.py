@@ -244,21 +244,22 @@ def opens_for_long(what):
     return session
 
 
-def ended_at_once(session, status, most):
-    before = time.monotonic()
+def cut_off(session, most):
+    """Ends within so many seconds of a processor."""
+    before = taken(session)
     yield session.ended
-    if session.status != status << 8:
+    if session.status != 130 << 8:
         session.error = f'its status is {session.status:#x}'
-    elif time.monotonic() - before > most:
-        session.error = f'it goes on for {time.monotonic() - before:.1f} s'
+    elif session.used - before > most:
+        session.error = f'it goes on for {session.used - before:.1f} s'
     elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
         session.error = f'it leaves {left}'
 
 
-def cut_off(name):
+def interrupted_once(name):
     session = yield from opens_for_long(f'{name} while a lane opens')
     session.send(name)
-    yield from ended_at_once(session, 128 + NUMBERS[name], 4)
+    yield from cut_off(session, 3)
 
 
 def insisted():
@@ -266,7 +267,7 @@ def insisted():
     session.send('SIGTERM')
     yield passed(0.3)
     session.send('SIGINT')
-    yield from ended_at_once(session, 128 + NUMBERS['SIGTERM'], 1)
+    yield from cut_off(session, 1)
 
 
 def interrupted(name, words, under_way=0.5, most=2):
@@ -277,15 +278,8 @@ def interrupted(name, words, under_way=0.5, most=2):
     if session.ended():
         session.error = f'it ends by itself: {session.seen[-200:]}'
         return
-    before = taken(session)
     session.send(name)
-    yield session.ended
-    if session.status != 130 << 8:
-        session.error = f'its status is {session.status:#x}'
-    elif session.used - before > most:
-        session.error = f'it goes on for {session.used - before:.1f} s'
-    elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
-        session.error = f'it leaves {left}'
+    yield from cut_off(session, most)
 
 
 def long_picture(folder):
@@ -405,7 +399,7 @@ def plays(folder):
         for words in LONG:
             yield interrupted(name, words)
         yield interrupted(name, 'render disc --size 12000x12000', 1)
-        yield cut_off(name)
+        yield interrupted_once(name)
         yield interrupted(name, 'again ' + long_picture(folder))
         if shutil.which('ffmpeg'):
             yield interrupted(name, 'tour area --movie area.mp4', most=20)  # with all that ffmpeg took
