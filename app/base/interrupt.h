@@ -8,7 +8,7 @@
 /* How often SIGINT or SIGTERM came; long work looks at it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
 
-/* From now on they are counted. Work that does not look at the count for 2 s, as a long step, is cut off: the process ends
+/* From now on they are counted. Work that does not look at the count for 2 s, as a step on a fine mesh, is cut off: the process ends
    with status 128 + the signal's number, without the files that it has not completed. So does another signal, if it
    comes not with the first one, as those of timeout do. */
 void gm_catch_interrupts(void);

@@ -65,6 +65,9 @@ bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
         fine =
             gm_complex_open(points, finer, corners, 4 * coarse->triangles, coarse->period, star, tags, fault);
     }
+    if (fine) {
+        fine->origin = coarse->origin;
+    }
     halved.complex = fine;
     halved.edge_group = fine ? calloc(fine->edges, sizeof *halved.edge_group) : NULL;
     halved.more = NULL;
