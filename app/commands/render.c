@@ -492,6 +492,10 @@ static int render(struct gm_request *request, const struct gm_options *options, 
         !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
+        gm_lane_note(work.lanes[0], message);
+        if (message[0]) {
+            gm_complain("%s", message);
+        }
         status = work.schedule.still ? paint_still(&work, name) : paint_all(&work, name);
     }
     close_work(&work);

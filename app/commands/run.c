@@ -811,6 +811,13 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     outcome.values = malloc(2 * observables * sizeof(double));
     int status = GM_EXIT_OK;
     const bool good = outcome.front && outcome.values;
+    char note[GM_MESSAGE] = "";
+    if (outcome.drive.lane && index == 0) {
+        gm_lane_note(outcome.drive.lane, note);
+    }
+    if (note[0]) {
+        gm_complain("%s", note);
+    }
     if (outcome.drive.lane && !good) {
         snprintf(message, sizeof message, "not enough memory");
     }

@@ -88,6 +88,11 @@ struct gm_complex {
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
     double smallest_angle, largest_angle; /* in degrees */
+    /* Of a file's: x and y in its own coordinates, 0 where they are these; and triangles that were there twice. */
+    struct gm_complex_origin {
+        double axes[2][3];
+        size_t repeated;
+    } origin;
     double total_area, mean_edge;
 };
 

@@ -50,6 +50,7 @@ struct reader {
     struct curve *curves;
     struct gm_triangulation_group *groups;
     size_t node_count, triangle_count, line_count, curve_count, group_count;
+    struct gm_complex_origin origin;
 };
 
 /* The text: words, numbers, counts. All return false with the reader's fault where the text is not what is
@@ -751,6 +752,7 @@ static bool drop_repeated(struct reader *reader)
         reader->triangles[count] = reader->triangles[t];
         count += reader->triangles[t].line >= 0;
     }
+    reader->origin.repeated = reader->old ? 0 : reader->triangle_count - count;
     reader->triangle_count = count;
     return true;
 }
@@ -774,9 +776,9 @@ static void add_normals(const struct reader *reader, double normal[3])
 
 /* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it; seen
    so that triangles turn left. That of x and y where z is the same everywhere. */
-static void choose_axes(const struct reader *reader, double axes[2][3])
+static void choose_axes(struct reader *reader)
 {
-    double normal[3] = {0};
+    double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
     add_normals(reader, normal);
     const double size = hypot(hypot(normal[0], normal[1]), normal[2]);
     int first = 0;
@@ -798,7 +800,7 @@ static void choose_axes(const struct reader *reader, double axes[2][3])
 static bool lay_flat(struct reader *reader)
 {
     const struct node *origin = NULL;
-    double axes[2][3], low[3] = {0}, high[3] = {0}, extent = 0;
+    double(*axes)[3] = reader->origin.axes, low[3] = {0}, high[3] = {0}, extent = 0;
     for (size_t i = 0; i < reader->node_count; i++) {
         const struct node *node = &reader->nodes[i];
         const double at[3] = {node->x, node->y, node->z};
@@ -812,7 +814,7 @@ static bool lay_flat(struct reader *reader)
     if (high[2] - low[2] <= 1e-9 * extent) {
         return true;
     }
-    choose_axes(reader, axes);
+    choose_axes(reader);
     const struct node from = *origin;
     for (size_t i = 0; i < reader->node_count; i++) {
         struct node *node = &reader->nodes[i];
@@ -989,6 +991,9 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
                                                                .tags = mesh->tags},
                                         reader->fault);
         good = mesh->complex != NULL;
+        if (good) {
+            mesh->complex->origin = reader->origin;
+        }
         if (!good && reader->fault->triangle > 0 && !reader->binary) {
             reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;
         }

@@ -71,6 +71,9 @@ bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
                                                       .tags = tags},
                                fault);
     }
+    if (fine) {
+        fine->origin = coarse->origin;
+    }
     halved.complex = fine;
     halved.edge_group = fine ? calloc(fine->edges, sizeof *halved.edge_group) : NULL;
     halved.more = NULL;

@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -28,26 +29,22 @@ bool gm_temporary_can_replace(const char *path, char *message)
 
 enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
 
-/* The names that are in use. Whoever takes one out has it for itself. */
+/* The names that are in use; whoever exchanges one has it for itself. */
 enum { HELD = 64 };
 static _Atomic(char *) held[HELD];
 
-/* In a place whose file is not there: it was renamed, or was never made. */
+/* In the place of a file that is not there: it was renamed, or was never made. */
 static void hold(const char *name)
 {
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     char *copy = strdup(name);
-    for (size_t i = 0; copy && i < HELD; i++) {
-        char *before = atomic_exchange(&held[i], NULL), *none = NULL;
-        const bool there = before && access(before, F_OK) == 0;
-        if (!there || !atomic_compare_exchange_strong(&held[i], &none, before)) {
-            free(before);
-        }
-        none = NULL;
-        if (!there && atomic_compare_exchange_strong(&held[i], &none, copy)) {
-            return;
-        }
+    size_t i = 0;
+    pthread_mutex_lock(&lock);
+    while (i < HELD && held[i] && access(held[i], F_OK) == 0) {
+        i++;
     }
-    free(copy);
+    free(i < HELD ? atomic_exchange(&held[i], copy) : copy);
+    pthread_mutex_unlock(&lock);
 }
 
 void gm_temporary_remove_all(void)

@@ -176,6 +176,14 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     }
 }
 
+void gm_lane_note(const struct gm_lane *lane, char *sentence)
+{
+    sentence[0] = '\0';
+    if (lane->scene->note) {
+        lane->scene->note(&lane->problem, lane->parameters, sentence);
+    }
+}
+
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
 {
     for (size_t i = 0; i < lane->scene->track_count; i++) {

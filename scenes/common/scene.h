@@ -219,6 +219,8 @@ struct gm_scene {
     void (*chosen)(const struct gm_problem *problem, void *parameters);
     /* Whether the files that the parameters name can be read; a sentence if not. NULL: they name none. */
     bool (*readable)(const void *parameters, char *sentence);
+    /* What is to be known of how the files were read, "" or a sentence; NULL: nothing. */
+    void (*note)(const struct gm_problem *problem, const void *parameters, char *sentence);
     /* Frees what setup made for the problem; NULL if it makes nothing. */
     void (*close)(struct gm_problem *problem);
     /* Writes the canonical state at t0 (n * m). */

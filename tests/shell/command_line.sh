@@ -56,6 +56,20 @@ made, named = {"rows", "columns", "irregular"}, {"inlet"}
 assert made <= set(square) and not named & set(square), square
 assert named <= set(drawn) and not made & set(drawn), drawn' || fail 'parameters without effect in JSON'
 status 0 stability room "mesh=$meshes/room-small.msh" reynolds=10 dt=0.01
+# a mesh in another plane, and triangles that are there twice, are told of once, also where it is refined
+plane='^geomint: the mesh lies in a plane of its own: x is its direction ([^()]*), y is ([^()]*)$'
+for command in run 'render --size 320x200 --out upright'; do
+    # shellcheck disable=SC2086 # words
+    status 0 $command room "mesh=$meshes/upright.msh" inlet=in outlet=out dt=0.01,0.02 refine=2 steps=1
+    [ "$(grep -c "$plane" err)" = 1 ] || fail "$command of an upright mesh: $(cat err)"
+done
+printf '%s\n' '$MeshFormat' '4.1 0 8' '$EndMeshFormat' '$Entities' '0 4 0 0' '1 0 0 0 1 0 0 1 9 0' '2 0 0 0 1 0 0 0 0' \
+    '3 0 0 0 1 0 0 0 0' '4 0 0 0 1 0 0 0 0' '$EndEntities' '$Nodes' '1 4 1 4' '2 1 0 4' 1 2 3 4 '0 0 0' '1 0 0' \
+    '1 1 0' '0 1 0' '$EndNodes' '$Elements' '2 4 1 4' '1 1 1 1' '1 1 2' '2 1 2 3' '2 1 2 3' '3 1 3 4' '4 3 1 2' \
+    '$EndElements' >twice.msh
+status 0 run cavity mesh=twice.msh lid=9 steps=1 --json
+grep -q '^geomint: triangles that the mesh has twice count once: 1$' err || fail "a triangle that is there twice: $(cat err)"
+grep -q '"triangles":2' out || fail "a triangle that is there twice counts: $(cat out)"
 # sentences on numbers that options do not take say which they do
 refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm$' render disc --size 0x0
 refused 1 '^geomint: --fps 0 is not a number from 0.01 to 1000$' render disc --fps 0

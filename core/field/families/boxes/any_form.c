@@ -20,10 +20,10 @@
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
-static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
+const struct gm_collocation_tableau gm_collocation_midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
-static const struct gm_collocation_tableau gauss4 = {
+const struct gm_collocation_tableau gm_collocation_gauss4 = {
     2,
     {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
     {0.5, 0.5},
@@ -395,11 +395,12 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
 static const struct gm_scheme schemes[] = {
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        &midpoint, 2),
+        &gm_collocation_midpoint, 2),
     BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &midpoint, 2),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &gm_collocation_midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
+        3),
     BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };

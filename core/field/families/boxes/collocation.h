@@ -16,6 +16,8 @@ struct gm_collocation_tableau {
         c[GM_COLLOCATION_STAGES];
 };
 
+extern const struct gm_collocation_tableau gm_collocation_midpoint, gm_collocation_gauss4; /* any_form.c */
+
 /* Where the equations of a step are linear: the equations of a cell solved for its stages, as factors, and
    those between the sides of cells. The cells have the same where the coefficients are constant. */
 struct gm_collocation_factors {

@@ -4,9 +4,11 @@
 #include "core/field/families/laws/form.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
+#include "core/run.h"
 
 /* s at a node of one level, or of both in the middle, further by the jump around the ring. */
 static void at_node(const struct gm_problem *problem, const double *y, const double *other, size_t i,
@@ -94,35 +96,16 @@ double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme
 static double *next_level(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y)
 {
-    const struct gm_family *family = scheme->family;
-    const size_t size = family->memory(problem, scheme);
-    double *next = malloc(problem->n * sizeof *next), *memory = calloc(2 * size, sizeof *memory);
-    void *work = family->workspace_open(problem, scheme);
-    struct gm_task task = {
-        .problem = problem,
-        .scheme = scheme,
-        .dt = dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = y,
-        .out = next,
-        .memory_out = memory,
-        .workspace = work,
-    };
-    bool good = next && memory && work && family->start(&task) == GM_OK;
-    if (good) {
-        task.memory = memory;
-        task.memory_out = memory + size;
-        good = family->loop(&task).status == GM_OK;
+    static const struct gm_settings no_settings;
+    struct gm_run *run = gm_run_open(problem, scheme, &no_settings, 0, dt, y);
+    double *next = run && gm_run_advance(run, 1) == GM_OK ? malloc(problem->n * sizeof *next) : NULL;
+    if (next) {
+        memcpy(next, gm_run_state(run), problem->n * sizeof *next);
     }
-    if (work) {
-        family->workspace_close(work);
+    if (run) {
+        gm_run_close(run);
     }
-    free(memory);
-    if (!good) {
-        free(next);
-    }
-    return good ? next : NULL;
+    return next;
 }
 
 bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
