@@ -98,16 +98,16 @@ bool gm_cells_write(const struct gm_grid *grid, const char *path)
     return fclose(csv) == 0 && !failed;
 }
 
-void gm_grid_put_json(const struct gm_grid *grid, const struct gm_grid_line *line, FILE *stream)
+void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
+                       struct gm_row *row)
 {
-    const char *comma = "";
+    struct gm_row list = gm_row_open(row, key, ']');
     for (size_t k = 0; k < line->count; k++) {
-        struct gm_row row = {.stream = stream, .form = GM_ROW_JSON};
         if (line->cells[k].tried) {
-            fprintf(stream, "%s{", comma);
-            grid->row->put_cell(&row, grid, &line->cells[k], 0);
-            fputc('}', stream);
-            comma = ",";
+            struct gm_row cell = gm_row_open(&list, NULL, '}');
+            grid->row->put_cell(&cell, grid, &line->cells[k], 0);
+            gm_row_close(&cell);
         }
     }
+    gm_row_close(&list);
 }

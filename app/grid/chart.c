@@ -40,7 +40,7 @@ struct gm_axis gm_chart_edges(const char *label, const double *values, size_t co
                               double *edges)
 {
     const double start = on_scale(values[0], logarithmic), end = on_scale(values[count - 1], logarithmic);
-    /* a single value has no neighbour to tell the width of its cell */
+    /* a single value has no neighbour that sets the width of its cell */
     const double first = count > 1 ? on_scale(values[1], logarithmic) - start : 1;
     const double last = count > 1 ? end - on_scale(values[count - 2], logarithmic) : 1;
     for (size_t i = 0; i <= count; i++) {

@@ -4,8 +4,8 @@
 
 #include "app/base/arguments.h"
 #include "app/grid/listener.h"
-#include "app/grid/row.h"
 #include "app/grid/sweep.h"
+#include "app/output/row.h"
 #include "app/words/request.h"
 #include "core/ode/backward/modified_energy.h"
 
@@ -160,7 +160,7 @@ struct gm_study_row {
     /* Finds what a line says, after each of its cells; NULL: nothing. */
     void (*conclude)(const struct gm_grid *grid, struct gm_grid_line *line);
 
-    /* ---- of gm_cells_write and gm_grid_put_json ---- */
+    /* ---- of gm_cells_write and gm_grid_put_cells ---- */
     bool ordered; /* the scheme's order is a column */
     int rows;     /* of a cell in CSV; `number` is that of one */
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
@@ -184,7 +184,8 @@ void gm_grid_close(struct gm_grid *grid);
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
 bool gm_grid_write(const void *grid, const char *path);
 
-/* Writes the cells of a line as JSON, separated by commas. */
-void gm_grid_put_json(const struct gm_grid *grid, const struct gm_grid_line *line, FILE *stream);
+/* Writes the cells of a line as a list in JSON. */
+void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
+                       struct gm_row *row);
 
 #endif

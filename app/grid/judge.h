@@ -41,7 +41,7 @@ void gm_work_conclude(const struct gm_grid *grid, struct gm_grid_line *line);
 /* The cells that a line is drawn and priced by. */
 const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
 
-/* The second cost that schemes are compared by, beside the run time; and the value of such a cost as it is told. */
+/* The second cost that schemes are compared by, beside the run time; and what an error costs so, as it is printed. */
 enum gm_cost gm_work_second_cost(const struct gm_grid *grid);
 double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error);
 

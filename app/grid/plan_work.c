@@ -329,7 +329,7 @@ bool gm_work_lay_out(struct gm_grid *grid, const struct gm_arguments *words, con
         !choose_resolutions(grid, typed, message)) {
         return false;
     }
-    /* one lane is set up, and tells which measure says something and which schemes fit */
+    /* one open lane shows which measure has a number and which schemes fit */
     struct gm_lane *lane = gm_request_open_lane(&grid->request, 0, message);
     const bool good = lane && choose_measure(grid, lane, measure, message) &&
                       choose_schemes(grid, lane, is_typed(typed, "scheme"), message);

@@ -309,7 +309,7 @@ static bool has_numbers(const struct gm_grid *grid, char *message)
             any |= grid->lines[i].cells[k].tried;
         }
     }
-    return any || gm_listener_stops(grid->listener) || gm_refuse(message, "%s", grid->lines[0].reason);
+    return any || gm_refuse(message, "%s", grid->lines[0].reason);
 }
 
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)

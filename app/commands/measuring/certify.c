@@ -12,8 +12,8 @@
 #include "app/commands/measuring/charted.h"
 #include "app/grid/certified_lane.h"
 #include "app/grid/listener.h"
-#include "app/grid/row.h"
 #include "app/output/folder.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
@@ -155,8 +155,7 @@ static int polish(const struct gm_options *options)
         return GM_EXIT_FILE;
     }
     if (options->json) {
-        struct gm_row row = {.stream = stdout, .form = GM_ROW_JSON};
-        putchar('{');
+        struct gm_row row = gm_row_begin(stdout);
         gm_row_text(&row, "scheme", name);
         gm_row_text(&row, "polished", out);
         gm_row_count(&row, "order", polish.order);

@@ -11,7 +11,7 @@
 #include "app/base/interrupt.h"
 #include "app/commands/measuring/charted.h"
 #include "app/grid/chart.h"
-#include "app/grid/row.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"
 #include "core/memory.h"
@@ -181,8 +181,7 @@ static bool write_csv(const void *data, const char *path)
 static void print_json(const struct region *region, double left, double up, double part, double apart)
 {
     const bool plane = region->test == GM_TEST_PLANE;
-    struct gm_row row = {.stream = stdout, .form = GM_ROW_JSON};
-    putchar('{');
+    struct gm_row row = gm_row_begin(stdout);
     gm_row_text(&row, "scheme", region->scheme->name);
     gm_row_text(&row, "test", plane ? "y' = z y" : "q'' = -w^2 q");
     gm_row_number(&row, "reach", region->reach, 17);

@@ -14,21 +14,19 @@
 static void print_json(const struct gm_grid *grid, const struct gm_study_printer *printer)
 {
     for (size_t i = 0; i < grid->begun; i++) {
-        struct gm_row row = {.stream = stdout, .form = GM_ROW_JSON};
-        putchar('{');
+        struct gm_row row = gm_row_begin(stdout);
         gm_row_text(&row, "scene", grid->request.scene->name);
         gm_row_text(&row, "scheme", grid->lines[i].scheme->name);
         if (grid->row->ordered) {
             gm_row_count(&row, "order", grid->lines[i].scheme->order);
         }
         printer->put_front(&row, grid, &grid->lines[i]);
-        printf(",\"%s\":[", printer->cells);
-        gm_grid_put_json(grid, &grid->lines[i], stdout);
-        putchar(']');
+        gm_grid_put_cells(grid, &grid->lines[i], printer->cells, &row);
         if (printer->put_end) {
             printer->put_end(&row, grid, &grid->lines[i]);
         }
-        printf("}\n");
+        gm_row_close(&row);
+        putchar('\n');
     }
 }
 

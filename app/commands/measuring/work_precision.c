@@ -70,18 +70,17 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
 
 static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    printf(",\"prices\":[");
+    struct gm_row prices = gm_row_open(row, "prices", ']');
     for (size_t k = 0; k < 3; k++) {
         const double error = grid->errors[k];
-        struct gm_row price = {.stream = stdout, .form = GM_ROW_JSON};
-        fputs(k ? ",{" : "{", stdout);
+        struct gm_row price = gm_row_open(&prices, NULL, '}');
         gm_row_number(&price, "error", error, 17);
         gm_row_number(&price, "seconds", gm_work_price(line, error, GM_COST_SECONDS), 17);
         gm_row_number(&price, grid->parameter ? grid->parameter->key : "evaluations",
                       gm_work_second_price(grid, line, error), 17);
-        putchar('}');
+        gm_row_close(&price);
     }
-    putchar(']');
+    gm_row_close(&prices);
     if (line->reason[0]) {
         gm_row_text(row, "reason", line->reason);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Named cells as CSV or as JSON. */
-#include "app/grid/row.h"
+#include "app/output/row.h"
 
 #include <math.h>
 
@@ -13,7 +13,7 @@ static void begin(struct gm_row *row, const char *key)
     row->begun = true;
     if (row->form == GM_ROW_HEAD) {
         fputs(key, row->stream);
-    } else if (row->form == GM_ROW_JSON) {
+    } else if (row->form == GM_ROW_JSON && key) {
         gm_json_put_text(row->stream, key);
         fputc(':', row->stream);
     }
@@ -22,7 +22,9 @@ static void begin(struct gm_row *row, const char *key)
 void gm_row_text(struct gm_row *row, const char *key, const char *text)
 {
     begin(row, key);
-    if (row->form == GM_ROW_JSON) {
+    if (!text) {
+        fputs("null", row->stream);
+    } else if (row->form == GM_ROW_JSON) {
         gm_json_put_text(row->stream, text);
     } else if (row->form == GM_ROW_CSV) {
         gm_csv_put_text(row->stream, text);
@@ -47,6 +49,12 @@ void gm_row_count(struct gm_row *row, const char *key, double value)
     }
 }
 
+void gm_row_flag(struct gm_row *row, const char *key, bool value)
+{
+    begin(row, key);
+    fputs(value ? "true" : "false", row->stream);
+}
+
 void gm_row_list(struct gm_row *row, const char *key, const double *values, size_t count)
 {
     begin(row, key);
@@ -55,4 +63,22 @@ void gm_row_list(struct gm_row *row, const char *key, const double *values, size
         gm_json_put_number(row->stream, values[i]);
     }
     fputc(']', row->stream);
+}
+
+struct gm_row gm_row_begin(FILE *stream)
+{
+    fputc('{', stream);
+    return (struct gm_row){.stream = stream, .form = GM_ROW_JSON, .end = '}'};
+}
+
+struct gm_row gm_row_open(struct gm_row *row, const char *key, char end)
+{
+    begin(row, key);
+    fputc(end == '}' ? '{' : '[', row->stream);
+    return (struct gm_row){.stream = row->stream, .form = GM_ROW_JSON, .end = end};
+}
+
+void gm_row_close(const struct gm_row *row)
+{
+    fputc(row->end, row->stream);
 }
