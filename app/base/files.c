@@ -84,20 +84,6 @@ char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char
     return text;
 }
 
-struct gm_file_titles gm_file_titles(const struct gm_file *file)
-{
-    char reason[GM_REGULAR_REASON];
-    size_t length = 0;
-    if (file->built_in) {
-        return (struct gm_file_titles){strdup(file->built_in->title), strdup(file->built_in->about)};
-    }
-    char *text = gm_regular_read(file->path, LARGEST_DESCRIBED, &length, reason);
-    const struct gm_file_titles titles = {gm_file_line(text ? text : "", length, "title"),
-                                          gm_file_line(text ? text : "", length, "about")};
-    free(text);
-    return titles;
-}
-
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message)
 {
     char folder[4096];
@@ -106,10 +92,26 @@ bool gm_files_folder_opens(enum gm_file_kind kind, char *message)
                      strerror(errno));
 }
 
+static void list_file(const char *name, const struct gm_file *file,
+                      void (*each)(const struct gm_listed *listed, const void *data), const void *data)
+{
+    char reason[GM_REGULAR_REASON];
+    size_t length = 0;
+    const unsigned long refusals = gm_memory_refusals();
+    char *text = gm_regular_read(file->path, LARGEST_DESCRIBED, &length, reason),
+         *title = gm_file_line(text ? text : "", length, "title"),
+         *about = gm_file_line(text ? text : "", length, "about");
+    if (gm_memory_refusals() == refusals) {
+        each(&(struct gm_listed){name, title, about, file}, data);
+    }
+    free(text);
+    free(title);
+    free(about);
+}
+
 /* Those of a folder that no earlier folder has, and the program has not. */
 static void each_of_folder(enum gm_file_kind kind, const char *folder,
-                           void (*each)(const char *name, const struct gm_file *file, const void *data),
-                           const void *data)
+                           void (*each)(const struct gm_listed *listed, const void *data), const void *data)
 {
     struct dirent **entries = NULL;
     const int count = folder[0] ? scandir(folder, &entries, NULL, alphasort) : 0;
@@ -125,7 +127,7 @@ static void each_of_folder(enum gm_file_kind kind, const char *folder,
             if (gm_file_find(kind, name, &file) && !file.built_in &&
                 strncmp(file.path, folder, strlen(folder)) == 0 &&
                 strlen(file.path) == strlen(folder) + 1 + length) {
-                each(name, &file, data);
+                list_file(name, &file, each, data);
             }
         }
         free(entries[i]);
@@ -133,15 +135,15 @@ static void each_of_folder(enum gm_file_kind kind, const char *folder,
     free(entries);
 }
 
-bool gm_files_each(enum gm_file_kind kind,
-                   void (*each)(const char *name, const struct gm_file *file, const void *data),
+bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *listed, const void *data),
                    const void *data, char *message)
 {
     char folder[4096];
-    struct gm_file file;
     for (size_t i = 0; i < gm_built_in_count; i++) {
-        if (gm_built_in_files[i].kind == kind && gm_file_find(kind, gm_built_in_files[i].name, &file)) {
-            each(gm_built_in_files[i].name, &file, data);
+        const struct gm_built_in *built_in = &gm_built_in_files[i];
+        struct gm_file file;
+        if (built_in->kind == kind && gm_file_find(kind, built_in->name, &file)) {
+            each(&(struct gm_listed){built_in->name, built_in->title, built_in->about, &file}, data);
         }
     }
     for (int which = 0; which < FOLDERS; which++) {

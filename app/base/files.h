@@ -24,16 +24,14 @@ bool gm_file_is(enum gm_file_kind kind, const char *word);
    `most` bytes. */
 char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason);
 
-/* What it says in its lines `title:` and `about:`; "" where it cannot be read. To be freed both. */
-struct gm_file_titles {
-    char *title, *about;
+/* A name, and what its file says in the lines `title:` and `about:`, "" where it cannot be read. */
+struct gm_listed {
+    const char *name, *title, *about;
+    const struct gm_file *file;
 };
-struct gm_file_titles gm_file_titles(const struct gm_file *file);
-
-/* Calls `each` for every file that has a name of this kind. False, with a sentence, where the environment names a folder
-   that cannot be opened. */
-bool gm_files_each(enum gm_file_kind kind,
-                   void (*each)(const char *name, const struct gm_file *file, const void *data),
+/* Calls `each` for every file that has a name of this kind, but for those that memory is too short for. False, with a
+   sentence, where the environment names a folder that cannot be opened. */
+bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *listed, const void *data),
                    const void *data, char *message);
 /* Whether that folder can be opened, or there is none; false with the sentence. */
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);

@@ -3,7 +3,6 @@
    The completions of the shells ask this, so that they know what the tables know. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/base/arguments.h"
@@ -50,12 +49,11 @@ static struct stem behind_last(const char *word, const char *breaks)
     return stem;
 }
 
-static void offer_file(const char *name, const struct gm_file *file, const void *stem)
+static void offer_file(const struct gm_listed *listed, const void *stem)
 {
-    const struct gm_file_titles titles = gm_file_titles(file);
-    offer(stem, name, titles.title ? gm_text_tame(titles.title) : "");
-    free(titles.title);
-    free(titles.about);
+    char title[128];
+    snprintf(title, sizeof title, "%s", listed->title);
+    offer(stem, listed->name, gm_text_tame(title));
 }
 
 /* A folder that cannot be opened is for `geomint list` to tell. */

@@ -48,37 +48,32 @@ static void list_scenes(const struct gm_options *options)
 }
 
 /* A system or a room by its name, with the word for it in JSON. */
-static void list_file(const char *word, const char *name, const struct gm_file *file,
-                      const struct gm_options *options)
+static void list_file(const char *word, const struct gm_listed *listed, const struct gm_options *options)
 {
-    const struct gm_file_titles titles = gm_file_titles(file);
-    const char *title = titles.title ? titles.title : "", *about = titles.about ? titles.about : "";
     if (options->json) {
         printf("{");
-        gm_json_pair(word, name);
+        gm_json_pair(word, listed->name);
         printf(",");
-        gm_json_pair("title", title);
+        gm_json_pair("title", listed->title);
         printf(",");
-        gm_json_pair("about", about);
+        gm_json_pair("about", listed->about);
         printf("}\n");
     } else {
-        gm_print_wrapped(title, printf("%-21s ", name), 22);
+        gm_print_wrapped(listed->title, printf("%-21s ", listed->name), 22);
         if (options->longer) {
-            gm_print_wrapped(about, printf("  "), 2);
+            gm_print_wrapped(listed->about, printf("  "), 2);
         }
     }
-    free(titles.title);
-    free(titles.about);
 }
 
-static void list_system(const char *name, const struct gm_file *file, const void *options)
+static void list_system(const struct gm_listed *listed, const void *options)
 {
-    list_file("system", name, file, options);
+    list_file("system", listed, options);
 }
 
-static void list_room(const char *name, const struct gm_file *file, const void *options)
+static void list_room(const struct gm_listed *listed, const void *options)
 {
-    list_file("room", name, file, options);
+    list_file("room", listed, options);
 }
 
 /* Returns an exit status. */

@@ -34,36 +34,33 @@ static bool is_listed(const struct gm_list *list, const char *name)
 }
 
 /* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
-static void add_file(struct gm_list *list, enum gm_start_group group, const char *name,
-                     const struct gm_file *file)
+static void add_file(struct gm_list *list, enum gm_start_group group, const struct gm_listed *listed)
 {
-    struct gm_file_titles told = gm_file_titles(file);
     struct gm_start_entry *longer = NULL;
-    char *names = NULL;
-    if (told.title && !is_listed(list, name) && !gm_scene_find(name) && gm_text_is_plain(name)) {
+    char *name = NULL, *title = NULL;
+    if (!is_listed(list, listed->name) && !gm_scene_find(listed->name) && gm_text_is_plain(listed->name)) {
         longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
         list->files = longer ? longer : list->files;
-        names = strdup(name);
+        name = strdup(listed->name);
+        title = strdup(listed->title);
     }
-    if (longer && names) {
+    if (longer && name && title) {
         list->files[list->file_count++] =
-            (struct gm_start_entry){.group = group, .name = names, .title = gm_text_tame(told.title)};
-        told.title = NULL;
+            (struct gm_start_entry){.group = group, .name = name, .title = gm_text_tame(title)};
     } else {
-        free(names);
+        free(name);
+        free(title);
     }
-    free(told.title);
-    free(told.about);
 }
 
-static void add_system(const char *name, const struct gm_file *file, const void *list)
+static void add_system(const struct gm_listed *listed, const void *list)
 {
-    add_file(*(struct gm_list *const *)list, GM_START_SYSTEMS, name, file);
+    add_file(*(struct gm_list *const *)list, GM_START_SYSTEMS, listed);
 }
 
-static void add_room(const char *name, const struct gm_file *file, const void *list)
+static void add_room(const struct gm_listed *listed, const void *list)
 {
-    add_file(*(struct gm_list *const *)list, GM_START_ROOMS, name, file);
+    add_file(*(struct gm_list *const *)list, GM_START_ROOMS, listed);
 }
 
 static void close_files(struct gm_list *list)

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <time.h>
 
-#include "core/digest.h"
+#include "core/ode/kernel/digest.h"
 
 /* The folder of loops that were compiled: $XDG_CACHE_HOME/geomint, or ~/.cache/geomint. Nobody but its owner
    may look into it, else it is not used. An entry is a shared library that ends with its checksum, named by

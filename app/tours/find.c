@@ -21,9 +21,8 @@ struct tours {
     char *message;
 };
 
-static void add_tour(const char *name, const struct gm_file *file, const void *data)
+static void add_tour(const struct gm_listed *listed, const void *data)
 {
-    (void)name;
     struct tours *list = *(struct tours *const *)data;
     char sentence[GM_MESSAGE];
     struct gm_tour *more = realloc(list->tours, (list->count + 1) * sizeof *more);
@@ -31,7 +30,7 @@ static void add_tour(const char *name, const struct gm_file *file, const void *d
         return;
     }
     list->tours = more;
-    if (gm_tour_read(&list->tours[list->count], file, sentence)) {
+    if (gm_tour_read(&list->tours[list->count], listed->file, sentence)) {
         list->count++;
     } else if (!list->message[0]) {
         gm_refuse(list->message, "%s", sentence);

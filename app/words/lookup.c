@@ -9,11 +9,10 @@
 #include "core/expression/nearest.h"
 #include "scenes/common/scene.h"
 
-static void add_to(const char *name, const struct gm_file *file, const void *names)
+static void add_to(const struct gm_listed *listed, const void *names)
 {
-    (void)file;
     /* one that memory was too short for is not proposed */
-    gm_arguments_add(*(struct gm_arguments *const *)names, name);
+    gm_arguments_add(*(struct gm_arguments *const *)names, listed->name);
 }
 
 static const char *name_at(size_t i, const void *names)
@@ -26,7 +25,7 @@ bool gm_system_near(const char *word, char near[GM_NEAR], char *message)
     struct gm_arguments names = {0}, *list = &names;
     message[0] = '\0';
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        add_to(gm_scene_at(i)->name, NULL, &list);
+        gm_arguments_add(&names, gm_scene_at(i)->name);
     }
     for (enum gm_file_kind kind = GM_FILE_SYSTEM; kind <= GM_FILE_ROOM; kind++) {
         gm_files_each(kind, add_to, &list, message);

@@ -3,7 +3,7 @@
    too. GM_COMPILED_ROWS is a row GM_ROW(NAME) for each. */
 #include <string.h>
 
-#include "core/digest.h"
+#include "core/ode/kernel/digest.h"
 #include "core/ode/kernel/loops.h"
 
 #define GM_ROW(name) extern const struct gm_compiled_kernel gm_compiled_##name;

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/digest.h"
 #include "core/expression/derivative.h"
 #include "core/model/equations.h"
+#include "core/ode/kernel/digest.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/model.h"
 
@@ -87,36 +87,22 @@ static char *with_formula(char *kernels, const struct gm_user_system *system, gm
     return out && fclose(out) == 0 ? text : NULL;
 }
 
-/* Rates and their Jacobian, and what their tapes depend on (core/tape.h). */
-struct rates {
-    const struct gm_formula *graph;
-    const gm_node_id *nodes;
-    size_t components, half; /* half of them without t */
-    const struct gm_sparse *jacobian;
-    size_t inputs;
-    const double *values;
-};
 enum { TAPES = GM_KERNEL_JACOBIAN + 1 };
 
-/* False: out of memory. */
-static bool open_tapes(struct gm_tape tapes[TAPES], const struct rates *rates)
+/* The tapes of n rates and of their Jacobian, of so many inputs, as core/tape.h says. False: out of memory. */
+static bool open_tapes(struct gm_tape tapes[TAPES], const struct gm_formula *graph,
+                       const struct gm_user_rates *rates, size_t n, size_t inputs, const double *values)
 {
-    const size_t n = rates->components, half = rates->half, inputs = rates->inputs;
-    gm_node_id *slopes = malloc((rates->jacobian->count + 1) * sizeof *slopes);
-    for (size_t i = 0; slopes && i < rates->jacobian->count; i++) {
-        slopes[i] = rates->jacobian->entries[i].node;
+    const gm_node_id *const nodes = rates->nodes;
+    gm_node_id *slopes = malloc((rates->jacobian.count + 1) * sizeof *slopes);
+    for (size_t i = 0; slopes && i < rates->jacobian.count; i++) {
+        slopes[i] = rates->jacobian.entries[i].node;
     }
-    const struct {
-        const gm_node_id *nodes;
-        size_t count;
-    } parts[TAPES] = {[GM_KERNEL_FIELD] = {rates->nodes, n},
-                      [GM_KERNEL_VELOCITY] = {rates->nodes, half},
-                      [GM_KERNEL_FORCE] = {rates->nodes + half, half},
-                      [GM_KERNEL_JACOBIAN] = {slopes, rates->jacobian->count}};
-    bool good = slopes != NULL;
-    for (int i = 0; i < TAPES && good; i++) {
-        good = gm_tape_open(&tapes[i], rates->graph, parts[i].nodes, parts[i].count, inputs, rates->values);
-    }
+    const bool good =
+        slopes && gm_tape_open(&tapes[GM_KERNEL_FIELD], graph, nodes, n, inputs, values) &&
+        gm_tape_open(&tapes[GM_KERNEL_VELOCITY], graph, nodes, n / 2, inputs, values) &&
+        gm_tape_open(&tapes[GM_KERNEL_FORCE], graph, nodes + n / 2, n / 2, inputs, values) &&
+        gm_tape_open(&tapes[GM_KERNEL_JACOBIAN], graph, slopes, rates->jacobian.count, inputs, values);
     free(slopes);
     return good;
 }
@@ -133,7 +119,7 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
 {
     const size_t n = system->n;
     struct gm_formula *graph = &system->graph;
-    struct gm_sparse jacobian = {0};
+    struct gm_user_rates rates = {.nodes = system->rates};
     struct gm_tape tapes[TAPES] = {0}, energy = {0}, potential;
     char *text = NULL;
     bool *marked = calloc(system->variable_count, sizeof *marked);
@@ -145,10 +131,10 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
     memset(marked, true, n);
     const gm_node_id hamiltonian = energy_of(system);
     bool good = potential_open(&potential, system);
-    good = good && gm_sparse_jacobian(graph, system->rates, n, marked, system->variable_count, &jacobian) &&
-           gm_formula_quicken(graph, system->rates, n);
-    const struct rates rates = {graph, system->rates, n, n / 2, &jacobian, system->velocities, NULL};
-    good = good && open_tapes(tapes, &rates);
+    good = good &&
+           gm_sparse_jacobian(graph, system->rates, n, marked, system->variable_count, &rates.jacobian) &&
+           gm_formula_quicken(graph, system->rates, n) &&
+           open_tapes(tapes, graph, &rates, n, system->velocities, NULL);
     if (hamiltonian != GM_NO_NODE) {
         good = good && gm_tape_open(&energy, graph, &hamiltonian, 1, system->velocities, NULL);
     }
@@ -158,12 +144,12 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
             .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY], &tapes[GM_KERNEL_FORCE],
                       &tapes[GM_KERNEL_JACOBIAN], energy.outputs > 0 ? &energy : NULL,
                       potential.outputs > 0 ? &potential : NULL},
-            .jacobian = &jacobian,
+            .jacobian = &rates.jacobian,
             .jacobian_wanted = true,
             .written_out = true,
             .parameters = system->parameters,
         };
-        if (n % 2 != 0 || !gm_kernel_splits(&source)) {
+        if (!gm_kernel_splits(&source)) {
             source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
         }
         text = with_formula(gm_kernel_text(&source, lacks), system, hamiltonian);
@@ -171,56 +157,38 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
     close_tapes(tapes);
     gm_tape_close(&energy);
     gm_tape_close(&potential);
-    free(jacobian.entries);
+    free(rates.jacobian.entries);
     free(marked);
     return text;
 }
 
-/* The text of the kernels of a system of share/, which struct gm_user_problem of the program writes as well
-   (gm_user_problem_kernel), with its digest; for all values of the parameters, or for those of the system. */
+/* The text of the kernels of a system of share/, which the program writes as well (gm_user_problem_kernel): for all values of
+   the parameters, or for those of the system. As above. */
 static char *own_kernel_of(struct gm_user_system *system, bool general, const char **lacks)
 {
     struct gm_user_model model;
     struct gm_tape tapes[TAPES] = {0};
-    char *text = NULL, *keyed = NULL;
+    char *text = NULL;
     const bool opened = gm_user_model_open(&model, system);
     double *start = opened ? gm_equations_start(system, NULL) : NULL;
     *lacks = start ? gm_user_model_refuses_kernels(&model) : NULL;
-    const struct gm_user_rates *chosen = !start || general ? model.rates : gm_user_model_rates(&model, start);
-    struct rates rates = {.graph = &system->graph,
-                          .components = model.components,
-                          .half = system->n / 2,
-                          .inputs = model.components,
-                          .values = start};
-    if (start) {
-        rates.nodes = chosen->nodes;
-        rates.jacobian = &chosen->jacobian;
-    }
-    if (start && !*lacks && open_tapes(tapes, &rates)) {
+    if (start && !*lacks) {
+        const struct gm_user_rates *rates = general ? model.rates : gm_user_model_rates(&model, start);
         const bool splits = gm_user_model_splits(&model, start);
+        const size_t n = model.components;
         const struct gm_kernel_source source = {
-            .components = model.components,
+            .components = n,
             .tapes = {&tapes[GM_KERNEL_FIELD], splits ? &tapes[GM_KERNEL_VELOCITY] : NULL,
                       splits ? &tapes[GM_KERNEL_FORCE] : NULL,
                       model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL},
-            .jacobian = &chosen->jacobian,
+            .jacobian = &rates->jacobian,
             .jacobian_wanted = true};
-        text = gm_kernel_text(&source, lacks);
-    }
-    struct gm_digest key = gm_digest_open();
-    if (text) {
-        gm_digest_add(&key, text, strlen(text));
-        const unsigned long long a = key.a, b = key.b;
-        if (asprintf(&keyed, "%s#define GM_KERNEL_KEY UINT64_C(0x%llx), UINT64_C(0x%llx)\n", text, a, b) <
-            0) {
-            keyed = NULL;
-        }
+        text = open_tapes(tapes, &system->graph, rates, n, n, start) ? gm_kernel_text(&source, lacks) : NULL;
     }
     close_tapes(tapes);
-    free(text);
     free(start);
     gm_user_model_close(&model);
-    return keyed;
+    return text;
 }
 
 int main(int argc, char *argv[])
@@ -245,7 +213,13 @@ int main(int argc, char *argv[])
         gm_system_close(&system);
     }
     FILE *out = text ? fopen(argv[2], "w") : NULL;
-    const bool written = out && fputs(text, out) >= 0;
+    bool written = out && fputs(text, out) >= 0;
+    if (written && argc == 4) {
+        struct gm_digest key = gm_digest_open();
+        gm_digest_add(&key, text, strlen(text));
+        written = fprintf(out, "#define GM_KERNEL_KEY UINT64_C(0x%llx), UINT64_C(0x%llx)\n",
+                          (unsigned long long)key.a, (unsigned long long)key.b) > 0;
+    }
     const bool good = out && fclose(out) == 0 && written;
     if (!good) {
         fprintf(stderr, "%s: %s\n", argc > 1 ? argv[1] : "write_kernel", lacks ? lacks : "out of memory");

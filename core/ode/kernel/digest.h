@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_DIGEST_H
-#define GM_CORE_DIGEST_H
+#ifndef GM_CORE_ODE_KERNEL_DIGEST_H
+#define GM_CORE_ODE_KERNEL_DIGEST_H
 
 #include <stddef.h>
 #include <stdint.h>
