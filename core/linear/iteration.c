@@ -2,11 +2,11 @@
 /* Sweeps, and Newton's method with halved steps (Deuflhard, Newton Methods for Nonlinear Problems (2004), 3.1). */
 #include "core/linear/iteration.h"
 
-bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
+bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *restrict z,
                      struct gm_progress *progress)
 {
     enum { MOST = 150 };
-    double *next = scratch, previous = INFINITY, before_previous = INFINITY;
+    double *restrict next = scratch, previous = INFINITY, before_previous = INFINITY;
     for (int iteration = 0; iteration < MOST; iteration++) {
         double scale = 0, change = 0;
         if (!equations->sweep(equations->data, z, next, &scale)) {
@@ -34,5 +34,5 @@ bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scra
 bool gm_newton_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
                      struct gm_progress *progress)
 {
-    return gm_newton_solve_inline(equations, equations->linear, scratch, z, progress);
+    return gm_newton_solve_by(equations, equations->linear, scratch, z, progress);
 }

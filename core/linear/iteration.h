@@ -75,12 +75,11 @@ struct gm_implicit_equations {
     /* next := G(z); adds to *scale as above. False: there is no value. */
     bool (*sweep)(void *data, const double *z, double *next, double *scale);
     gm_linear_equations *linear; /* NULL: sweeps alone */
+    size_t counted; /* the first of these, whose changes Newton's method compares; sweeps compare all */
     /* Where z are increments of stages y + z of n components each, Newton's method ends by gm_newton_is_settled. */
     const double *y; /* NULL: z are others */
     size_t n;
-    /* Otherwise it ends by gm_is_settled, or where a change is at most `least` of |z|; the first `counted` unknowns
-       are compared. Sweeps end by gm_is_settled, with all unknowns. */
-    size_t counted;
+    /* Otherwise it ends by gm_is_settled, as sweeps do, or where a change is at most `least` of |z|. */
     double least, roundoff; /* the level of round-off is this part of the scale */
     bool halved;            /* steps of Newton's method are halved until the residual is no larger */
     bool exact;             /* the equations are linear: one step solves them */
@@ -137,50 +136,52 @@ static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matr
     return isfinite(gm_sum_of(matrix, entries)) ? GM_SINGULAR : GM_NOT_FINITE;
 }
 
-/* z := z + change, or a part of that where the residual there would be larger than `off`; of a small change it may be.
-   The residual and the matrix are those there. */
-static inline bool gm_newton_move(const struct gm_implicit_equations *equations, double *scratch, double *z,
-                                  double off, bool small, double *scale)
+enum { GM_NEWTON_STEPS = 50, GM_NEWTON_HALVINGS = 40 };
+
+/* z := z + change, or a part of that where the residual there would be larger than *off; of a small change it may be.
+   The residual, *off its 1-norm, and the matrix are those there. */
+static inline bool gm_newton_move(const struct gm_implicit_equations *equations, double *restrict scratch,
+                                  double *restrict z, bool small, double *off, double *scale)
 {
-    enum { HALVINGS = 40 };
     const size_t size = equations->size;
     double *residual = scratch, *matrix = residual + size, *change = matrix + size * size,
-           *trial = change + size, part = 1;
+           *start = change + size, part = 1, there = 0;
     bool good = false, nearer = false;
-    memcpy(change, residual, size * sizeof *change);
-    for (int halving = 0; halving < HALVINGS && !nearer; halving++, part /= 2) {
+    for (size_t i = 0; i < size; i++) {
+        change[i] = residual[i];
+        start[i] = z[i];
+    }
+    for (int halving = 0; halving < GM_NEWTON_HALVINGS && !nearer; halving++, part /= 2) {
         for (size_t i = 0; i < size; i++) {
-            trial[i] = z[i] + part * change[i];
+            z[i] = start[i] + part * change[i];
         }
         *scale = 0;
-        good = equations->linear(equations->data, trial, residual, matrix, scale);
-        const double there = gm_sum_of(residual, size);
-        nearer = good && (there <= off || (small && isfinite(there)));
+        good = equations->linear(equations->data, z, residual, matrix, scale);
+        there = gm_sum_of(residual, size);
+        nearer = good && (there <= *off || (small && isfinite(there)));
     }
-    memcpy(z, trial, size * sizeof *z);
+    *off = there;
     return good;
 }
 
+/* gm_newton_solve with a function that may be inlined */
 static inline __attribute__((always_inline)) bool
-gm_newton_solve_inline(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
-                       double *scratch, double *z, struct gm_progress *progress)
+gm_newton_solve_by(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
+                   double *restrict scratch, double *restrict z, struct gm_progress *progress)
 {
-    enum { MOST = 50 };
-    const size_t size = equations->size, counted = equations->counted;
-    double *change = scratch, *matrix = change + size, previous = INFINITY, scale = 0, off = 0;
-    for (int iteration = 0; iteration < MOST; iteration++) {
+    const size_t size = equations->size, n = equations->n;
+    double *change = scratch, *matrix = change + size, previous = INFINITY, scale = 0, off = INFINITY;
+    for (int iteration = 0; iteration < GM_NEWTON_STEPS; iteration++) {
         if (iteration == 0 || !equations->halved) {
             scale = 0;
             if (!linear(equations->data, z, change, matrix, &scale)) {
                 return false;
             }
-        }
-        if (equations->halved) {
-            off = gm_sum_of(change, size);
+            off = equations->halved ? gm_sum_of(change, size) : 0;
         }
         const bool of_stages = equations->y != NULL;
         const double rounding = of_stages && gm_rounding_decides(scale, previous)
-                                    ? gm_rounding_of_stages(size, equations->n, matrix, equations->y, z)
+                                    ? gm_rounding_of_stages(size, n, matrix, equations->y, z)
                                     : 0;
         progress->iterations++;
         progress->solves++;
@@ -188,28 +189,26 @@ gm_newton_solve_inline(const struct gm_implicit_equations *equations, gm_linear_
             progress->unsolved.obstacle = gm_obstacle_of(size * size, matrix);
             return false;
         }
-        const double moved = gm_sum_of(change, of_stages ? size : counted);
-        const bool settled = of_stages ? gm_newton_is_settled(size, moved, scale, rounding, &previous)
-                                       : (equations->exact && isfinite(moved)) ||
-                                             moved <= equations->least * gm_sum_of(z, counted) ||
-                                             gm_is_settled(moved, equations->roundoff * scale, &previous);
-        if (!settled) {
-            progress->unsolved = gm_unsolved_by(moved, scale);
-            if (!isfinite(moved)) {
-                return false;
-            }
+        double moved = 0, far = 0;
+        for (size_t i = 0; i < equations->counted; i++) {
+            moved += fabs(change[i]);
+            far += fabs(z[i]);
         }
-        if (!settled && equations->halved) {
-            if (!gm_newton_move(equations, scratch, z, off, moved <= 0x1p-26 * scale, &scale)) {
-                return false;
-            }
-            continue;
-        }
-        for (size_t i = 0; i < size; i++) {
+        const bool settled = of_stages
+                                 ? gm_newton_is_settled(size, moved, scale, rounding, &previous)
+                                 : (equations->exact && isfinite(moved)) || moved <= equations->least * far ||
+                                       gm_is_settled(moved, equations->roundoff * scale, &previous);
+        for (size_t i = 0; i < size && (settled || !equations->halved); i++) {
             z[i] += change[i];
         }
         if (settled) {
             return true;
+        }
+        progress->unsolved = gm_unsolved_by(moved, scale);
+        if (!isfinite(moved) ||
+            (equations->halved &&
+             !gm_newton_move(equations, scratch, z, moved <= 0x1p-26 * scale, &off, &scale))) {
+            return false;
         }
     }
     return false;

@@ -151,6 +151,7 @@ static bool solve(struct substep *substep, double *d)
     const size_t n = members->n;
     const bool newton = gm_matrix_size(problem) > 0;
     const struct gm_implicit_equations equations = {.size = n,
+                                                    .counted = n,
                                                     .data = substep,
                                                     .sweep = sweep,
                                                     .linear = newton ? linear : NULL,

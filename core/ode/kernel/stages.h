@@ -71,19 +71,24 @@ gm_stages_linear(void *data, const double *z, double *residual, double *matrix, 
         for (size_t i = 0; i < stages->count; i++) {
             for (size_t r = 0; r < n; r++) {
                 const double factor = stages->h * (r < n / 2 ? stages->a : stages->c)[i][j];
+                const double *restrict row = stages->jacobian + r * n;
+                double *restrict to = matrix + (i * n + r) * size + j * n;
                 for (size_t c = 0; c < n; c++) {
-                    matrix[(i * n + r) * size + j * n + c] =
-                        (i == j && r == c ? 1 : 0) - factor * stages->jacobian[r * n + c];
+                    to[c] = -(factor * row[c]);
                 }
+                to[r] += i == j ? 1 : 0;
             }
         }
     }
     stages->progress->evaluations += stages->count;
-    for (size_t i = 0; i < size; i++) {
-        const double *row = (i % n < n / 2 ? stages->a : stages->c)[i / n];
-        residual[i] = -z[i];
-        for (size_t j = 0; j < stages->count; j++) {
-            residual[i] += stages->h * row[j] * stages->f[j * n + i % n];
+    for (size_t i = 0; i < stages->count; i++) {
+        for (size_t c = 0; c < n; c++) {
+            const double *row = (c < n / 2 ? stages->a : stages->c)[i];
+            double sum = -z[i * n + c];
+            for (size_t j = 0; j < stages->count; j++) {
+                sum += stages->h * row[j] * stages->f[j * n + c];
+            }
+            residual[i * n + c] = sum;
         }
     }
     return true;

@@ -18,8 +18,8 @@
 #include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
-#include "core/ode/stages.h"
 #include "core/theory/coefficients.h"
 
 #define SQRT2 1.4142135623730950488016887242097
@@ -355,8 +355,12 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
                                .state = state,
                                .jacobian = jacobian};
     set_stages(&stages, row, h, start, &ignored);
-    const struct gm_implicit_equations equations = {
-        .size = 2 * stages.count, .data = &stages, .linear = gm_stages_linear, .y = start, .n = 2};
+    const struct gm_implicit_equations equations = {.size = 2 * stages.count,
+                                                    .data = &stages,
+                                                    .linear = gm_stages_linear,
+                                                    .counted = 2 * stages.count,
+                                                    .y = start,
+                                                    .n = 2};
     const bool solved = gm_newton_solve(&equations, scratch, z, &ignored);
     for (size_t j = 0; j < stages.count; j++) {
         block->slopes[j][0][k] = f[2 * j];

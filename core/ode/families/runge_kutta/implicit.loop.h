@@ -148,8 +148,9 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
         .progress = progress,
     };
     const struct gm_implicit_equations equations = {
-        .size = stages.count * N, .data = &stages, .y = y, .n = N};
-    if (!gm_newton_solve_inline(&equations, gm_stages_linear, scratch, z, progress)) {
+
+        .size = stages.count * N, .data = &stages, .counted = stages.count * N, .y = y, .n = N};
+    if (!gm_newton_solve_by(&equations, gm_stages_linear, scratch, z, progress)) {
         return false;
     }
     gm_stages_increment(&stages, z, increment);

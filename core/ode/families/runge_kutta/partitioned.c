@@ -12,7 +12,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/stages.h"
+#include "core/ode/kernel/stage_solver.h"
 #include "core/theory/coefficients.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,

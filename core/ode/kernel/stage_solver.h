@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stages of one step of one member, solved through the problem's field and Jacobian. */
-#ifndef GM_CORE_ODE_STAGES_H
-#define GM_CORE_ODE_STAGES_H
+#ifndef GM_CORE_ODE_KERNEL_STAGE_SOLVER_H
+#define GM_CORE_ODE_KERNEL_STAGE_SOLVER_H
 
 #include "core/ode/kernel/stages.h"
 #include "core/ode/ode.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A problem's stages as equations: z = h A f(y + z). */
-#include "core/ode/stages.h"
+#include "core/ode/kernel/stage_solver.h"
 
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -13,9 +13,15 @@ size_t gm_stage_solver_room(const struct gm_problem *problem, size_t count)
 
 static bool slope(void *data, size_t j, const double *state, double *f, double *jacobian)
 {
+    const struct gm_loops *loops = gm_ode_of(data)->loops[GM_ISA_BASELINE];
     (void)j;
-    gm_field(data, state, f, 1);
-    return !jacobian || gm_jacobian(data, state, jacobian);
+    if (jacobian) {
+        loops->field(data, state, f, 1);
+        loops->jacobian(data, state, jacobian);
+    } else {
+        gm_field(data, state, f, 1);
+    }
+    return true;
 }
 
 struct gm_stage_solver gm_stage_solver_lay(const struct gm_problem *problem, size_t count, double *scratch)
@@ -30,6 +36,7 @@ struct gm_stage_solver gm_stage_solver_lay(const struct gm_problem *problem, siz
                    .state = scratch + 2 * size,
                    .jacobian = scratch + 2 * size + n},
         .equations = {.size = size,
+                      .counted = size,
                       .n = n,
                       .sweep = gm_stages_sweep,
                       .linear = square > 0 ? gm_stages_linear : NULL,
@@ -56,5 +63,6 @@ bool gm_stages_by_newton(struct gm_stage_solver *solver)
 {
     begin(solver);
     return solver->equations.linear &&
-           gm_newton_solve(&solver->equations, solver->scratch, solver->z, solver->stages.progress);
+           gm_newton_solve_by(&solver->equations, gm_stages_linear, solver->scratch, solver->z,
+                              solver->stages.progress);
 }
