@@ -8,9 +8,9 @@
 /* How often SIGINT or SIGTERM came; long work looks at it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
 
-/* From now on they are counted. Work that does not look at the count for 2 s, as a long step, is cut off: the process
-   ends with status 130, without the files that it has not completed. A second signal cuts it off at once, unless it
-   comes together with the first one: timeout sends its signal twice. */
+/* From now on they are counted. Work that does not look at the count for 2 s, in one step or an opening, is cut off: the
+   process ends with status 130, without the files that it has not completed. A second signal cuts it off at once,
+   unless it comes together with the first one: timeout sends its signal twice. */
 void gm_catch_interrupts(void);
 /* An interruption was seen: what there is is written now, for as long as it takes. */
 void gm_interrupts_seen(void);

@@ -459,8 +459,9 @@ static void a_start_that_does_not_close_is_refused(void **unused)
 
 /* Of matrices and a function: the order by three grids, the law, the charge that a kept quantity tells of, and potentials
    that are left out. */
-static double mass_of(const void *data, const double *y)
+static double mass_of(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     const struct gm_problem *problem = data;
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
