@@ -99,7 +99,7 @@ static void list_file(const char *name, const struct gm_file *file,
     size_t length = 0;
     const unsigned long refusals = gm_memory_refusals();
     char *text = gm_regular_read(file->path, LARGEST_DESCRIBED, &length, reason),
-         *title = gm_file_line(text ? text : "", length, "title"),
+         *title = gm_file_title(text ? text : "", length),
          *about = gm_file_line(text ? text : "", length, "about");
     if (gm_memory_refusals() == refusals) {
         each(&(struct gm_listed){name, title, about, file}, data);

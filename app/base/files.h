@@ -24,7 +24,7 @@ bool gm_file_is(enum gm_file_kind kind, const char *word);
    `most` bytes. */
 char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason);
 
-/* A name, and what its file says in the lines `title:` and `about:`, "" where it cannot be read. */
+/* A name, what lists call its file (gm_file_title), and the line `about:`; "" where it cannot be read. */
 struct gm_listed {
     const char *name, *title, *about;
     const struct gm_file *file;

@@ -485,16 +485,37 @@ static bool is_at_time(const struct reader *reader)
     return at + 1 < reader->end && reader->text[at + 1] != ')';
 }
 
-static gm_node_id read_name(struct reader *reader)
+static gm_node_id read_name(struct reader *reader, bool exact);
+
+/* exact(NAME), behind its name */
+static gm_node_id read_exact(struct reader *reader)
+{
+    take(reader, '(');
+    if (!gm_is_letter(peek(reader))) {
+        return expected(reader, "a component, as in exact(x),");
+    }
+    const gm_node_id node = read_name(reader, true);
+    return reader->failed || take(reader, ')') ? node : expected(reader, ")");
+}
+
+static gm_node_id read_name(struct reader *reader, bool exact)
 {
     const size_t begin = reader->at, length = gm_name_length(reader->text + begin, reader->end - begin);
     struct gm_scope *scope = &reader->scope;
-    struct gm_name name = {.text = reader->text + begin, .length = length, .fixed = reader->fixed > 0};
+    struct gm_name name = {
+        .text = reader->text + begin, .length = length, .fixed = reader->fixed > 0, .exact = exact};
     const int brief = (int)(length < 60 ? length : 60);
     reader->at += length;
     const bool called = peek(reader) == '(';
     const enum gm_operation function = function_of(name.text, length);
     const bool sum = is_word("sum", name.text, length), product = is_word("prod", name.text, length);
+    const bool is_constant = is_word("pi", name.text, length) || index_of(reader, name.text, length);
+    if (called && scope->exact && !exact && is_word("exact", name.text, length)) {
+        return read_exact(reader);
+    }
+    if (exact && (sum || product || function != GM_CONSTANT || is_constant)) {
+        return fail(reader, begin, "%.*s is no component: it has no exact solution", brief, name.text);
+    }
     if (sum || product || (function != GM_CONSTANT && (function != GM_OPERATION_BELOW || scope->derives))) {
         if (!take(reader, '(')) {
             return fail(reader, reader->at, "%.*s is a function: ( was expected", brief, name.text);
@@ -514,7 +535,7 @@ static gm_node_id read_name(struct reader *reader)
             if (!reader->failed && !take(reader, ']')) {
                 return expected(reader, "]");
             }
-        } else if (called && scope->initial && reader->at + 2 < reader->end &&
+        } else if (called && scope->initial && !exact && reader->at + 2 < reader->end &&
                    memcmp(reader->text + reader->at, "(0)", 3) == 0) {
             name.initial = true;
             reader->at += 3;
@@ -555,7 +576,7 @@ static gm_node_id read_operand(struct reader *reader)
         return read_number(reader);
     }
     if (gm_is_letter(next)) {
-        return read_name(reader);
+        return read_name(reader, false);
     }
     if (take(reader, '(')) {
         const gm_node_id node = read_expression(reader, 0);

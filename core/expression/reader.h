@@ -40,6 +40,7 @@ struct gm_name {
     bool indexed;
     long index;   /* NAME[index] */
     bool initial; /* NAME(0) */
+    bool exact;   /* exact(NAME) */
     bool fixed;   /* it stands in an index or a bound: its value is wanted, as a constant */
 };
 
@@ -67,6 +68,7 @@ struct gm_scope {
     void *data;
     bool lines;   /* newlines and comments, from # to the end of a line, are blanks */
     bool initial; /* NAME(0) has a meaning */
+    bool exact;   /* exact(NAME) has one */
     bool derives; /* `below` is a function: for partial derivatives */
     struct gm_index indices[GM_MOST_INDICES]; /* bound by the caller */
     size_t index_count;

@@ -15,7 +15,7 @@ struct gm_built_in {
     enum gm_file_kind kind;
     const char *path;          /* below share/, "systems/toda.system" */
     const char *name;          /* "toda"; of a mesh with its ending */
-    const char *title, *about; /* the lines of these words; "" */
+    const char *title, *about; /* gm_file_title, and the line of that word; "" */
     const char *text;          /* closed by a zero */
     size_t length;             /* of the text */
 };
@@ -28,5 +28,7 @@ const struct gm_built_in *gm_built_in_find(enum gm_file_kind kind, const char *n
 /* The value of the text's first line `word:`, with one blank between its words; "" where there is none. malloc'ed,
    NULL: out of memory. */
 char *gm_file_line(const char *text, size_t length, const char *word);
+/* What lists call the file: its line `name:`, or else `title:`. As gm_file_line. */
+char *gm_file_title(const char *text, size_t length);
 
 #endif

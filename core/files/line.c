@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One line of a file, without reading what else the file says. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/lines.h"
@@ -19,4 +20,14 @@ char *gm_file_line(const char *text, size_t length, const char *word)
         }
     }
     return strdup("");
+}
+
+char *gm_file_title(const char *text, size_t length)
+{
+    char *name = gm_file_line(text, length, "name");
+    if (!name || name[0]) {
+        return name;
+    }
+    free(name);
+    return gm_file_line(text, length, "title");
 }

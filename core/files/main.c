@@ -33,11 +33,11 @@ static void put_string(FILE *out, const char *text, size_t length)
     fputs("\"", out);
 }
 
-static bool put_line(FILE *out, const char *text, size_t length, const char *word)
+/* A member and its line, which is freed. False if there is none: out of memory. */
+static bool put_line(FILE *out, const char *member, char *line)
 {
-    char *line = gm_file_line(text, length, word);
     if (line) {
-        fprintf(out, ", .%s = ", word);
+        fprintf(out, ", .%s = ", member);
         put_string(out, line, strlen(line));
     }
     free(line);
@@ -68,7 +68,8 @@ static bool put_file(FILE *out, const char *given)
         fprintf(out, "{.kind = %d, .path = \"%s\", .name = \"%.*s\"", (int)kind, path, (int)letters,
                 name + 1);
         const size_t described = kind == GM_FILE_MESH ? 0 : length;
-        good = put_line(out, text, described, "title") && put_line(out, text, described, "about");
+        good = put_line(out, "title", gm_file_title(text, described)) &&
+               put_line(out, "about", gm_file_line(text, described, "about"));
         fprintf(out, ", .length = %zu, .text = ", length);
         put_string(out, text, length);
         fputs("},\n", out);

@@ -311,12 +311,14 @@ static bool add_components_in_order(struct gm_reading *reading, enum gm_system_w
 }
 
 /* variables: parameters, components, velocities as they were met become components, t, parameters,
-   velocities, components at the start */
+   velocities, components at the start, components of the exact solution */
 static bool arrange(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
-    struct gm_system_variable *all = calloc(2 * n + 1 + p + v, sizeof *all), *met = system->variables;
+    const size_t solutions = gm_system_is_field(system) ? 0 : n;
+    struct gm_system_variable *all = calloc(2 * n + 1 + p + v + solutions, sizeof *all),
+                              *met = system->variables;
     char *t = strdup("t");
     if (!all || !t) {
         free(all);
@@ -338,11 +340,12 @@ static bool arrange(struct gm_reading *reading)
     system->velocities = n + 1 + p;
     system->initial = system->velocities + v;
     system->variable_count = system->initial;
-    for (size_t i = 0; i < n; i++) {
-        struct gm_system_variable *initial = &all[system->initial + i];
-        *initial = all[n];
-        if (asprintf(&initial->name, "%s(0)", all[i].name) < 0) {
-            initial->name = NULL;
+    system->exact = system->initial + n;
+    for (size_t i = 0; i < n + solutions; i++) {
+        struct gm_system_variable *other = &all[system->initial + i];
+        *other = all[n];
+        if (asprintf(&other->name, i < n ? "%s(0)" : "exact(%s)", all[i % n].name) < 0) {
+            other->name = NULL;
             return gm_fail_memory(&reading->fault);
         }
         system->variable_count++;
@@ -482,8 +485,9 @@ bool gm_declared_lets(struct gm_reading *reading)
         const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
         struct gm_target target;
         struct gm_span value = reading->lines[i].value;
+        value.end = observed ? gm_span_until(reading->text, value, ";") : value.end;
         if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
-            (observed && gm_span_until(reading->text, value, ";") < value.end) ||
+            (observed && gm_span_until(reading->text, value, "..") < value.end) || /* it is counted */
             !gm_reading_assignment(reading, value, &target) ||
             (observed && target.index.begin < target.index.end)) {
             continue;

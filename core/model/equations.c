@@ -586,10 +586,15 @@ static bool is_told(const struct gm_user_system *system, const double *given, si
 static gm_node_id *parts_of_start(const struct gm_user_system *system, size_t *count)
 {
     const size_t half = system->momenta ? system->n / 2 : 0;
-    gm_node_id *nodes = malloc((system->initial + half + system->mass.count + 1) * sizeof *nodes);
+    const size_t solutions = system->variable_count - system->exact;
+    gm_node_id *nodes = malloc((system->initial + solutions + half + system->mass.count + 1) * sizeof *nodes);
     size_t found = 0;
     for (size_t i = 0; nodes && i < system->initial; i++) {
         nodes[found] = system->variables[i].start;
+        found += nodes[found] != GM_NO_NODE;
+    }
+    for (size_t i = 0; nodes && i < solutions; i++) {
+        nodes[found] = system->variables[i].exact;
         found += nodes[found] != GM_NO_NODE;
     }
     for (size_t i = 0; nodes && i < half; i++) {
@@ -629,8 +634,15 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
             variables[half + i] =
                 is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
         }
+        for (size_t i = 0; i < system->n; i++) {
+            variables[system->initial + i] = variables[i];
+        }
+        for (size_t i = system->exact; i < system->variable_count; i++) {
+            const gm_node_id node = system->variables[i - system->exact].exact;
+            variables[i] = node == GM_NO_NODE ? NAN : values[node];
+        }
         found = 0;
-        for (size_t i = 0; i < system->initial; i++) {
+        for (size_t i = 0; i < system->variable_count; i++) {
             found += !isnan(variables[i]);
         }
     }

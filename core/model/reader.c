@@ -9,6 +9,7 @@
 
 #include "core/expression/number.h"
 #include "core/model/declarations.h"
+#include "core/model/options.h"
 
 static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_system_line *line,
                                        struct gm_span name)
@@ -87,11 +88,12 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     enum gm_system_word word = line->word;
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
-        reading->initial = word == GM_WORD_EXACT;
+        reading->initial = word == GM_WORD_EXACT || word == GM_WORD_START;
+        reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system);
         if (gm_reading_assignment(reading, piece, &target)) {
             gm_reading_elements(reading, &target, assign, &word);
         }
-        reading->initial = false;
+        reading->initial = reading->exact = false;
     }
     return !reading->fault.failed;
 }
@@ -212,10 +214,10 @@ static bool number_item(struct gm_reading *reading, struct gm_system_item *item,
     return true;
 }
 
-/* NAME = formula; scale 1 */
+/* NAME = formula; options */
 static bool read_named(struct gm_reading *reading, const struct gm_system_line *line)
 {
-    struct gm_span rest = line->value, piece, scale;
+    struct gm_span rest = line->value, piece;
     struct gm_target target;
     gm_span_take(reading->text, &rest, ";", &piece);
     if (!gm_reading_assignment(reading, piece, &target)) {
@@ -237,25 +239,98 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     if (named && named->place != target.name.begin) {
         return gm_reading_fail_twice(reading, target.name.begin, named);
     }
-    if (!(named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value))) {
+    reading->initial = reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
+    const bool good = named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value);
+    reading->initial = reading->exact = false;
+    if (!good) {
         return false;
     }
     for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
-        if (strcmp(reading->system->items[i].name, item->name) == 0) {
+        const struct gm_system_item *other = &reading->system->items[i];
+        if (gm_system_is_observed(other) && strcmp(other->name, item->name) == 0) {
             return gm_fail_first(&reading->fault, target.name.begin, "%.60s is said twice", item->name);
         }
     }
-    if (gm_span_take(reading->text, &rest, ";", &scale)) {
-        if (line->word == GM_WORD_OBSERVE || scale.end - scale.begin < 7 ||
-            memcmp(reading->text + scale.begin, "scale ", 6) != 0) {
-            return gm_fail_first(&reading->fault, scale.begin,
-                                 line->word == GM_WORD_OBSERVE ? "nothing follows an observable"
-                                                               : "scale was expected, as in \"; scale 1\"");
-        }
-        scale.begin += 6;
-        return gm_reading_number(reading, scale, &item->scale);
+    return gm_options_read(reading, item, rest);
+}
+
+/* require: F; sentence */
+static bool read_requirement(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, formula;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &formula);
+    rest = gm_span_trimmed(reading->text, rest);
+    if (item && rest.begin == rest.end) {
+        return gm_fail_first(&reading->fault, formula.end,
+                             "a sentence was expected: require: F; it says why not");
     }
-    return true;
+    return item && add_formula(reading, item, formula) && gm_text_read(reading, item, rest);
+}
+
+/* level: [section;] F; text; options */
+static bool read_level(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &piece);
+    if (!item) {
+        return false;
+    }
+    item->in_section = piece.end - piece.begin == 7 && memcmp(reading->text + piece.begin, "section", 7) == 0;
+    if (item->in_section) {
+        gm_span_take(reading->text, &rest, ";", &piece);
+    }
+    const struct gm_system_line *section = gm_reading_line(reading, GM_WORD_SECTION);
+    if (item->in_section && !section) {
+        return gm_fail_first(&reading->fault, line->value.begin, "there is no line \"section\"");
+    }
+    reading->initial = reading->exact = true;
+    const bool good = add_formula(reading, item, piece);
+    reading->initial = reading->exact = false;
+    if (good && !gm_span_take(reading->text, &rest, ";", &piece)) {
+        return gm_fail_first(&reading->fault, piece.end, "a text was expected: level: F; the exact orbit");
+    }
+    item->text = good ? gm_reading_text(reading, piece) : NULL;
+    return item->text && gm_options_read(reading, item, rest);
+}
+
+/* Takes the next piece as words key=value. */
+static char *take_words(struct gm_reading *reading, struct gm_span *rest)
+{
+    struct gm_span piece;
+    gm_span_take(reading->text, rest, ";", &piece);
+    char *words = gm_reading_text(reading, piece);
+    for (const char *word = words; word && *word; word += strcspn(word, " "), word += *word == ' ') {
+        if (strcspn(word, "=") >= strcspn(word, " ")) {
+            gm_fail_first(&reading->fault, piece.begin, "%.60s is no word key=value: until=100", word);
+            break;
+        }
+    }
+    return words;
+}
+
+/* graph: KEY; options, figure: NAME; WORDS; statement, work: WORDS; options, stability: WORDS; KEY values; options */
+static bool read_optional(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, name = {0, 0};
+    const bool named = line->word == GM_WORD_GRAPH || line->word == GM_WORD_FIGURE;
+    if (named) {
+        gm_span_take(reading->text, &rest, ";", &name);
+    }
+    struct gm_system_item *item = add_item(reading, line, name);
+    if (item && line->word != GM_WORD_GRAPH) {
+        item->words = take_words(reading, &rest);
+    }
+    if (item && line->word == GM_WORD_FIGURE) {
+        rest = gm_span_trimmed(reading->text, rest);
+        item->text = gm_reading_text(reading, rest);
+        return item->text &&
+               (rest.begin < rest.end ||
+                gm_fail_first(&reading->fault, rest.begin,
+                              "a statement was expected: figure: NAME; scheme=rk4; what it shows"));
+    }
+    return item && !reading->fault.failed && gm_options_read(reading, item, rest);
 }
 
 /* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
@@ -521,7 +596,7 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
     }
     struct gm_system_item *item = add_item(reading, line, name);
     if (item) {
-        item->scale = number;
+        item->value = number;
         item->variable = variable;
     }
     return item != NULL;
@@ -562,6 +637,19 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
         item = add_item(reading, line, (struct gm_span){0, 0});
         return item && add_formula(reading, item, line->value);
     case GM_WORD_TITLE:
+    case GM_WORD_SUBTITLE:
+    case GM_WORD_CAPTION:
+        system->texts[line->word] = gm_reading_text(reading, line->value);
+        if (gm_system_is_field(system)) {
+            return true;
+        }
+        item = add_item(reading, line, (struct gm_span){0, 0});
+        return item && gm_text_read(reading, item, line->value) &&
+               (line->word != GM_WORD_TITLE || item->count == 0 || gm_reading_line(reading, GM_WORD_NAME) ||
+                gm_fail_first(&reading->fault, line->place,
+                              "a title with values needs a line \"name\" for lists"));
+    case GM_WORD_NAME:
+    case GM_WORD_TIME:
     case GM_WORD_ABOUT:
     case GM_WORD_WATCH:
     case GM_WORD_REFERENCE:
@@ -602,6 +690,15 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_CASIMIR:
     case GM_WORD_OBSERVE:
         return read_named(reading, line);
+    case GM_WORD_REQUIRE:
+        return read_requirement(reading, line);
+    case GM_WORD_LEVEL:
+        return read_level(reading, line);
+    case GM_WORD_GRAPH:
+    case GM_WORD_FIGURE:
+    case GM_WORD_WORK:
+    case GM_WORD_STABILITY:
+        return read_optional(reading, line);
     case GM_WORD_SYMMETRY:
         return read_symmetry(reading, line);
     case GM_WORD_SECTION:

@@ -273,10 +273,11 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         return GM_REFUSED;
     }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
-        (name->initial && entry->role != GM_ENTRY_COMPONENT)) {
+        ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
+        const char *lacks =
+            name->exact ? "component: it has no exact solution" : "component: it has no value at the start";
         snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no %s", brief, name->text,
-                 fixed ? "parameter: its value is not known here"
-                       : "component: it has no value at the start");
+                 fixed ? "parameter: its value is not known here" : lacks);
         return GM_REFUSED;
     }
     if (!entry->read && (entry->role >= GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
@@ -297,7 +298,8 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         }
         break;
     case GM_ENTRY_COMPONENT:
-        *node = gm_formula_variable(&system->graph, entry->number + (name->initial ? system->initial : 0));
+        *node = gm_formula_variable(&system->graph, entry->number + (name->initial ? system->initial : 0) +
+                                                        (name->exact ? system->exact : 0));
         break;
     case GM_ENTRY_TIME:
         *node = gm_formula_variable(&system->graph, system->n);
@@ -313,8 +315,12 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
 static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
                     long element, gm_node_id *node, bool *postponed)
 {
-    struct gm_scope scope = {
-        .find = find, .known = known, .data = reading, .lines = true, .initial = reading->initial};
+    struct gm_scope scope = {.find = find,
+                             .known = known,
+                             .data = reading,
+                             .lines = true,
+                             .initial = reading->initial,
+                             .exact = reading->exact};
     if (bound && bound->begin < bound->end) {
         scope.indices[scope.index_count++] =
             (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
@@ -369,14 +375,18 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
     stack[depth++] = number;
     while (depth > 0 && !reading->fault.failed) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
-        const bool was_fixed = reading->fixed;
+        const bool was_fixed = reading->fixed, was_initial = reading->initial, was_exact = reading->exact;
         const struct gm_span counter = reading->counter;
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
+        reading->initial = reading->exact =
+            entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
         reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;
+        reading->initial = was_initial;
+        reading->exact = was_exact;
         reading->counter = counter;
         if (good) {
             entry->node = node;

@@ -59,6 +59,7 @@ struct gm_reading {
     bool fixed;             /* parameters are constants in what is read */
     bool structural;        /* and the graph depends on their values */
     bool initial;           /* NAME(0) has a meaning */
+    bool exact;             /* exact(NAME) has one */
     struct gm_span counter; /* the index that a line is repeated with, and its value; empty: there is none */
     long counted;
     size_t component_count, velocity_count, parameter_count;

@@ -13,8 +13,16 @@ void gm_system_close(struct gm_user_system *system)
         free(system->variables[i].unit);
     }
     for (size_t i = 0; i < system->item_count; i++) {
-        free(system->items[i].name);
-        free(system->items[i].nodes);
+        struct gm_system_item *item = &system->items[i];
+        for (size_t k = 0; k < item->option_count; k++) {
+            free(item->options[k].text);
+            free(item->options[k].numbers);
+        }
+        free(item->options);
+        free(item->name);
+        free(item->words);
+        free(item->text);
+        free(item->nodes);
     }
     for (size_t i = 0; i < GM_WORDS; i++) {
         free(system->texts[i]);
@@ -70,6 +78,31 @@ const struct gm_system_item *gm_system_item_of(const struct gm_user_system *syst
         }
     }
     return NULL;
+}
+
+const struct gm_system_option *gm_system_option(const struct gm_system_item *item,
+                                                enum gm_system_option_word word)
+{
+    for (size_t i = 0; i < item->option_count; i++) {
+        if (item->options[i].word == word) {
+            return &item->options[i];
+        }
+    }
+    return NULL;
+}
+
+const char *gm_system_option_text(const struct gm_system_item *item, enum gm_system_option_word word,
+                                  const char *otherwise)
+{
+    const struct gm_system_option *option = gm_system_option(item, word);
+    return option ? option->text : otherwise;
+}
+
+double gm_system_option_number(const struct gm_system_item *item, enum gm_system_option_word word,
+                               double otherwise)
+{
+    const struct gm_system_option *option = gm_system_option(item, word);
+    return option ? option->numbers[0] : otherwise;
 }
 
 struct gm_naming gm_system_naming(const struct gm_user_system *system)

@@ -35,8 +35,8 @@ enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
 enum { GM_MOST_OF_MATRICES = 8 };
 
 /* A variable of the graph. Their numbers: the n components, t, the parameters, of a Lagrangian the n / 2
-   velocities, of a field x and u_x, of matrices x, of an evolution x, all u_x, all u_xx .. u_xxxx, and the n components at the
-   start, of which `exact` speaks. */
+   velocities, of a field x and u_x, of matrices x, of an evolution x, all u_x, all u_xx .. u_xxxx, the n components at the
+   start, x(0), and, of what moves in t alone, the n components of the exact solution, exact(x). */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* of a parameter; else NaN */
@@ -52,21 +52,44 @@ struct gm_system_variable {
     gm_node_id jump; /* of a component of matrices */
 };
 
-/* What a line with formulas says. */
+enum gm_system_option_word {
+#define GM_OPTION(constant, ...) GM_OPTION_##constant,
+#include "core/model/option_words.def"
+#undef GM_OPTION
+    GM_OPTIONS
+};
+
+/* An option of a line: its word, and what of text, formula and numbers follows that word. */
+struct gm_system_option {
+    enum gm_system_option_word word;
+    size_t place;
+    char *text;
+    gm_node_id node;
+    double *numbers;
+    size_t count;
+};
+
+/* What a line with formulas, or with options, says. */
 struct gm_system_item {
     enum gm_system_word word;
-    char *name;   /* of let, invariant, casimir, symmetry, observe; "" */
+    char *name; /* of let, invariant, casimir, symmetry, observe, graph, figure; the key of a stability; "" */
+    char *words; /* of figure, work, stability: key=value by blanks; NULL */
+    char *text;  /* of a text, also behind require, level and figure; NULL */
+    struct gm_system_option *options;
+    size_t option_count;
     size_t place; /* of the line's text */
     gm_node_id *nodes;
     size_t count;
-    double scale;           /* of an invariant; of compile the value of a parameter, and */
+    double value;           /* of compile: of a parameter, and */
     size_t variable;        /* its number */
     bool periodic;          /* a section at equal times: nodes[0] is the period */
+    bool in_section;        /* a level */
     enum gm_identity check; /* of invariants, Casimirs and symmetries */
 };
 /* nodes: of a section what becomes 0, the two that are shown, and what must be positive; of a symmetry the
    generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other; of a
-   surface its three half axes; of a mass the formula; of dt, until and steps the number, in parameters. */
+   surface its three half axes; of a mass the formula; of dt, until and steps the number, in parameters; of require
+   and level the formula first, and of every text then those in its braces, GM_NO_NODE for a key of the scene. */
 
 struct gm_user_system {
     enum gm_system_kind kind;
@@ -78,8 +101,8 @@ struct gm_user_system {
     size_t n;
     bool timed; /* t occurs in its equations */
     struct gm_system_variable *variables;
-    size_t variable_count, parameters, velocities,
-        initial;       /* where these begin; parameters end at velocities */
+    size_t variable_count, parameters, velocities, initial,
+        exact; /* where these begin; parameters end at velocities, `exact` is variable_count of fields */
     gm_node_id energy; /* H, L, V or S */
     /* Of the n components; of a Lagrangian those of the coordinates are missing, of a field the second is
        without u_xx, of matrices they are the derivatives of S. */
@@ -117,6 +140,30 @@ bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t co
 /* Item number `number` of those that a word made; NULL: there are fewer. */
 const struct gm_system_item *gm_system_item_of(const struct gm_user_system *system, enum gm_system_word word,
                                                size_t number);
+
+/* What lists call it: its name, or else its title; NULL: it has none. */
+static inline const char *gm_system_title(const struct gm_user_system *system)
+{
+    return system->texts[GM_WORD_NAME] ? system->texts[GM_WORD_NAME] : system->texts[GM_WORD_TITLE];
+}
+
+/* Whether an item's name is that of an observable, or of its error. */
+static inline bool gm_system_is_observed(const struct gm_system_item *item)
+{
+    return item->word == GM_WORD_OBSERVE || item->word == GM_WORD_INVARIANT ||
+           item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
+}
+
+/* An item's option; NULL: it has none of that word. */
+const struct gm_system_option *gm_system_option(const struct gm_system_item *item,
+                                                enum gm_system_option_word word);
+/* The text of that option, or of none `otherwise`. */
+const char *gm_system_option_text(const struct gm_system_item *item, enum gm_system_option_word word,
+                                  const char *otherwise);
+
+/* The first number of that option, or of none `otherwise`. */
+double gm_system_option_number(const struct gm_system_item *item, enum gm_system_option_word word,
+                               double otherwise);
 
 /* The names of variables and of lets. It holds as long as the system. */
 struct gm_naming gm_system_naming(const struct gm_user_system *system);

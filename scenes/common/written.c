@@ -49,6 +49,15 @@ bool gm_listed_word(const char **list, char *word, size_t size)
     return length > 0;
 }
 
+void gm_written_options(struct gm_observable *observable, const struct gm_system_item *item)
+{
+    observable->title = gm_system_option_text(item, GM_OPTION_TITLE, observable->title);
+    observable->unit = gm_system_option_text(item, GM_OPTION_UNIT, observable->unit);
+    observable->missing = gm_system_option_text(item, GM_OPTION_MISSING, observable->missing);
+    observable->period = gm_system_option(item, GM_OPTION_ANGLE) ? 2 * M_PI : 0;
+    observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);
+}
+
 bool gm_written_schemes(const char *text, const struct gm_problem *problem, const char **schemes, size_t most,
                         size_t *count, char *sentence)
 {

@@ -2,6 +2,7 @@
 #ifndef GM_SCENES_FRAME_WRITTEN_H
 #define GM_SCENES_FRAME_WRITTEN_H
 
+#include "core/model/system.h"
 #include "scenes/common/scene.h"
 
 /* What scenes that are made of somebody's own text have in common. */
@@ -21,6 +22,9 @@ char *gm_written_mark(const char *name, const char *text);
 /* The next word of a list by blanks or commas, cut off where it is longer than the room for it, and the list goes on
    behind it; false at its end, or of NULL. */
 bool gm_listed_word(const char **list, char *word, size_t size);
+
+/* What the options of a line of a system say of its observable: title, unit, angle, log, missing. */
+void gm_written_options(struct gm_observable *observable, const struct gm_system_item *item);
 
 /* The schemes that a text names, by blanks or commas, at most `most`; their number is *count, 0 where the
    text is NULL. False with a sentence where one is unknown or does not fit. */

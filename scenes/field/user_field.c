@@ -820,11 +820,13 @@ static bool make_observables(struct user_field *field, char *sentence)
                 return gm_refuse(sentence, "there are two observables %s", key);
             }
         }
-        field->observables[field->observable_count++] =
-            kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(key, integral, item->name, item->name,
-                                                            .least = item->scale, .terms = terms,
-                                                            .missing = infinite)
-                 : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
+        struct gm_observable *row = &field->observables[field->observable_count++];
+        *row = kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(
+                          key, integral, item->name, item->name,
+                          .least = gm_system_option_number(item, GM_OPTION_SCALE, 0), .terms = terms,
+                          .missing = infinite)
+                    : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
+        gm_written_options(row, item);
     }
     return true;
 }

@@ -24,9 +24,12 @@
 #include "scenes/ode/system/aim.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/failure.h"
+#include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/observed.h"
 #include "scenes/ode/system/pieces.h"
 #include "scenes/ode/system/sights.h"
+#include "scenes/ode/system/studies.h"
+#include "scenes/ode/system/texts.h"
 
 enum {
     DT,
@@ -147,7 +150,7 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
     if (!values) {
         return gm_refuse(sentence, "not enough memory");
     }
-    bool good = true;
+    bool good = gm_system_is_admitted(lane, values, sentence);
     for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
         const double value = values[system_scene->variables[row]];
         lane->values[row - GM_SYSTEM_ROWS] = value;
@@ -228,6 +231,10 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
         return false;
     }
     double *values = gm_system_start_values(lane, NULL);
+    if (values && !gm_system_is_admitted(lane, values, sentence)) {
+        free(values);
+        return false;
+    }
     const bool good = values && gm_user_problem_open(problem, &system_scene->model, values);
     free(values);
     if (!good) {
@@ -605,58 +612,6 @@ static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_p
     return true;
 }
 
-/* The map of stability: over the first parameter that can change, or over where the first component
-   starts. */
-static bool make_studies(struct gm_system_scene *system_scene)
-{
-    static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
-    static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
-    size_t row = GM_SYSTEM_ROWS;
-    while (row < system_scene->first_start &&
-           system_scene->rows[row].lowest == system_scene->rows[row].highest) {
-        row++;
-    }
-    const struct gm_parameter *parameter = &system_scene->rows[row];
-    const double usual = gm_parameter_get(parameter, system_scene->initial);
-    size_t count = 0;
-    for (size_t i = 0; i < GM_COUNT(factors); i++) {
-        const double value = usual != 0 ? usual * factors[usual > 0 ? i : GM_COUNT(factors) - 1 - i]
-                                        : fmin(1, parameter->highest) * (double)i / GM_COUNT(factors);
-        if (value >= parameter->lowest && value <= parameter->highest) {
-            system_scene->values[count++] = value;
-        }
-    }
-    const double until = gm_written_rounded(200 * system_scene->radian);
-    system_scene->stability = (struct gm_stability){
-        .arguments = gm_system_kept_text(system_scene, "until=%.17g", until),
-        .parameter = parameter->key,
-        .values = system_scene->values,
-        .value_count = count,
-        .label = "h ω",
-        .unit = radian_time,
-        .told =
-            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start, or "
-            "1 where none is found",
-        .steps = steps,
-        .step_count = GM_COUNT(steps),
-        .throughout = true,
-        .kept = system_scene->observable_count > 0 && system_scene->observables[0].kept
-                    ? system_scene->observables[0].key
-                    : NULL,
-        .error = system_scene->observable_count > 0 && system_scene->observables[0].kept
-                     ? system_scene->observables[0].key
-                     : NULL,
-    };
-    system_scene->work.arguments = gm_system_kept_text(
-        system_scene, "until=%.17g",
-        fmin(atof(system_scene->rows[UNTIL].standard), gm_written_rounded(20 * system_scene->radian)));
-    system_scene->work.coarsest = system_scene->radian;
-    system_scene->work.halvings = 8;
-    system_scene->scene.work = &system_scene->work;
-    system_scene->scene.stability = &system_scene->stability;
-    return system_scene->stability.arguments && system_scene->work.arguments;
-}
-
 /* What the file calls it, or its formula where that is short. */
 static const char *title_of(struct gm_system_scene *system_scene)
 {
@@ -664,8 +619,8 @@ static const char *title_of(struct gm_system_scene *system_scene)
     const struct gm_user_system *system = &system_scene->system;
     const bool rates = system->kind == GM_RATES;
     const struct gm_naming naming = gm_system_naming(system);
-    if (system->texts[GM_WORD_TITLE]) {
-        return system->texts[GM_WORD_TITLE];
+    if (gm_system_title(system)) {
+        return gm_system_title(system);
     }
     char text[4 * SHORT] = "";
     bool whole = true;
@@ -696,8 +651,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .name = name,
         .title = title_of(system_scene),
         .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A system of one’s own.",
+        .time = system->texts[GM_WORD_TIME] ? system->texts[GM_WORD_TIME] : "that of its equations",
         .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
-        .time = "that of its equations",
         .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
         .initial = system_scene->initial,
         .words = words,
@@ -723,9 +678,10 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
     system_scene->rows[MEMBERS].standard = members ? members : "1";
-    if (!make_timing(system_scene, sentence) ||
+    if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
         (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
-        !make_shows(system_scene) || !gm_system_open_surfaces(system_scene, sentence) ||
+        !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||
+        !gm_system_open_surfaces(system_scene, sentence) ||
         !setup(system_scene->initial, &problem, sentence)) {
         return false;
     }
@@ -738,10 +694,9 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     }
     const bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
                       gm_system_check_exact(system_scene, &problem, sentence) &&
-                      make_schemes(system_scene, &problem, sentence) && make_studies(system_scene);
+                      make_schemes(system_scene, &problem, sentence) &&
+                      gm_system_make_studies(system_scene, &problem, radian_time, sentence);
     gm_user_problem_close(&problem);
-    system_scene->scene.observables = system_scene->observables;
-    system_scene->scene.observable_count = system_scene->observable_count;
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
     system_scene->scene.asked = gm_ode_asked + skipped;
     system_scene->scene.asked_count = GM_ODE_ASKED - skipped;
@@ -786,6 +741,11 @@ void gm_system_scene_close(const struct gm_scene *scene)
     for (size_t i = 0; system_scene->terms && i < system_scene->observable_count; i++) {
         gm_tape_close(&system_scene->terms[i]);
     }
+    for (size_t i = 0; system_scene->of_items && i < system_scene->system.item_count; i++) {
+        gm_tape_close(&system_scene->of_items[i]);
+    }
+    free(system_scene->of_items);
+    free(system_scene->figures);
     struct gm_tape *const others[] = {&system_scene->where,     &system_scene->stop,
                                       &system_scene->exact,     &system_scene->timing[0],
                                       &system_scene->timing[1], &system_scene->timing[2]};

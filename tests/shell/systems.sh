@@ -103,10 +103,23 @@ misplaced '4:14: schemes: verlt is no scheme' 'schemes: rk4 verlt'
 misplaced '4:10: members: disk 3 is no whole number' 'members: disk 3'
 misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'
 misplaced '4:8: exact: x would begin at 2, and it starts at 1' 'exact: x = 2*x(0)*cos(t)'
+misplaced '4:17: observe: has no option "titel"; did you mean title' 'observe: r = x; titel y'
+misplaced '4:8: graph: far is no observable' 'graph: far; log'
+misplaced '4:24: work: far is no observable' 'work: until=1; measure far'
+misplaced '4:21: stability: k is no parameter' 'stability: until=1; k 1, 2'
+misplaced '4:8: level: t is not shown' 'level: t; grey'
 misplaced '3:8: p_x has no value at the start' '' 'x = 1'
 misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
 misplaced '4:14: there is no function log10; did you mean log(x)/log(10)' 'observe: r = log10(x)'
 misplaced '4:15: x(t...) is x at another time: delays are not known' 'observe: r = x(t - 17)/2'
+# a start that is not admitted is refused with the file's own sentence, and one that is admitted runs
+printf 'name: A pit\ntitle: A pit of {k}\ncoordinates: x\nparameter: k = 2\nH: p_x^2/2 + k*x^2/2\nstart: x = 1, p_x = 0\n' >pit.system
+printf 'require: k - x^2; x=%s is outside of a pit of {k:/}\nobserve: r = x; while x; missing x is below 0\n' '{x}' >>pit.system
+refused 1 'x=-1.5 is outside of a pit of 2' run ./pit.system x=-1.5
+status 0 run ./pit.system x=-1.25 steps=0 --json
+grep -qF '"r":null' out && grep -qF '"r":"x is below 0"' out || fail "a condition that does not hold: $(cat out)"
+status 0 list ./pit.system --json
+grep -qF '"title":"A pit"' out || fail "the name of a list: $(cat out)"
 # the derivative's own notation, and a force where a scheme needs an energy alone
 printf "x' = -x\nstart: x = 1\n" >prime.system
 refused 1 "prime.system:1:1: x' = -x is written rate: x = -x" run ./prime.system

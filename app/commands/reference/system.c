@@ -208,11 +208,11 @@ static gm_node_id kept_node(const struct gm_user_system *system, const struct gm
 static void print_texts(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
-    static const enum gm_system_word order[] = {GM_WORD_TITLE, GM_WORD_ABOUT, GM_WORD_WATCH,
-                                                GM_WORD_REFERENCE};
-    for (size_t i = 0; i < GM_COUNT(order); i++) {
-        if (system->texts[order[i]]) {
-            gm_print_wrapped(system->texts[order[i]], 0, 0);
+    const char *const texts[] = {gm_system_title(system), system->texts[GM_WORD_ABOUT],
+                                 system->texts[GM_WORD_WATCH], system->texts[GM_WORD_REFERENCE]};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        if (texts[i]) {
+            gm_print_wrapped(texts[i], 0, 0);
         }
     }
     char line[200];
@@ -514,7 +514,7 @@ static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
     printf("{");
-    gm_json_pair("title", system->texts[GM_WORD_TITLE] ? system->texts[GM_WORD_TITLE] : "");
+    gm_json_pair("title", gm_system_title(system) ? gm_system_title(system) : "");
     printf(",");
     gm_json_pair("kind", kinds[system->kind]);
     printf(",\"timed\":%s", system->timed ? "true" : "false");

@@ -104,7 +104,7 @@ static bool open_rates(struct gm_user_model *model, struct gm_user_system *syste
         }
         struct gm_user_rates *rates = &model->rates[model->rate_count++];
         rates->parameter = item ? item->variable : SIZE_MAX;
-        rates->value = item ? item->scale : 0;
+        rates->value = item ? item->value : 0;
         rates->nodes = malloc((n + 1) * sizeof *rates->nodes);
         if (!rates->nodes) {
             return false;

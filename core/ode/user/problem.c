@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/model/equations.h"
+#include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/user/kernel.h"
@@ -238,8 +239,37 @@ static struct gm_late_tape late_tape(const struct own *self, const gm_node_id *n
                                  .values = self->values};
 }
 
+static void kepler_solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
+{
+    (void)problem;
+    for (size_t i = 0; i < m; i++) {
+        double one[4] = {y0[i], y0[m + i], y0[2 * m + i], y0[3 * m + i]};
+        const bool found = gm_kepler_flow(t, one);
+        for (size_t c = 0; c < 4; c++) {
+            y[c * m + i] = found ? one[c] : NAN;
+        }
+    }
+}
+
+/* Whether the forces at two nodes vanish wherever a system is, with these values of its parameters. */
+static bool vanish(const struct gm_user_system *system, const gm_node_id nodes[2], const double *values)
+{
+    double *fixed = malloc(system->variable_count * sizeof *fixed);
+    bool zero = fixed != NULL;
+    for (size_t i = 0; zero && i < system->variable_count; i++) {
+        fixed[i] = i >= system->parameters && i < system->velocities ? values[i] : NAN;
+    }
+    for (int k = 0; k < 2 && zero; k++) {
+        const enum gm_identity identity =
+            gm_identity_of(&system->graph, nodes[k], fixed, system->variable_count);
+        zero = identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED;
+    }
+    free(fixed);
+    return zero;
+}
+
 /* The facets of H = |p|^2/2 + V(q). False: out of memory. */
-static bool open_mechanical(struct own *self, const double *values)
+static bool open_mechanical(struct own *self, struct gm_problem *problem, const double *values)
 {
     const struct gm_user_model *model = self->model;
     const struct gm_formula *graph = &model->system->graph;
@@ -270,6 +300,8 @@ static bool open_mechanical(struct own *self, const double *values)
         self->kepler_split =
             (struct gm_kepler_split){.potential = attraction, .perturbing_force = perturbing_force};
         self->ode.kepler_split = &self->kepler_split;
+        static const struct gm_exact kepler = {.solution = kepler_solution};
+        problem->exact = vanish(model->system, nodes + 1, values) ? &kepler : NULL;
     }
     if (gm_user_model_holds(model, values, GM_FACT_LAGRANGIAN)) {
         good =
@@ -487,7 +519,7 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         self->ode.volume = &self->volume;
     }
     self->interpreted = self->loops;
-    if (!open_tapes(self, values) || !open_mechanical(self, values) || !open_action(self, values) ||
+    if (!open_tapes(self, values) || !open_mechanical(self, problem, values) || !open_action(self, values) ||
         !open_monitor(self, values) || !open_poisson(self, problem, values)) {
         return false;
     }

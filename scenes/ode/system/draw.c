@@ -9,7 +9,8 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/ode/system/draw.h"
-#include "scenes/ode/system/space.h"
+#include "scenes/ode/system/levels.h"
+#include "scenes/ode/system/texts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 
@@ -160,6 +161,9 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sig
     for (size_t member = 0; member < m; member += stride) {
         gm_system_values(&sight->tape, &view, m - 1 - member, numbers);
         hold(&range, numbers, gm_sight_numbers(sight) / dimensions, dimensions);
+    }
+    if (dimensions == 2) {
+        gm_system_hold_levels(lane, sight, &range);
     }
     return range;
 }
@@ -452,6 +456,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
+    const struct gm_lane *leader = NULL; /* the first of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
@@ -471,6 +476,10 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                 set_plane(picture, panel, sight, &range);
             }
         }
+        if (sight->dimensions == 2 && (walk.first || !is_same(walk.lane, leader))) {
+            gm_system_draw_levels(picture, panel, walk.lane, sight);
+        }
+        leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
             gm_system_draw_in_space(picture, panel, &space, walk.lane);
         } else {
@@ -489,6 +498,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
     for (size_t i = 0; i < count; i++) {
         const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
         hold(&range, crossings->values, crossings->count, 2);
+        gm_system_hold_levels(lanes[i], sight, &range);
     }
     for (size_t k = 0; k < 2; k++) {
         const bool empty = range.low[k] > range.high[k];
@@ -496,6 +506,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
                  empty ? -1 : range.low[k], empty ? 1 : range.high[k]);
     }
     panel->axes = true;
+    panel->equal = gm_system_has_level(own_of(lanes[0])->owner, sight) && is_equal(sight, panel);
 }
 
 static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
@@ -522,6 +533,7 @@ static void draw_section(struct gm_picture *picture, const struct gm_lane *const
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, section_title(lanes[0]));
     panel->title_role = GM_INK;
     set_section(picture, panel, lanes, count);
+    gm_system_draw_levels(picture, panel, lanes[0], &own_of(lanes[0])->owner->section);
     for (size_t i = 0; i < count; i++) {
         draw_crossings(picture, panel, lanes[i]);
     }
@@ -535,16 +547,50 @@ static void draw_sections(struct gm_picture *picture, const struct gm_lane *cons
             panel = gm_walk_panel(picture, &walk, "");
             panel->title = typeset_name(picture, panel->title);
             set_section(picture, panel, lanes, count);
+            gm_system_draw_levels(picture, panel, walk.lane, &own_of(walk.lane)->owner->section);
         }
         draw_crossings(picture, panel, walk.lane);
     }
 }
 
-/* What is kept first, then what is observed. */
+/* The graph of an observable; `item` is its line graph:, NULL: there is none. */
+static void draw_number(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        const struct gm_observable *observable, const struct gm_system_item *item)
+{
+    const bool log = observable->error || observable->logarithmic;
+    struct gm_graph graph = {
+        .observable = observable->key, .scale = log ? GM_LOG : GM_LINEAR, .highest = log};
+    graph.title = log ? NULL : typeset(picture, observable->title);
+    graph.calm_low = log ? 1e-8 : 0;
+    graph.calm_high = log ? 1e-4 : 0;
+    if (item) {
+        const struct gm_system_option *range = gm_system_option(item, GM_OPTION_RANGE);
+        const bool unit = !observable->error && observable->unit[0];
+        graph.title =
+            unit ? gm_picture_text(picture, "%s, %s", observable->title, observable->unit) : graph.title;
+        graph.title = gm_system_option_text(item, GM_OPTION_TITLE, graph.title);
+        graph.scale = gm_system_option(item, GM_OPTION_LOG) ? GM_LOG : GM_LINEAR;
+        graph.highest = gm_system_option(item, GM_OPTION_HIGHEST) != NULL;
+        graph.relative = gm_system_option(item, GM_OPTION_RELATIVE) != NULL;
+        graph.magnitude = gm_system_option(item, GM_OPTION_MAGNITUDE) != NULL;
+        graph.calm_low = range ? range->numbers[0] : 0;
+        graph.calm_high = range ? range->numbers[1] : 0;
+    }
+    gm_draw_graphs(picture, lanes, count, &graph, 1);
+}
+
+/* What the file's lines graph: name, or else what is kept first, then what is observed. */
 static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                          size_t most)
 {
     const struct gm_scene *scene = lanes[0]->scene;
+    const struct gm_user_system *system = &own_of(lanes[0])->owner->system;
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_GRAPH, i)); i++) {
+        const int series = gm_scene_observable(scene, item->name);
+        draw_number(picture, lanes, count, gm_scene_observable_at(scene, (size_t)series), item);
+        most = 0;
+    }
     const bool disc = lanes[0]->problem.m > 3 && own_of(lanes[0])->shape == GM_SHAPE_DISC;
     for (int kept = 1; kept >= 0; kept--) {
         for (size_t i = 0; i < scene->observable_count && most > 0; i++) {
@@ -554,13 +600,7 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
             if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings) {
                 continue;
             }
-            const bool log = observable->error || observable->logarithmic;
-            struct gm_graph graph = {
-                .observable = observable->key, .scale = log ? GM_LOG : GM_LINEAR, .highest = log};
-            graph.title = log ? NULL : typeset(picture, observable->title);
-            graph.calm_low = log ? 1e-8 : 0;
-            graph.calm_high = log ? 1e-4 : 0;
-            gm_draw_graphs(picture, lanes, count, &graph, 1);
+            draw_number(picture, lanes, count, observable, NULL);
             most--;
         }
     }
@@ -608,16 +648,23 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     for (size_t i = 1; i < count; i++) {
         one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
     }
-    picture->title = gm_picture_text(picture, "%s, by %s",
-                                     system_scene->system.texts[GM_WORD_TITLE]
-                                         ? system_scene->scene.title
-                                         : typeset(picture, system_scene->scene.title),
-                                     one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
-    picture->subtitle = told(picture, lanes, count);
-    picture->caption = system_scene->scene.watch;
+    const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
+    const char *name = gm_system_title(&system_scene->system) ? system_scene->scene.title
+                                                              : typeset(picture, system_scene->scene.title);
+    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, name);
+    if (!gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
+        picture->title =
+            gm_picture_text(picture, "%s, by %s", picture->title,
+                            one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
+    }
+    picture->subtitle = gm_picture_text(
+        picture, "%s%s",
+        gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, told(picture, lanes, count)),
+        gm_system_level_text(picture, lanes, count));
+    picture->caption =
+        gm_system_shown_text(picture, lanes, count, GM_WORD_CAPTION, system_scene->scene.watch);
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
-    const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
     if (only_section) {
         draw_sections(picture, lanes, count);
     } else {

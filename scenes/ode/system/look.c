@@ -44,11 +44,48 @@ const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
                                      : show - pairs + (system_scene->sight_count - system_scene->pair_count)];
 }
 
-void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
+/* The exact solution now: as the file says, or as the problem knows it. */
+static void put_exact(const struct gm_view *view, double *variables)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const size_t n = system_scene->system.n;
+    const struct gm_exact *known = view->problem->exact;
+    double *exact = variables + system_scene->system.exact;
+    if (system_scene->exact.outputs > 0) {
+        gm_tape_values(&system_scene->exact, variables, exact, 1);
+        for (size_t i = 0; i < n; i++) {
+            exact[i] = system_scene->system.variables[i].exact == GM_NO_NODE ? NAN : exact[i];
+        }
+    } else if (known) {
+        known->solution(view->problem, variables[n] - view->t0, variables + system_scene->system.initial,
+                        exact, 1);
+    }
+}
+
+void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables)
 {
     const struct gm_system_lane *lane = view->parameters;
     const struct gm_user_system *system = &lane->owner->system;
     const size_t m = view->problem->m;
+    for (size_t i = 0; i < system->variable_count; i++) {
+        variables[i] = NAN;
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        variables[i] = view->state[i * m + member];
+        variables[system->initial + i] = view->start[i * m + member];
+    }
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
+        variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    }
+    variables[system->n] = view->t;
+    if (exact) {
+        put_exact(view, variables);
+    }
+}
+
+void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
     enum {
         FEW = 256
     }; /* after every step of a run that is looked at: nothing is allocated for a small one */
@@ -56,18 +93,8 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
     if (system->variable_count > FEW) {
         variables = many = malloc(system->variable_count * sizeof *many);
     }
-    for (size_t i = 0; variables && i < system->variable_count; i++) {
-        variables[i] = NAN;
-    }
-    for (size_t i = 0; variables && i < system->n; i++) {
-        variables[i] = view->state[i * m + member];
-        variables[system->initial + i] = view->start[i * m + member];
-    }
-    for (size_t row = GM_SYSTEM_ROWS; variables && row < lane->owner->first_start; row++) {
-        variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
     if (variables) {
-        variables[system->n] = view->t;
+        gm_system_variables(view, member, tape->last_used > system->exact, variables);
         gm_tape_values(tape, variables, values, 1);
     }
     for (size_t i = 0; !variables && i < tape->outputs; i++) {
@@ -81,6 +108,25 @@ static void fill(double *row, double value, size_t count)
     for (size_t k = 0; k < count; k++) {
         row[k] = value;
     }
+}
+
+/* The exact solution of `count` states beside each other, whose other variables are set. */
+static void put_all_exact(const struct gm_view *view, double *variables, size_t count)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
+    double *one = malloc(system->variable_count * sizeof *one);
+    for (size_t k = 0; k < count; k++) {
+        for (size_t i = 0; one && i < system->variable_count; i++) {
+            one[i] = i < system->exact ? variables[i * count + k] : NAN;
+        }
+        if (one) {
+            put_exact(view, one);
+        }
+        for (size_t i = system->exact; i < system->variable_count; i++) {
+            variables[i * count + k] = one ? one[i] : NAN;
+        }
+    }
+    free(one);
 }
 
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
@@ -101,6 +147,9 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     }
     for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
         fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+    }
+    if (tape->last_used > system->exact) {
+        put_all_exact(view, variables, count);
     }
     gm_tape_values(tape, variables, values, count);
     free(variables);

@@ -48,12 +48,15 @@ struct gm_system_scene {
     size_t conditions;
     bool has_section, stroboscopic, turns; /* what becomes 0 is an angle */
     struct gm_tape stop, exact, timing[3];
-    struct gm_tape surfaces; /* half axes at the start, three of each */
-    size_t disc[2];          /* the components that members differ in */
-    double radian;           /* 1 / the largest frequency at the start */
+    struct gm_tape surfaces;  /* half axes at the start, three of each */
+    struct gm_tape *of_items; /* of each of the system's items that is a text, a requirement or a level */
+    size_t disc[2];           /* the components that members differ in */
+    double radian;            /* 1 / the largest frequency at the start */
+    struct gm_figure *figures;
     struct gm_work work;
     struct gm_stability stability;
     double values[5];
+    const char *work_schemes[GM_MOST_PREFERRED + 1], *stability_schemes[GM_MOST_PREFERRED + 1];
     const char *schemes[GM_MOST_PREFERRED + 1];
     struct gm_kept_texts texts;
     struct gm_system_lane *initial;
@@ -73,6 +76,9 @@ struct gm_system_lane {
 /* The scene that a view is of. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
 
+/* The values of all variables for one member of a view's state; velocities are NaN, and so is the exact solution, if it
+   is not asked for or not known. */
+void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
 /* The values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */

@@ -24,10 +24,14 @@ static double value_of(const struct gm_tape *tape, const struct gm_view *view)
     return value;
 }
 
+/* Its formula, while its condition holds, if it has one. */
 static double observed(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    return value_of(&system_scene->formulas[view->observable - system_scene->observables], view);
+    double values[2] = {0, 1};
+    gm_system_values(&system_scene->formulas[view->observable - system_scene->observables], view,
+                     view->problem->m - 1, values);
+    return values[1] > 0 ? values[0] : NAN;
 }
 
 static double terms(const struct gm_view *view)
@@ -226,14 +230,17 @@ static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
     return found;
 }
 
-static bool add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node)
+/* An observable that is node `node` while node `condition` is above 0; GM_NO_NODE: a function of its own, always. */
+static bool add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node,
+                           gm_node_id condition)
 {
     const size_t i = system_scene->observable_count;
+    const gm_node_id nodes[2] = {node, condition};
     system_scene->observables[i] = row;
     system_scene->observable_count++;
-    bool good =
-        row.key && row.title &&
-        (node == GM_NO_NODE || gm_system_open_tape(system_scene, &system_scene->formulas[i], &node, 1));
+    bool good = row.key && row.title &&
+                (node == GM_NO_NODE || gm_system_open_tape(system_scene, &system_scene->formulas[i], nodes,
+                                                           condition == GM_NO_NODE ? 1 : 2));
     if (good && row.error && node != GM_NO_NODE) {
         const gm_node_id sizes = sizes_of(&system_scene->system.graph, node);
         system_scene->observables[i].terms = terms;
@@ -294,7 +301,20 @@ static bool add_energy(struct gm_system_scene *system_scene, const struct gm_pro
         energy.evaluate = legendre_energy;
         energy.terms = kept ? legendre_terms : NULL;
     }
-    return add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy);
+    return add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy, GM_NO_NODE);
+}
+
+/* What a formula calls an invariant: by a short name, its own or that of the let that it is. */
+static const char *symbol_of(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                             const char *name)
+{
+    enum { SHORT = 2 };
+    const struct gm_naming naming = gm_system_naming(&system_scene->system);
+    const char *part = item->word == GM_WORD_SYMMETRY ? NULL : naming.part(item->nodes[0], naming.data);
+    if (strlen(name) <= SHORT) {
+        return name;
+    }
+    return part && strlen(part) <= SHORT ? part : "I";
 }
 
 /* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
@@ -308,13 +328,29 @@ static bool add_invariant(struct gm_system_scene *system_scene, const struct gm_
     if (!name) {
         return false;
     }
-    const double scale = symmetry ? momentum_scale(system_scene, item) : item->scale;
+    const double scale =
+        symmetry ? momentum_scale(system_scene, item) : gm_system_option_number(item, GM_OPTION_SCALE, 0);
     struct gm_observable row = GM_KEPT_OBSERVABLE(
-        gm_system_kept_text(system_scene, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
+        gm_system_kept_text(system_scene, "%s_error", name), observed, symbol_of(system_scene, item, name),
         spaced(system_scene, gm_system_kept_text(system_scene, "%s error", name)), .least = scale,
         .scale_text = scale > 0 ? gm_system_kept_text(system_scene, "%.3g", scale) : NULL);
+    gm_written_options(&row, item);
     row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
-    return add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0]);
+    return add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0],
+                          GM_NO_NODE);
+}
+
+enum { FOLLOWED = 64 };
+
+static bool add_observed(struct gm_system_scene *system_scene, const struct gm_system_item *item)
+{
+    struct gm_observable row = GM_OBSERVABLE(item->name, observed, item->name);
+    const struct gm_system_option *condition = gm_system_option(item, GM_OPTION_WHILE);
+    gm_written_options(&row, item);
+    if (row.period > 0 && system_scene->scene.follow == 0) {
+        system_scene->scene.follow = FOLLOWED; /* so that an angle is seen in every part of a turn */
+    }
+    return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
 }
 
 /* What the file names: observe:, invariant:, casimir:, symmetry:. */
@@ -327,9 +363,7 @@ static bool add_named(struct gm_system_scene *system_scene)
         const struct gm_system_item *item = &system->items[i];
         switch (item->word) {
         case GM_WORD_OBSERVE:
-            good = add_observable(system_scene,
-                                  (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
-                                  item->nodes[0]);
+            good = add_observed(system_scene, item);
             break;
         case GM_WORD_SYMMETRY:
             nameless += !item->name[0];
@@ -352,11 +386,11 @@ static bool add_defects(struct gm_system_scene *system_scene, const struct gm_pr
            (add_observable(system_scene,
                            (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
                                                                    "the largest |g|"),
-                           GM_NO_NODE) &&
+                           GM_NO_NODE, GM_NO_NODE) &&
             add_observable(system_scene,
                            (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
                                                                    "the largest |dg/dt|"),
-                           GM_NO_NODE));
+                           GM_NO_NODE, GM_NO_NODE));
 }
 
 /* The distance from exact:, of the components that it tells. */
@@ -376,7 +410,7 @@ static bool add_solution_error(struct gm_system_scene *system_scene)
                add_observable(system_scene,
                               (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", solution_error,
                                                                       "distance from the exact solution"),
-                              GM_NO_NODE);
+                              GM_NO_NODE, GM_NO_NODE);
         system_scene->work.measure = "solution_error";
     }
     free(exact);
@@ -391,12 +425,12 @@ static bool add_area(struct gm_system_scene *system_scene)
            (add_observable(system_scene,
                            (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
                                                                .why = why_no_area),
-                           GM_NO_NODE) &&
+                           GM_NO_NODE, GM_NO_NODE) &&
             (system->kind > GM_LAGRANGIAN || is_forced(system) ||
              add_observable(system_scene,
                             (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
                                                                      .why = why_no_area),
-                            GM_NO_NODE)));
+                            GM_NO_NODE, GM_NO_NODE)));
 }
 
 /* Says which line makes a second observable of that name; false. */
@@ -406,7 +440,8 @@ static bool refuse_twice(const struct gm_system_scene *system_scene, const char 
         const struct gm_system_item *item = &system_scene->system.items[i];
         const size_t length = item->name ? strlen(item->name) : 0;
         const char *ending = item->word == GM_WORD_OBSERVE ? "" : "_error";
-        if (length > 0 && strncmp(key, item->name, length) == 0 && strcmp(key + length, ending) == 0) {
+        if (gm_system_is_observed(item) && length > 0 && strncmp(key, item->name, length) == 0 &&
+            strcmp(key + length, ending) == 0) {
             return gm_refuse(sentence, "%s: %s makes two observables %s", gm_system_words[item->word].word,
                              item->name, key);
         }
@@ -425,6 +460,8 @@ bool gm_system_make_observables(struct gm_system_scene *system_scene, const stru
                 add_energy(system_scene, problem) && add_named(system_scene) &&
                 add_defects(system_scene, problem) && add_solution_error(system_scene) &&
                 add_area(system_scene);
+    system_scene->scene.observables = system_scene->observables;
+    system_scene->scene.observable_count = system_scene->observable_count;
     for (size_t i = 0; i < system_scene->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
             const char *key = system_scene->observables[i].key, *other = system_scene->observables[k].key;

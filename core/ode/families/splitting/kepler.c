@@ -11,6 +11,8 @@
        p1 = f' q + g' p,   f' = -G1/(r r0),     g' = 1 - G2/r
    K. Stumpff (1956); J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9. The memory is the
    perturbing force at the end of the step, which the next one begins with. */
+#include "core/ode/families/splitting/kepler.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -47,7 +49,7 @@ static void stumpff(double alpha, double s, double G[4])
 /* The root s by Newton's method, kept between bounds that enclose it. */
 static bool solve_universal(double h, double r0, double slope, double alpha, double G[4])
 {
-    enum { ITERATIONS = 200 };
+    enum { ITERATIONS = 200, NEWTON = 50 };
     double low = -INFINITY, high = INFINITY, s = h / r0, previous = INFINITY;
     for (int i = 0; i < ITERATIONS; i++) {
         stumpff(alpha, s, G);
@@ -59,7 +61,7 @@ static bool solve_universal(double h, double r0, double slope, double alpha, dou
             low = fmax(low, s);
         }
         double next = s - excess / r;
-        if (!(next >= low && next <= high)) {
+        if (!(next >= low && next <= high) || i > NEWTON) { /* the ends may lead to each other */
             next = isfinite(low) && isfinite(high) ? (low + high) / 2
                    : excess > 0                    ? s - 1 - fabs(s)
                                                    : s + 1 + fabs(s);
@@ -74,7 +76,7 @@ static bool solve_universal(double h, double r0, double slope, double alpha, dou
     return false;
 }
 
-static bool kepler_flow(double h, double y[4])
+bool gm_kepler_flow(double h, double y[4])
 {
     const double r0 = hypot(y[0], y[1]), slope = y[0] * y[2] + y[1] * y[3];
     const double alpha = 2 / r0 - (y[2] * y[2] + y[3] * y[3]);
@@ -105,7 +107,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     for (int c = 0; c < 2; c++) {
         y[2 + c] += task->dt / 2 * force[c];
     }
-    if (!kepler_flow(task->dt, y)) {
+    if (!gm_kepler_flow(task->dt, y)) {
         progress->unsolved.obstacle = GM_NOT_FINITE;
         return GM_NO_CONVERGENCE;
     }

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The options of a line, and texts with values in them. */
+#include "core/model/options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/nearest.h"
+
+enum {
+    OBSERVE = 1 << 0,
+    INVARIANT = 1 << 1,
+    GRAPH = 1 << 2,
+    LEVEL = 1 << 3,
+    WORK = 1 << 4,
+    STABILITY = 1 << 5
+};
+
+static const struct row {
+    const char *word;
+    enum { NOTHING, TEXT, NUMBER, NUMBERS, RANGE, FORMULA, NAMED_FORMULA } follows;
+    unsigned lines;
+} rows[GM_OPTIONS] = {
+#define GM_OPTION(constant, word, follows, lines) {word, follows, lines},
+#include "core/model/option_words.def"
+#undef GM_OPTION
+};
+
+static unsigned lines_of(enum gm_system_word word)
+{
+    switch (word) {
+    case GM_WORD_OBSERVE:
+        return OBSERVE;
+    case GM_WORD_INVARIANT:
+    case GM_WORD_CASIMIR:
+        return INVARIANT;
+    case GM_WORD_GRAPH:
+        return GRAPH;
+    case GM_WORD_LEVEL:
+        return LEVEL;
+    case GM_WORD_WORK:
+        return WORK;
+    default:
+        return STABILITY;
+    }
+}
+
+static const char *row_word(size_t i, const void *lines)
+{
+    return rows[i].lines & *(const unsigned *)lines ? rows[i].word : ""; /* no proposal */
+}
+
+/* The row of a line's option whose word has these letters; GM_OPTIONS: there is none. */
+static size_t find_row(unsigned lines, const char *word, size_t letters)
+{
+    size_t row = 0;
+    while (row < GM_OPTIONS && (!(rows[row].lines & lines) || strlen(rows[row].word) != letters ||
+                                memcmp(rows[row].word, word, letters) != 0)) {
+        row++;
+    }
+    return row;
+}
+
+static bool add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+{
+    double number;
+    if (!gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers) ||
+        !gm_reading_number(reading, span, &number)) {
+        return false;
+    }
+    option->numbers[option->count++] = number;
+    return isfinite(number) || gm_fail_first(&reading->fault, span.begin, "this is no finite number");
+}
+
+static bool add_numbers(struct gm_reading *reading, struct gm_system_option *option, struct gm_span rest)
+{
+    struct gm_span piece;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        add_number(reading, option, piece);
+    }
+    return !reading->fault.failed;
+}
+
+/* The word that stands for the list that a system without such a line has. */
+static bool is_usual(const struct gm_reading *reading, struct gm_span value)
+{
+    return value.end - value.begin == 5 && memcmp(reading->text + value.begin, "usual", 5) == 0;
+}
+
+/* low .. high */
+static bool add_range(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+{
+    const size_t dots = gm_span_until(reading->text, span, "..");
+    if (dots == span.end) {
+        return gm_fail_first(&reading->fault, span.begin, "a range was expected, low .. high");
+    }
+    return add_number(reading, option, (struct gm_span){span.begin, dots}) &&
+           add_number(reading, option, (struct gm_span){dots + 2, span.end}) &&
+           (option->numbers[0] < option->numbers[1] ||
+            gm_fail_first(&reading->fault, span.begin, "a range's lower end comes first"));
+}
+
+/* F, or F = NAME */
+static bool add_formula(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span,
+                        bool named)
+{
+    const size_t equals = named ? gm_span_until(reading->text, span, "=") : span.end;
+    const struct gm_span name =
+        gm_span_trimmed(reading->text, (struct gm_span){equals < span.end ? equals + 1 : equals, span.end});
+    if (named && name.begin == name.end) {
+        return gm_fail_first(&reading->fault, span.begin, "a unit has a name: unit 2*pi = h / T");
+    }
+    option->text = named ? gm_reading_text(reading, name) : NULL;
+    return gm_reading_formula(reading, gm_span_trimmed(reading->text, (struct gm_span){span.begin, equals}),
+                              &option->node);
+}
+
+static bool read_value(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
+{
+    switch (rows[option->word].follows) {
+    case NOTHING:
+        return true;
+    case TEXT:
+        return (option->text = gm_reading_text(reading, value)) != NULL;
+    case NUMBER:
+        return add_number(reading, option, value);
+    case NUMBERS:
+        return is_usual(reading, value) || add_numbers(reading, option, value);
+    case RANGE:
+        return add_range(reading, option, value);
+    case FORMULA:
+    case NAMED_FORMULA:
+        return add_formula(reading, option, value, rows[option->word].follows == NAMED_FORMULA);
+    }
+    return true;
+}
+
+static bool read_option(struct gm_reading *reading, struct gm_system_item *item, struct gm_span piece)
+{
+    const unsigned lines = lines_of(item->word);
+    const char *text = reading->text + piece.begin;
+    size_t letters = 0;
+    while (piece.begin + letters < piece.end && !strchr(" \t\r\n", text[letters])) {
+        letters++;
+    }
+    const struct gm_span value =
+        gm_span_trimmed(reading->text, (struct gm_span){piece.begin + letters, piece.end});
+    const bool some = value.begin < value.end;
+    size_t row = find_row(lines, text, letters);
+    const bool is_range = row == GM_OPTIONS && gm_span_until(reading->text, piece, "..") < piece.end;
+    if (row == GM_OPTION_WHILE && gm_system_is_field(reading->system)) {
+        row = GM_OPTIONS; /* an integral holds always */
+    }
+    row = is_range ? find_row(lines, "range", 5) : row;
+    if (row == GM_OPTIONS && lines == STABILITY && !item->name[0] && some) { /* KEY and its values */
+        free(item->name);
+        item->name = gm_reading_text(reading, (struct gm_span){piece.begin, piece.begin + letters});
+        row = GM_OPTION_VALUES;
+    }
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)(letters < 60 ? letters : 60), text);
+    if (row == GM_OPTIONS) {
+        const char *near = gm_nearest(word, GM_OPTIONS, row_word, &lines);
+        return gm_fail_first(&reading->fault, piece.begin, "%s: has no option \"%s\"%s%s",
+                             gm_system_words[item->word].word, word, near ? "; did you mean " : "",
+                             near ? near : "");
+    }
+    if (gm_system_option(item, (enum gm_system_option_word)row)) {
+        return gm_fail_first(&reading->fault, piece.begin, "%s is said twice", word);
+    }
+    if (!is_range && some != (rows[row].follows != NOTHING)) {
+        return gm_fail_first(&reading->fault, some ? value.begin : piece.begin,
+                             some ? "nothing follows the option %s" : "the option %s needs a value", word);
+    }
+    if (!item->name ||
+        !gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options)) {
+        return false;
+    }
+    struct gm_system_option *option = &item->options[item->option_count++];
+    *option = (struct gm_system_option){
+        .word = (enum gm_system_option_word)row, .place = piece.begin, .node = GM_NO_NODE};
+    return read_value(reading, option, is_range ? piece : value);
+}
+
+bool gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
+{
+    struct gm_span piece;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ";", &piece)) {
+        read_option(reading, item, piece);
+    }
+    return !reading->fault.failed;
+}
+
+/* FORMULA or FORMULA:format, between braces */
+static bool read_braces(struct gm_reading *reading, struct gm_system_item *item, struct gm_span inside)
+{
+    static const char *const formats[] = {"pi", "/", "nonzero"};
+    const size_t colon = gm_span_until(reading->text, inside, ":");
+    const struct gm_span formula = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, colon}),
+                         format = {colon < inside.end ? colon + 1 : colon, inside.end};
+    const size_t letters = format.end - format.begin;
+    bool known = letters == 0;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        known |=
+            strlen(formats[i]) == letters && memcmp(formats[i], reading->text + format.begin, letters) == 0;
+    }
+    if (!known) {
+        return gm_fail_first(&reading->fault, format.begin,
+                             "a value is written as {x}, {x:pi}, {x:/} or {x:nonzero}");
+    }
+    const char *name = reading->text + formula.begin;
+    const size_t length = formula.end - formula.begin;
+    const bool is_key = gm_reading_reserves(name, length) && !gm_formula_reserves(name, length) &&
+                        !gm_reading_entry(reading, name, length, false, 0);
+    gm_node_id node = GM_NO_NODE;
+    reading->initial = reading->exact = true;
+    const bool good = is_key || gm_reading_formula(reading, formula, &node);
+    reading->initial = reading->exact = false;
+    if (!good) {
+        return false;
+    }
+    if (!gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes)) {
+        return false;
+    }
+    item->nodes[item->count++] = node;
+    return true;
+}
+
+bool gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
+{
+    item->text = gm_reading_text(reading, span);
+    bool comment = false;
+    for (size_t at = span.begin; at < span.end && !reading->fault.failed; at++) {
+        const char c = reading->text[at];
+        comment = c != '\n' && (comment || c == '#');
+        const char *close = c == '{' ? memchr(reading->text + at, '}', span.end - at) : NULL;
+        if (comment || (c != '{' && c != '}')) {
+            continue;
+        }
+        if (!close) {
+            return gm_fail_first(&reading->fault, at, "this brace has no counterpart");
+        }
+        const size_t end = (size_t)(close - reading->text);
+        read_braces(reading, item, (struct gm_span){at + 1, end});
+        at = end;
+    }
+    return item->text && !reading->fault.failed;
+}

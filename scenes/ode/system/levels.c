@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Curves F = 0 of the values that F has at the corners of a grid. The range of a curve is that of its closed part around
+   the start: cells that hold the curve are followed from the start's cell on, or, if the start lies inside, cells of
+   one sign up to them. */
+#include "scenes/ode/system/levels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/common/graph.h"
+#include "scenes/ode/system/pieces.h"
+
+enum {
+    SOUGHT =
+        63, /* cells a side while the range is sought: odd, so that its middle is in the midst of a cell */
+    DRAWN = 120,
+    DOUBLINGS = 12
+};
+
+struct box {
+    double low[2], high[2];
+};
+
+/* A level of a lane on a grid: the values that F takes beside the two components, and those at the corners. */
+struct level {
+    const struct gm_tape *tape;
+    const double *variables;
+    size_t variable_count;
+    const struct gm_sight *sight;
+    double *row, *outputs, *corners;
+};
+
+/* The next level of the plane or section that a sight shows; NULL: there are no more. */
+static const struct gm_system_item *next_level(const struct gm_system_scene *system_scene,
+                                               const struct gm_sight *sight, size_t *number)
+{
+    const struct gm_sight *first = &system_scene->sights[0];
+    const bool in_section = sight == &system_scene->section,
+               in_plane = !in_section && sight->components[0] == first->components[0] &&
+                          sight->components[1] == first->components[1];
+    const struct gm_system_item *item;
+    while ((item = gm_system_item_of(&system_scene->system, GM_WORD_LEVEL, (*number)++))) {
+        if (sight->components[0] >= 0 && sight->components[1] >= 0 &&
+            (item->in_section ? in_section : in_plane)) {
+            return item;
+        }
+    }
+    return NULL;
+}
+
+bool gm_system_has_level(const struct gm_system_scene *system_scene, const struct gm_sight *sight)
+{
+    size_t number = 0;
+    return next_level(system_scene, sight, &number) != NULL;
+}
+
+bool gm_system_check_levels(struct gm_system_scene *system_scene, char *sentence)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_LEVEL, i)); i++) {
+        const struct gm_sight *sight = item->in_section ? &system_scene->section : &system_scene->sights[0];
+        if (sight->components[0] < 0 || sight->components[1] < 0) {
+            return gm_refuse(sentence, "level: a curve is drawn in a plane of two components");
+        }
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, item->nodes[0], &count);
+        const char *other = NULL;
+        for (size_t k = 0; parts && k < count; k++) {
+            const struct gm_node *node = &system->graph.nodes[parts[k]];
+            const bool moves =
+                node->operation == GM_VARIABLE &&
+                (node->a <= system->n || (node->a >= system->velocities && node->a < system->initial));
+            if (moves && (long)node->a != sight->components[0] && (long)node->a != sight->components[1]) {
+                other = system->variables[node->a].name;
+            }
+        }
+        const bool good = parts && !other;
+        free(parts);
+        if (!good) {
+            return other ? gm_refuse(sentence, "level: %s is not shown: a curve holds %s and %s", other,
+                                     system->variables[sight->components[0]].name,
+                                     system->variables[sight->components[1]].name)
+                         : gm_refuse(sentence, "not enough memory");
+        }
+    }
+    return true;
+}
+
+static const struct gm_system_scene *scene_of(const struct gm_lane *lane)
+{
+    return ((const struct gm_system_lane *)lane->parameters)->owner;
+}
+
+static bool open_level(struct level *level, const struct gm_lane *lane, const struct gm_sight *sight)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const size_t variables = gm_system_scene_of(&view)->system.variable_count, most = DRAWN + 1;
+    double *all = malloc((variables * (most + 1) + 2 * most + most * most) * sizeof *all);
+    *level = (struct level){.variables = all, .variable_count = variables, .sight = sight};
+    if (all) {
+        gm_system_variables(&view, view.problem->m - 1, true, all);
+        level->row = all + variables;
+        level->outputs = level->row + variables * most;
+        level->corners = level->outputs + 2 * most;
+    }
+    return all != NULL;
+}
+
+static void close_level(struct level *level)
+{
+    free((double *)level->variables);
+}
+
+/* Takes the next level of a lane that is drawn; false: there are no more. */
+static bool take_level(struct level *level, const struct gm_lane *lane, size_t *number)
+{
+    const struct gm_system_scene *system_scene = scene_of(lane);
+    const struct gm_system_item *item;
+    while ((item = next_level(system_scene, level->sight, number))) {
+        double values[2] = {0, 1};
+        level->tape = &system_scene->of_items[item - system_scene->system.items];
+        gm_tape_values(level->tape, level->variables, values, 1);
+        if (values[1] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static double corner(const struct box *box, int axis, size_t i, size_t cells)
+{
+    return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)cells;
+}
+
+/* F at the (cells + 1)^2 corners, row by row. */
+static void fill_grid(const struct level *level, const struct box *box, size_t cells)
+{
+    const size_t width = cells + 1;
+    for (size_t v = 0; v < level->variable_count; v++) {
+        for (size_t i = 0; i < width; i++) {
+            level->row[v * width + i] = level->variables[v];
+        }
+    }
+    for (size_t i = 0; i < width; i++) {
+        level->row[(size_t)level->sight->components[0] * width + i] = corner(box, 0, i, cells);
+    }
+    for (size_t j = 0; j < width; j++) {
+        for (size_t i = 0; i < width; i++) {
+            level->row[(size_t)level->sight->components[1] * width + i] = corner(box, 1, j, cells);
+        }
+        gm_tape_values(level->tape, level->row, level->outputs, width);
+        memcpy(level->corners + j * width, level->outputs, width * sizeof *level->corners);
+    }
+}
+
+/* How many corners of a cell are above 0; -1: F is not finite at one of them. */
+static int above(const struct level *level, size_t cells, size_t i, size_t j)
+{
+    const double *low = level->corners + j * (cells + 1) + i, *high = low + cells + 1;
+    const double sum = low[0] + low[1] + high[0] + high[1];
+    return isfinite(sum) ? (low[0] > 0) + (low[1] > 0) + (high[0] > 0) + (high[1] > 0) : -1;
+}
+
+/* Puts into `found` the cells of the curve around the middle of the grid. False if it is open within the box, or there is
+   none. */
+static bool follow(const struct level *level, struct box *found, const struct box *box)
+{
+    enum { CELLS = SOUGHT, ALL = CELLS * CELLS };
+    bool seen[ALL] = {false};
+    size_t waiting[ALL], count = 1;
+    waiting[0] = ALL / 2;
+    seen[ALL / 2] = true;
+    const int middle = above(level, CELLS, CELLS / 2, CELLS / 2);
+    const bool inside = middle == 0 || middle == 4;
+    bool some = false;
+    for (size_t next = 0; next < count; next++) {
+        const size_t i = waiting[next] % CELLS, j = waiting[next] / CELLS;
+        const int here = above(level, CELLS, i, j);
+        const bool crosses = here > 0 && here < 4;
+        if (here < 0 || i == 0 || j == 0 || i == CELLS - 1 || j == CELLS - 1) {
+            return false;
+        }
+        if (crosses) {
+            for (int axis = 0; axis < 2; axis++) {
+                gm_range_add(&found->low[axis], &found->high[axis], corner(box, axis, axis ? j : i, CELLS));
+                gm_range_add(&found->low[axis], &found->high[axis],
+                             corner(box, axis, (axis ? j : i) + 1, CELLS));
+            }
+            some = true;
+        }
+        if (crosses == inside) {
+            continue; /* the edge of the inside, or a cell beside the curve */
+        }
+        for (size_t k = 0; k < 9; k++) {
+            const size_t to = (j + k / 3 - 1) * CELLS + i + k % 3 - 1;
+            if (!seen[to]) {
+                seen[to] = true;
+                waiting[count++] = to;
+            }
+        }
+    }
+    return some;
+}
+
+void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range)
+{
+    struct level level;
+    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+        return;
+    }
+    for (size_t number = 0; take_level(&level, lane, &number);) {
+        const size_t m = lane->problem.m;
+        double reach[2], middle[2];
+        for (int axis = 0; axis < 2; axis++) {
+            middle[axis] = lane->start[(size_t)sight->components[axis] * m + m - 1];
+            reach[axis] = fmax(fabs(middle[axis]), 0.1);
+        }
+        const double size = fmax(reach[0], reach[1]);
+        for (int k = 0; k < DOUBLINGS; k++) {
+            const double half = size * exp2(k);
+            const struct box box = {{middle[0] - half, middle[1] - half},
+                                    {middle[0] + half, middle[1] + half}};
+            struct box found = {{1, 1}, {0, 0}};
+            fill_grid(&level, &box, SOUGHT);
+            if (follow(&level, &found, &box)) {
+                for (int axis = 0; axis < 2; axis++) {
+                    gm_range_add(&range->low[axis], &range->high[axis], found.low[axis]);
+                    gm_range_add(&range->low[axis], &range->high[axis], found.high[axis]);
+                }
+                break;
+            }
+        }
+    }
+    close_level(&level);
+}
+
+/* The grid as triangles, and its corners as points. False: out of memory. */
+static bool make_triangles(struct gm_picture *picture, const struct box *box, double **points,
+                           int **triangles)
+{
+    const size_t width = DRAWN + 1;
+    *points = gm_picture_memory(picture, 2 * width * width * sizeof **points);
+    *triangles = gm_picture_memory(picture, (size_t)6 * DRAWN * DRAWN * sizeof **triangles);
+    if (!*points || !*triangles) {
+        return false;
+    }
+    for (size_t k = 0; k < width * width; k++) {
+        (*points)[2 * k] = corner(box, 0, k % width, DRAWN);
+        (*points)[2 * k + 1] = corner(box, 1, k / width, DRAWN);
+    }
+    for (size_t cell = 0; cell < (size_t)DRAWN * DRAWN; cell++) {
+        const int here = (int)(cell / DRAWN * width + cell % DRAWN), over = here + (int)width;
+        memcpy(*triangles + 6 * cell, (const int[]){here, here + 1, over + 1, here, over + 1, over},
+               6 * sizeof **triangles);
+    }
+    return true;
+}
+
+void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                           const struct gm_sight *sight)
+{
+    static const double zero = 0;
+    const struct box box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
+    struct level level;
+    double *points;
+    int *triangles;
+    if (!gm_system_has_level(scene_of(lane), sight) || !make_triangles(picture, &box, &points, &triangles) ||
+        !open_level(&level, lane, sight)) {
+        return;
+    }
+    for (size_t number = 0; take_level(&level, lane, &number);) {
+        fill_grid(&level, &box, DRAWN);
+        gm_mark_level_lines(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, points,
+                            level.corners, (size_t)(DRAWN + 1) * (DRAWN + 1), triangles,
+                            (size_t)2 * DRAWN * DRAWN, &zero, 1);
+    }
+    close_level(&level);
+}
+
+/* Whether a level is drawn of one of these lanes. */
+static bool is_drawn(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                     const struct gm_lane *const *lanes, size_t count)
+{
+    double values[2] = {0, 1};
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_view view = gm_lane_view(lanes[i]);
+        gm_system_values(&system_scene->of_items[item - system_scene->system.items], &view,
+                         view.problem->m - 1, values);
+        if (values[1] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *gm_system_level_text(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_system_lane *lane = lanes[0]->parameters;
+    const struct gm_system_scene *system_scene = lane->owner;
+    const bool both = system_scene->has_section && lane->show == GM_SHOW_ALL;
+    const struct gm_sight *const sights[] = {gm_system_sight(lane), &system_scene->section};
+    const char *text = "";
+    for (size_t k = 0; k < (both ? 2 : 1); k++) {
+        const struct gm_system_item *item;
+        for (size_t number = 0; (item = next_level(system_scene, sights[k], &number));) {
+            if (is_drawn(system_scene, item, lanes, count)) {
+                text = gm_picture_text(picture, "%s%s%s", text, text[0] ? ", " : ";  grey: ", item->text);
+            }
+        }
+    }
+    return text;
+}

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies of a system: lines work: and stability:, or what suits a system without them. */
+#include "scenes/ode/system/studies.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/scope.h"
+#include "core/schemes.h"
+#include "scenes/ode/system/pieces.h"
+
+/* Whether an option names an observable, or is missing. */
+static bool is_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                          enum gm_system_option_word word, char *sentence)
+{
+    const char *key = gm_system_option_text(item, word, NULL);
+    return !key || gm_scene_observable(&system_scene->scene, key) >= 0 ||
+           gm_refuse(sentence, "%s: %.60s is no observable", gm_system_words[item->word].word, key);
+}
+
+/* The schemes that an option names, ended by NULL; *list is NULL where it names none, or the usual ones. */
+static bool take_schemes(const struct gm_system_item *item, const struct gm_problem *problem,
+                         const char **schemes, const char *const **list, char *sentence)
+{
+    const char *text = gm_system_option_text(item, GM_OPTION_SCHEMES, "usual");
+    size_t count = 0;
+    *list = NULL;
+    if (strcmp(text, "usual") == 0) {
+        return true;
+    }
+    *list = schemes;
+    return gm_written_schemes(text, problem, schemes, GM_MOST_PREFERRED, &count, sentence);
+}
+
+static bool make_figures(struct gm_system_scene *system_scene)
+{
+    const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_FIGURE);
+    system_scene->figures = calloc(count + 1, sizeof *system_scene->figures);
+    for (size_t i = 0; system_scene->figures && i < count; i++) {
+        const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_FIGURE, i);
+        system_scene->figures[i] =
+            (struct gm_figure){.name = item->name, .statement = item->text, .arguments = item->words};
+    }
+    system_scene->scene.figures = system_scene->figures;
+    system_scene->scene.figure_count = count;
+    return system_scene->figures != NULL;
+}
+
+/* ---- work and precision ---- */
+
+static bool make_work(struct gm_system_scene *system_scene, const struct gm_problem *problem, char *sentence)
+{
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_WORK, 0);
+    struct gm_work *work = &system_scene->work;
+    system_scene->scene.work = work;
+    work->coarsest = system_scene->radian;
+    work->halvings = 8;
+    if (!item) {
+        const double until = atof(gm_scene_parameter(&system_scene->scene, "until")->standard);
+        work->arguments = gm_system_kept_text(system_scene, "until=%.17g",
+                                              fmin(until, gm_written_rounded(20 * system_scene->radian)));
+        return work->arguments != NULL;
+    }
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS);
+    const char *solves = gm_system_option_text(item, GM_OPTION_SOLVES, NULL),
+               *reference = gm_system_option_text(item, GM_OPTION_REFERENCE, NULL);
+    const char *const known[] = {solves, reference};
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
+        if (known[i] && !gm_scheme_find(known[i])) {
+            return gm_refuse(sentence, "work: %.60s is no scheme", known[i]);
+        }
+    }
+    if (errors && (errors->count != 3 ||
+                   !(errors->numbers[0] > errors->numbers[1] && errors->numbers[1] > errors->numbers[2]))) {
+        return gm_refuse(sentence, "work: errors are three numbers that fall: errors 1e-3, 1e-6, 1e-9");
+    }
+    work->arguments = item->words;
+    work->measure = gm_system_option_text(item, GM_OPTION_MEASURE, work->measure);
+    work->coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, work->coarsest);
+    work->halvings = (int)gm_system_option_number(item, GM_OPTION_HALVINGS, work->halvings);
+    work->reference = reference;
+    work->is_exact = solves;
+    work->errors = errors ? errors->numbers : NULL;
+    if (!(work->coarsest > 0) || work->halvings < 1 || work->halvings > 30) {
+        return gm_refuse(sentence, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");
+    }
+    return is_observable(system_scene, item, GM_OPTION_MEASURE, sentence) &&
+           take_schemes(item, problem, system_scene->work_schemes, &work->schemes, sentence);
+}
+
+/* ---- maps of stability ---- */
+
+/* The unit of the steps that the file names. */
+static double unit_of(const void *parameters)
+{
+    const struct gm_system_lane *lane = parameters;
+    const struct gm_system_scene *system_scene = lane->owner;
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_STABILITY, 0);
+    double *values = gm_system_start_values(lane, NULL), unit = NAN;
+    if (values) {
+        gm_tape_values(&system_scene->of_items[item - system_scene->system.items], values, &unit, 1);
+    }
+    free(values);
+    return unit;
+}
+
+/* The map of a system whose file has none: over the first parameter that can change, or over where the first component
+   starts. */
+static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian)(const void *parameters))
+{
+    static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
+    static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
+    size_t row = GM_SYSTEM_ROWS;
+    while (row < system_scene->first_start &&
+           system_scene->rows[row].lowest == system_scene->rows[row].highest) {
+        row++;
+    }
+    const struct gm_parameter *parameter = &system_scene->rows[row];
+    const double usual = gm_parameter_get(parameter, system_scene->initial);
+    size_t count = 0;
+    for (size_t i = 0; i < GM_COUNT(factors); i++) {
+        const double value = usual != 0 ? usual * factors[usual > 0 ? i : GM_COUNT(factors) - 1 - i]
+                                        : fmin(1, parameter->highest) * (double)i / GM_COUNT(factors);
+        if (value >= parameter->lowest && value <= parameter->highest) {
+            system_scene->values[count++] = value;
+        }
+    }
+    const bool kept = system_scene->observable_count > 0 && system_scene->observables[0].kept;
+    system_scene->stability = (struct gm_stability){
+        .arguments =
+            gm_system_kept_text(system_scene, "until=%.17g", gm_written_rounded(200 * system_scene->radian)),
+        .parameter = parameter->key,
+        .values = system_scene->values,
+        .value_count = count,
+        .label = "h ω",
+        .unit = radian,
+        .told =
+            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start, or "
+            "1 where none is found",
+        .steps = steps,
+        .step_count = GM_COUNT(steps),
+        .throughout = true,
+        .kept = kept ? system_scene->observables[0].key : NULL,
+        .error = kept ? system_scene->observables[0].key : NULL,
+    };
+    return system_scene->stability.arguments != NULL;
+}
+
+/* What the line stability: says in place of that. */
+static bool read_map(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                     const struct gm_system_item *item, char *sentence)
+{
+    struct gm_stability *map = &system_scene->stability;
+    const struct gm_system_option *values = gm_system_option(item, GM_OPTION_VALUES),
+                                  *unit = gm_system_option(item, GM_OPTION_STEP_UNIT),
+                                  *steps = gm_system_option(item, GM_OPTION_STEPS);
+    const struct gm_parameter *row = values ? gm_scene_parameter(&system_scene->scene, item->name) : NULL;
+    if (!row) {
+        return values ? gm_refuse(sentence, "stability: %.60s is no parameter", item->name)
+                      : gm_refuse(sentence, "stability: a parameter and its values are missing: q 0, 1");
+    }
+    for (size_t i = 0; i < values->count; i++) {
+        if (!(values->numbers[i] >= row->lowest && values->numbers[i] <= row->highest)) {
+            return gm_refuse(sentence, "stability: %s lies between %g and %g, and one of its values is %g",
+                             row->key, row->lowest, row->highest, values->numbers[i]);
+        }
+    }
+    for (size_t i = 0; steps && i < steps->count; i++) {
+        if (!(steps->numbers[i] > 0)) {
+            return gm_refuse(sentence, "stability: a step is above 0, and this is %g", steps->numbers[i]);
+        }
+    }
+    map->arguments = item->words;
+    map->parameter = row->key;
+    map->values = values->numbers;
+    map->value_count = values->count;
+    if (unit) {
+        map->label = unit->text;
+        map->unit = unit_of;
+        map->told = NULL;
+    }
+    if (steps && steps->count > 0) { /* else the usual ones */
+        map->steps = steps->numbers;
+        map->step_count = steps->count;
+    }
+    map->throughout = gm_system_option(item, GM_OPTION_LARGEST) != NULL;
+    map->settle = (int64_t)gm_system_option_number(item, GM_OPTION_SETTLE, 0);
+    map->kept = gm_system_option_text(item, GM_OPTION_LOST, NULL);
+    map->error = gm_system_option_text(item, GM_OPTION_WRONG, NULL);
+    return is_observable(system_scene, item, GM_OPTION_LOST, sentence) &&
+           is_observable(system_scene, item, GM_OPTION_WRONG, sentence) &&
+           take_schemes(item, problem, system_scene->stability_schemes, &map->schemes, sentence);
+}
+
+bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                            double (*radian)(const void *parameters), char *sentence)
+{
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_STABILITY, 0),
+                                *graph;
+    for (size_t i = 0; (graph = gm_system_item_of(&system_scene->system, GM_WORD_GRAPH, i)); i++) {
+        if (gm_scene_observable(&system_scene->scene, graph->name) < 0) {
+            return gm_refuse(sentence, "graph: %.60s is no observable", graph->name);
+        }
+    }
+    system_scene->scene.stability = &system_scene->stability;
+    return make_figures(system_scene) && make_work(system_scene, problem, sentence) &&
+           make_usual_map(system_scene, radian) && (!item || read_map(system_scene, problem, item, sentence));
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts with values, and what a start has to fulfil. */
+#include "scenes/ode/system/texts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/scope.h"
+#include "scenes/common/graph.h"
+#include "scenes/ode/system/pieces.h"
+
+enum { SIZE = 1024 };
+
+/* The values of a text: of its formulas, of the scene's keys, and what the schemes are called. */
+struct values {
+    const double *numbers;
+    const struct gm_system_lane *lane;
+    const char *schemes, *minus;
+};
+
+/* Where a text is read: the next byte, and the number of the next brace. */
+struct place {
+    const char *at;
+    size_t brace;
+};
+
+/* A fraction of `unit`, "2π/3" or "1/8"; false if the value is none of small numbers. */
+static bool put_fraction(FILE *text, double value, double unit, const char *called)
+{
+    const double times = fabs(value / unit);
+    for (int under = 1; under <= 10000; under++) {
+        const double over = round(times * under);
+        if (over > 10000 || over == 0 || fabs(over - times * under) > 1e-12 * over) {
+            continue;
+        }
+        if (over != 1 || !called[0]) {
+            fprintf(text, "%.0f", over);
+        }
+        fprintf(text, under > 1 ? "%s/%d" : "%s", called, under);
+        return true;
+    }
+    return false;
+}
+
+static void put_number(FILE *text, double value, const char *format, const char *minus)
+{
+    const bool in_pi = strcmp(format, "pi}") == 0, fraction = strcmp(format, "/}") == 0;
+    fputs(value < 0 ? minus : "", text);
+    if ((in_pi || fraction) && isfinite(value) && value != 0 &&
+        put_fraction(text, value, in_pi ? M_PI : 1, in_pi ? "π" : "")) {
+        return;
+    }
+    fprintf(text, "%.4g", fabs(value));
+}
+
+/* Puts the value of the brace at `at`, which has that number. False if the part that it stands in is left out. */
+static bool put_brace(FILE *text, const struct values *values, const char *at, size_t number,
+                      const struct gm_system_item *item)
+{
+    const size_t first = item->word == GM_WORD_REQUIRE, length = strcspn(at + 1, ":}");
+    const gm_node_id node = item->nodes[first + number];
+    char key[64], format[16] = "";
+    snprintf(key, sizeof key, "%.*s", (int)(length < 60 ? length : 60), at + 1);
+    if (at[1 + length] == ':') {
+        snprintf(format, sizeof format, "%.*s", (int)strcspn(at + 2 + length, "}") + 1, at + 2 + length);
+    }
+    if (strcmp(key, "schemes") == 0 && node == GM_NO_NODE) {
+        fputs(values->schemes, text);
+        return true;
+    }
+    const struct gm_parameter *row =
+        node == GM_NO_NODE ? gm_scene_parameter(&values->lane->owner->scene, key) : NULL;
+    const double value = row ? gm_parameter_get(row, values->lane) : values->numbers[first + number];
+    put_number(text, value, format, values->minus);
+    return strcmp(format, "nonzero}") != 0 || value != 0;
+}
+
+/* Writes the text from `place` on, to its end or, with `separator`, to behind the next one of that. False if the part is
+   left out. */
+static bool write_part(struct place *place, char separator, const struct values *values,
+                       const struct gm_system_item *item, char line[SIZE])
+{
+    bool shown = true;
+    FILE *text = fmemopen(line, SIZE, "w");
+    line[0] = '\0';
+    while (*place->at && *place->at != separator) {
+        if (*place->at != '{') {
+            if (text) {
+                fputc(*place->at, text);
+            }
+            place->at++;
+            continue;
+        }
+        shown = text && put_brace(text, values, place->at, place->brace++, item) && shown;
+        place->at += strcspn(place->at, "}") + 1;
+    }
+    place->at += *place->at != '\0';
+    place->at += strspn(place->at, " ");
+    return text && fclose(text) == 0 && shown;
+}
+
+static const struct gm_tape *tape_of(const struct gm_system_scene *system_scene,
+                                     const struct gm_system_item *item)
+{
+    return &system_scene->of_items[item - system_scene->system.items];
+}
+
+/* ---- opening ---- */
+
+/* Keys in braces are of the scene. */
+static bool check_keys(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                       char *sentence)
+{
+    const size_t first = item->word == GM_WORD_REQUIRE;
+    const char *brace = strchr(item->text, '{');
+    for (size_t k = first; k < item->count && brace; k++, brace = strchr(brace + 1, '{')) {
+        char key[64];
+        const size_t length = strcspn(brace + 1, ":}");
+        snprintf(key, sizeof key, "%.*s", (int)(length < 60 ? length : 60), brace + 1);
+        if (item->nodes[k] == GM_NO_NODE && strcmp(key, "schemes") != 0 &&
+            !gm_scene_parameter(&system_scene->scene, key)) {
+            return gm_refuse(sentence, "%s: {%s} is no value of this system",
+                             gm_system_words[item->word].word, key);
+        }
+    }
+    return true;
+}
+
+/* The tape of an item: its formulas, and that of its option `while` or `unit`. False: out of memory. */
+static bool open_item(struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                      struct gm_tape *tape)
+{
+    static const enum gm_system_option_word words[] = {GM_OPTION_WHILE, GM_OPTION_STEP_UNIT};
+    gm_node_id *nodes = malloc((item->count + GM_COUNT(words)) * sizeof *nodes);
+    size_t count = 0;
+    for (; nodes && count < item->count; count++) {
+        nodes[count] =
+            item->nodes[count] == GM_NO_NODE ? 0 : item->nodes[count]; /* a key has a value elsewhere */
+    }
+    for (size_t k = 0; nodes && k < GM_COUNT(words); k++) {
+        const struct gm_system_option *option = gm_system_option(item, words[k]);
+        if (option) {
+            nodes[count++] = option->node;
+        }
+    }
+    const bool good = nodes && (count == 0 || gm_system_open_tape(system_scene, tape, nodes, count));
+    free(nodes);
+    return good;
+}
+
+bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    system_scene->of_items = calloc(system->item_count + 1, sizeof *system_scene->of_items);
+    bool good = system_scene->of_items != NULL;
+    for (size_t i = 0; good && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        const bool is_text = item->text && item->word != GM_WORD_LEVEL;
+        if (item->text || item->word == GM_WORD_STABILITY) {
+            good = (!is_text || check_keys(system_scene, item, sentence)) &&
+                   open_item(system_scene, item, &system_scene->of_items[i]);
+        }
+    }
+    return good;
+}
+
+/* ---- what is written ---- */
+
+bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word)
+{
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, word, 0);
+    return item && strstr(item->text, "{schemes}");
+}
+
+/* The values of lane number `i`; numbers NULL: out of memory. */
+static struct values values_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                               size_t i, const struct gm_system_item *item)
+{
+    bool one_scheme = true;
+    for (size_t k = 1; k < count; k++) {
+        one_scheme = one_scheme && lanes[k]->scheme == lanes[0]->scheme;
+    }
+    const struct gm_view view = gm_lane_view(lanes[i]);
+    double *numbers = gm_picture_memory(picture, (item->count + 1) * sizeof *numbers);
+    if (numbers) {
+        gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, view.problem->m - 1, numbers);
+    }
+    return (struct values){numbers, lanes[i]->parameters,
+                           one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count), "−"};
+}
+
+const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                                 enum gm_system_word word, const char *otherwise)
+{
+    const struct gm_system_lane *lane = lanes[0]->parameters;
+    const struct gm_system_item *item = gm_system_item_of(&lane->owner->system, word, 0);
+    struct values *values = item ? gm_picture_memory(picture, count * sizeof *values) : NULL;
+    if (!values) {
+        return otherwise;
+    }
+    size_t ahead = 0;
+    for (size_t i = 0; i < count; i++) {
+        values[i] = values_of(picture, lanes, count, i, item);
+        ahead = fabs(lanes[i]->run->t) > fabs(lanes[ahead]->run->t) ? i : ahead;
+        if (!values[i].numbers) {
+            return otherwise;
+        }
+    }
+    const bool parts = word == GM_WORD_SUBTITLE;
+    const char *text = "";
+    for (struct place place = {.at = item->text}, next; *place.at; place = next) {
+        char line[SIZE], other[SIZE];
+        next = place;
+        bool shown = write_part(&next, parts ? ';' : '\0', &values[ahead], item, line);
+        for (size_t i = 0; i < count && parts && shown; i++) {
+            struct place again = place;
+            shown = write_part(&again, ';', &values[i], item, other) && strcmp(line, other) == 0;
+        }
+        text = shown ? gm_picture_text(picture, "%s%s%s", text, text[0] ? ",  " : "", line) : text;
+    }
+    return text;
+}
+
+bool gm_system_is_admitted(const struct gm_system_lane *lane, const double *values, char *sentence)
+{
+    const struct gm_system_scene *system_scene = lane->owner;
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(&system_scene->system, GM_WORD_REQUIRE, i)); i++) {
+        double *numbers = malloc(item->count * sizeof *numbers);
+        char line[SIZE] = "not enough memory";
+        struct place place = {.at = item->text};
+        bool holds = false;
+        if (numbers) {
+            gm_tape_values(tape_of(system_scene, item), values, numbers, 1);
+            holds = numbers[0] > 0;
+            write_part(&place, '\0', &(struct values){numbers, lane, "the scheme", "-"}, item, line);
+        }
+        free(numbers);
+        if (!holds) {
+            return gm_refuse(sentence, "%s", line);
+        }
+    }
+    return true;
+}
