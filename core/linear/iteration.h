@@ -14,15 +14,18 @@
 
 /* Solves a x = r for `columns` right sides, a an n * n matrix by rows, by Gaussian elimination with partial pivoting.
    Each x overwrites its r; a becomes what elimination left above and on its diagonal. False if a is singular. */
-static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n, double *a, size_t columns,
-                                                                       double *r)
+static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n, double *restrict a,
+                                                                       size_t columns, double *restrict r)
 {
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
+        double largest = fabs(a[k * n + k]);
         for (size_t i = k + 1; i < n; i++) {
-            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
+            const double entry = fabs(a[i * n + k]);
+            pivot = entry > largest ? i : pivot;
+            largest = entry > largest ? entry : largest;
         }
-        if (!(fabs(a[pivot * n + k]) > 0)) {
+        if (!(largest > 0)) {
             return false;
         }
         if (pivot != k) {
@@ -38,9 +41,10 @@ static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n,
             }
         }
         for (size_t i = k + 1; i < n; i++) {
-            const double factor = a[i * n + k] / a[k * n + k];
+            double *restrict row = a + i * n;
+            const double *top = a + k * n, factor = row[k] / top[k];
             for (size_t j = k + 1; j < n; j++) {
-                a[i * n + j] -= factor * a[k * n + j];
+                row[j] -= factor * top[j];
             }
             for (size_t c = 0; c < columns; c++) {
                 r[c * n + i] -= factor * r[c * n + k];
@@ -49,10 +53,11 @@ static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n,
     }
     for (size_t c = 0; c < columns; c++) {
         for (size_t k = n; k-- > 0;) {
+            double sum = r[c * n + k];
             for (size_t j = k + 1; j < n; j++) {
-                r[c * n + k] -= a[k * n + j] * r[c * n + j];
+                sum -= a[k * n + j] * r[c * n + j];
             }
-            r[c * n + k] /= a[k * n + k];
+            r[c * n + k] = sum / a[k * n + k];
         }
     }
     return true;
@@ -69,11 +74,13 @@ static inline bool gm_eliminate(size_t n, double *a, double *r)
 typedef bool gm_linear_equations(void *data, const double *z, double *residual, double *matrix,
                                  double *scale);
 
+/* next := G(z); adds to *scale as above. False: there is no value. */
+typedef bool gm_swept_equations(void *data, const double *z, double *next, double *scale);
+
 struct gm_implicit_equations {
     size_t size; /* unknowns */
     void *data;  /* of the two functions */
-    /* next := G(z); adds to *scale as above. False: there is no value. */
-    bool (*sweep)(void *data, const double *z, double *next, double *scale);
+    gm_swept_equations *sweep;
     gm_linear_equations *linear; /* NULL: sweeps alone */
     size_t counted; /* the first of these, whose changes Newton's method compares; sweeps compare all */
     /* Where z are increments of stages y + z of n components each, Newton's method ends by gm_newton_is_settled. */
@@ -136,12 +143,13 @@ static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matr
     return isfinite(gm_sum_of(matrix, entries)) ? GM_SINGULAR : GM_NOT_FINITE;
 }
 
-enum { GM_NEWTON_STEPS = 50, GM_NEWTON_HALVINGS = 40 };
+enum { GM_SWEEPS_MOST = 150, GM_NEWTON_STEPS = 50, GM_NEWTON_HALVINGS = 40 };
 
 /* z := z + change, or a part of that where the residual there would be larger than *off; of a small change it may be.
    The residual, *off its 1-norm, and the matrix are those there. */
-static inline bool gm_newton_move(const struct gm_implicit_equations *equations, double *restrict scratch,
-                                  double *restrict z, bool small, double *off, double *scale)
+static inline __attribute__((always_inline)) bool
+gm_newton_move(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
+               double *restrict scratch, double *restrict z, bool small, double *off, double *scale)
 {
     const size_t size = equations->size;
     double *residual = scratch, *matrix = residual + size, *change = matrix + size * size,
@@ -156,12 +164,42 @@ static inline bool gm_newton_move(const struct gm_implicit_equations *equations,
             z[i] = start[i] + part * change[i];
         }
         *scale = 0;
-        good = equations->linear(equations->data, z, residual, matrix, scale);
+        good = linear(equations->data, z, residual, matrix, scale);
         there = gm_sum_of(residual, size);
         nearer = good && (there <= *off || (small && isfinite(there)));
     }
     *off = there;
     return good;
+}
+
+/* gm_sweeps_solve with a function that may be inlined */
+static inline __attribute__((always_inline)) bool
+gm_sweeps_solve_by(const struct gm_implicit_equations *equations, gm_swept_equations *sweep,
+                   double *restrict scratch, double *restrict z, struct gm_progress *progress)
+{
+    double *next = scratch, previous = INFINITY, before_previous = INFINITY;
+    for (int iteration = 0; iteration < GM_SWEEPS_MOST; iteration++) {
+        double scale = 0, change = 0;
+        if (!sweep(equations->data, z, next, &scale)) {
+            return false;
+        }
+        for (size_t i = 0; i < equations->size; i++) {
+            change += fabs(next[i] - z[i]);
+            z[i] = next[i];
+        }
+        progress->iterations++;
+        const double roundoff = equations->roundoff * scale, before = previous;
+        if (gm_is_settled(change, roundoff, &previous)) {
+            return true;
+        }
+        progress->unsolved = gm_unsolved_by(change, scale);
+        if (!(change < 1e100) ||
+            (equations->linear && !GM_SWEEPS_CONTRACT(change, before_previous, roundoff))) {
+            return false;
+        }
+        before_previous = before;
+    }
+    return false;
 }
 
 /* gm_newton_solve with a function that may be inlined */
@@ -192,13 +230,17 @@ gm_newton_solve_by(const struct gm_implicit_equations *equations, gm_linear_equa
         double moved = 0, far = 0;
         for (size_t i = 0; i < equations->counted; i++) {
             moved += fabs(change[i]);
-            far += fabs(z[i]);
+            far += of_stages ? 0 : fabs(z[i]);
+            z[i] = equations->halved ? z[i] : z[i] + change[i];
+        }
+        for (size_t i = equations->counted; i < size && !equations->halved; i++) {
+            z[i] += change[i];
         }
         const bool settled = of_stages
                                  ? gm_newton_is_settled(size, moved, scale, rounding, &previous)
                                  : (equations->exact && isfinite(moved)) || moved <= equations->least * far ||
                                        gm_is_settled(moved, equations->roundoff * scale, &previous);
-        for (size_t i = 0; i < size && (settled || !equations->halved); i++) {
+        for (size_t i = 0; i < size && settled && equations->halved; i++) {
             z[i] += change[i];
         }
         if (settled) {
@@ -207,7 +249,7 @@ gm_newton_solve_by(const struct gm_implicit_equations *equations, gm_linear_equa
         progress->unsolved = gm_unsolved_by(moved, scale);
         if (!isfinite(moved) ||
             (equations->halved &&
-             !gm_newton_move(equations, scratch, z, moved <= 0x1p-26 * scale, &off, &scale))) {
+             !gm_newton_move(equations, linear, scratch, z, moved <= 0x1p-26 * scale, &off, &scale))) {
             return false;
         }
     }

@@ -59,18 +59,20 @@ static inline __attribute__((always_inline)) bool
 gm_stages_linear(void *data, const double *z, double *residual, double *matrix, double *scale)
 {
     const struct gm_stages *stages = data;
-    const size_t n = stages->n, size = stages->count * n;
-    for (size_t j = 0; j < stages->count; j++) {
+    const size_t n = stages->n, count = stages->count, size = count * n;
+    const double h = stages->h, (*const sides[])[GM_TABLEAU_STAGES] = {stages->a, stages->c};
+    double *restrict state = stages->state;
+    for (size_t j = 0; j < count; j++) {
         for (size_t c = 0; c < n; c++) {
-            stages->state[c] = stages->y[c] + z[j * n + c];
+            state[c] = stages->y[c] + z[j * n + c];
             *scale += fabs(stages->y[c]) + fabs(z[j * n + c]);
         }
-        if (!stages->slope(stages->data, j, stages->state, stages->f + j * n, stages->jacobian)) {
+        if (!stages->slope(stages->data, j, state, stages->f + j * n, stages->jacobian)) {
             return false;
         }
-        for (size_t i = 0; i < stages->count; i++) {
+        for (size_t i = 0; i < count; i++) {
             for (size_t r = 0; r < n; r++) {
-                const double factor = stages->h * (r < n / 2 ? stages->a : stages->c)[i][j];
+                const double factor = h * sides[r >= n / 2][i][j];
                 const double *restrict row = stages->jacobian + r * n;
                 double *restrict to = matrix + (i * n + r) * size + j * n;
                 for (size_t c = 0; c < n; c++) {
@@ -81,12 +83,12 @@ gm_stages_linear(void *data, const double *z, double *residual, double *matrix, 
         }
     }
     stages->progress->evaluations += stages->count;
-    for (size_t i = 0; i < stages->count; i++) {
+    for (size_t i = 0; i < count; i++) {
         for (size_t c = 0; c < n; c++) {
-            const double *row = (c < n / 2 ? stages->a : stages->c)[i];
+            const double *row = sides[c >= n / 2][i];
             double sum = -z[i * n + c];
-            for (size_t j = 0; j < stages->count; j++) {
-                sum += stages->h * row[j] * stages->f[j * n + c];
+            for (size_t j = 0; j < count; j++) {
+                sum += h * row[j] * stages->f[j * n + c];
             }
             residual[i * n + c] = sum;
         }

@@ -42,12 +42,15 @@ void gm_manifold_constrain(const struct gm_manifold *manifold, const double *q)
 }
 
 /* matrix := [dL2/dv2, -G'; G, 0] of the latest evaluations */
-static void fill(const struct gm_manifold *manifold, double *matrix)
+static inline __attribute__((always_inline)) void fill(const struct gm_manifold *manifold,
+                                                       double *restrict matrix)
 {
     const size_t half = manifold->action.half, constraints = manifold->constraints, all = half + constraints;
     memset(matrix, 0, all * all * sizeof(double));
     for (size_t i = 0; i < half; i++) {
-        memcpy(matrix + i * all, manifold->action.motion.momenta_v + i * half, half * sizeof(double));
+        for (size_t j = 0; j < half; j++) {
+            matrix[i * all + j] = manifold->action.motion.momenta_v[i * half + j];
+        }
         for (size_t k = 0; k < constraints; k++) {
             matrix[i * all + half + k] = -manifold->slopes[k * half + i];
             matrix[(half + k) * all + i] = manifold->slopes[k * half + i];
@@ -55,14 +58,17 @@ static void fill(const struct gm_manifold *manifold, double *matrix)
     }
 }
 
-/* p := p + G' multipliers */
-static void push(const struct gm_manifold *manifold, const double *multipliers, double *p)
+/* pushed := p + G' multipliers */
+static inline void push(const struct gm_manifold *manifold, const double *multipliers, const double *p,
+                        double *pushed)
 {
     const size_t half = manifold->action.half;
-    for (size_t k = 0; k < manifold->constraints; k++) {
-        for (size_t i = 0; i < half; i++) {
-            p[i] += manifold->slopes[k * half + i] * multipliers[k];
+    for (size_t i = 0; i < half; i++) {
+        double sum = p[i];
+        for (size_t k = 0; k < manifold->constraints; k++) {
+            sum += manifold->slopes[k * half + i] * multipliers[k];
         }
+        pushed[i] = sum;
     }
 }
 
@@ -82,10 +88,10 @@ static bool settle(void *data, const double *v, double *residual, double *matrix
     if (!gm_action_evaluate(&manifold->action, manifold->at)) {
         return false;
     }
-    memcpy(residual, settling->p, half * sizeof *residual);
-    push(manifold, v + half, residual);
+    push(manifold, v + half, settling->p, residual);
     for (size_t i = 0; i < half; i++) {
         residual[i] -= manifold->action.motion.momenta[i];
+        *scale += fabs(v[i]);
     }
     for (size_t k = 0; k < manifold->constraints; k++) {
         double sum = 0;
@@ -95,7 +101,6 @@ static bool settle(void *data, const double *v, double *residual, double *matrix
         residual[half + k] = sum;
     }
     fill(manifold, matrix);
-    *scale += gm_sum_of(v, half);
     return true;
 }
 
@@ -120,19 +125,19 @@ static bool approach(void *data, const double *q, double *residual, double *matr
 }
 
 /* From the unknowns that are there; unknowns are half coordinates or velocities, and multipliers. */
-static bool solve(const struct gm_manifold *manifold, gm_linear_equations *linear, const double *p)
+static inline __attribute__((always_inline)) bool solve(const struct gm_manifold *manifold,
+                                                        gm_linear_equations *linear, const double *p)
 {
     const size_t half = manifold->action.half;
     struct settling settling = {manifold, p};
     struct gm_progress ignored = {0};
     const struct gm_implicit_equations equations = {.size = half + manifold->constraints,
                                                     .data = &settling,
-                                                    .linear = linear,
                                                     .counted = half,
                                                     .least = 0x1p-52,
                                                     .roundoff = 0x1p-46};
     memset(manifold->unknowns + half, 0, manifold->constraints * sizeof(double));
-    return gm_newton_solve(&equations, manifold->right, manifold->unknowns, &ignored);
+    return gm_newton_solve_by(&equations, linear, manifold->right, manifold->unknowns, &ignored);
 }
 
 bool gm_manifold_settle(const struct gm_manifold *manifold, double *y)
@@ -147,7 +152,7 @@ bool gm_manifold_settle(const struct gm_manifold *manifold, double *y)
         return false;
     }
     memcpy(v, unknowns, half * sizeof *v);
-    push(manifold, unknowns + half, y + half);
+    push(manifold, unknowns + half, y + half, y + half);
     return true;
 }
 
@@ -192,8 +197,7 @@ static bool accelerate(const struct gm_manifold *manifold, const double *y, doub
         return false;
     }
     memcpy(f, v, half * sizeof *f);
-    memcpy(f + half, action->motion.forces, half * sizeof *f);
-    push(manifold, manifold->right + half, f + half);
+    push(manifold, manifold->right + half, action->motion.forces, f + half);
     return true;
 }
 

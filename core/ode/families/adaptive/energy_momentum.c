@@ -87,9 +87,9 @@ static bool find_middle(const struct gm_problem *problem, const double *y, doubl
     const size_t n = problem->n;
     struct half_step half = {problem, storage, y, tau, progress};
     const struct gm_implicit_equations equations = {
-        .size = n, .data = &half, .linear = linear, .counted = n, .roundoff = 0x1p-50};
+        .size = n, .data = &half, .counted = n, .roundoff = 0x1p-50};
     memcpy(storage->middle, y, n * sizeof *y);
-    if (!gm_newton_solve(&equations, storage->scratch, storage->middle, progress)) {
+    if (!gm_newton_solve_by(&equations, linear, storage->scratch, storage->middle, progress)) {
         return false;
     }
     gm_field(problem, storage->middle, storage->field, 1);

@@ -59,23 +59,24 @@ static enum gm_status about_axes(const struct gm_problem *problem, double h, str
     return GM_OK;
 }
 
-/* z of vector number i; its length is that of y */
-static void place(const double *y, const double *end, size_t i, size_t spins, double *z, double *radius)
+/* z of vector number i, where y_1 = y_0 + push; its length is that of y */
+static void place(const double *y, const double *push, size_t i, size_t spins, double *z, double *radius)
 {
-    double before[3], after[3], length = 0;
+    double before[3], pushed[3], length = 0;
     gm_vector_take(y, i, spins, before);
-    gm_vector_take(end, i, spins, after);
+    gm_vector_take(push, i, spins, pushed);
     *radius = sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
     for (int c = 0; c < 3; c++) {
-        z[c] = before[c] + after[c];
+        z[c] = before[c] + (before[c] + pushed[c]);
         length += z[c] * z[c];
     }
+    const double factor = *radius > 0 ? *radius / sqrt(length) : 0;
     for (int c = 0; c < 3; c++) {
-        z[c] *= *radius > 0 ? *radius / sqrt(length) : 0;
+        z[c] *= factor;
     }
 }
 
-/* A step of the spherical midpoint rule. The scratch is y_1, z and omega. */
+/* A step of the spherical midpoint rule. The scratch is z and omega. */
 struct turn {
     const struct gm_problem *problem;
     double h;
@@ -83,19 +84,15 @@ struct turn {
     struct gm_progress *progress;
 };
 
-/* next := h omega(z) x z, where y_1 = y_0 + push */
+/* next := h omega(z) x z */
 static bool sweep(void *data, const double *push, double *next, double *scale)
 {
     const struct turn *turn = data;
     const size_t n = turn->problem->n, spins = gm_ode_of(turn->problem)->poisson->spins;
-    const double *y = turn->members->y;
-    double *end = turn->members->scratch, *z = end + n, *k = z + n;
-    for (size_t c = 0; c < n; c++) {
-        end[c] = y[c] + push[c];
-    }
+    double *z = turn->members->scratch, *k = z + n;
     for (size_t i = 0; i < spins; i++) {
         double vector[3], radius;
-        place(y, end, i, spins, vector, &radius);
+        place(turn->members->y, push, i, spins, vector, &radius);
         gm_vector_put(z, i, spins, vector);
         *scale += radius;
     }
@@ -114,12 +111,11 @@ static enum gm_status spherical_midpoint(const struct gm_problem *problem, doubl
                                          struct gm_members *members, struct gm_progress *progress)
 {
     const size_t n = problem->n;
-    double *push = members->scratch + 3 * n, *next = push + n;
+    double *push = members->scratch + 2 * n, *next = push + n;
     struct turn turn = {problem, h, members, progress};
-    const struct gm_implicit_equations equations = {
-        .size = n, .data = &turn, .sweep = sweep, .roundoff = 12e-16};
+    const struct gm_implicit_equations equations = {.size = n, .data = &turn, .roundoff = 12e-16};
     memset(push, 0, n * sizeof *push);
-    if (!gm_sweeps_solve(&equations, next, push, progress)) {
+    if (!gm_sweeps_solve_by(&equations, sweep, next, push, progress)) {
         return GM_NO_CONVERGENCE;
     }
     for (size_t c = 0; c < n; c++) {
@@ -143,7 +139,7 @@ static struct gm_progress loop(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    return gm_members_open(problem, 0, 5 * problem->n);
+    return gm_members_open(problem, 0, 4 * problem->n);
 }
 
 static one_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;

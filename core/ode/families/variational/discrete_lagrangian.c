@@ -151,7 +151,7 @@ static bool add_point(const struct step *step, const double *unknowns, size_t i)
     for (size_t a = 0; a < half; a++) {
         step->impulse[a] += h * b * motion->forces[a];
         for (size_t j = 0; j < rule->degree; j++) {
-            step->residual[j * half + a] += b * (h * motion->forces[a] * l[j] + motion->momenta[a] * dl[j]);
+            step->residual[j * half + a] -= b * (h * motion->forces[a] * l[j] + motion->momenta[a] * dl[j]);
         }
     }
     for (size_t j = 0; j < rule->degree; j++) {
@@ -189,7 +189,7 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
     for (size_t k = 0; k < constraints; k++) {
         const size_t equation = degree * half + (j - 1) * constraints + k; /* g(Q_j) = 0 */
         if (moved) {
-            step->residual[equation] = manifold->g[k];
+            step->residual[equation] = -manifold->g[k];
         }
         for (size_t a = 0; a < half; a++) {
             const double slope = manifold->slopes[k * half + a];
@@ -198,7 +198,7 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
             }
             if (j < degree) {
                 step->matrix[(j * half + a) * all + degree * half + j * constraints + k] = b * slope;
-                step->residual[j * half + a] += b * slope * manifold->multipliers[k];
+                step->residual[j * half + a] -= b * slope * manifold->multipliers[k];
                 step->impulse[a] += b * slope * manifold->multipliers[k];
             }
         }
@@ -211,8 +211,7 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
     }
 }
 
-/* The equations at these unknowns, with their derivatives: those that add_point and add_constraints make, R, are
-   wanted to be 0. */
+/* -R at these unknowns, and the derivatives of R. */
 static bool linear(void *data, const double *unknowns, double *residual, double *matrix, double *scale)
 {
     struct step *step = data;
@@ -222,7 +221,9 @@ static bool linear(void *data, const double *unknowns, double *residual, double 
     memset(step->impulse, 0, step->half * sizeof(double));
     memset(residual, 0, step->unknowns * sizeof(double));
     memset(matrix, 0, step->unknowns * step->unknowns * sizeof(double));
-    memcpy(residual, step->p, step->half * sizeof(double));
+    for (size_t a = 0; a < step->half; a++) {
+        residual[a] = -step->p[a];
+    }
     for (size_t i = 0; i < rule->points; i++) {
         if (!add_point(step, unknowns, i)) {
             return false;
@@ -232,9 +233,6 @@ static bool linear(void *data, const double *unknowns, double *residual, double 
         add_constraints(step, unknowns, j);
     }
     step->progress->evaluations += rule->points;
-    for (size_t i = 0; i < step->unknowns; i++) {
-        residual[i] = -residual[i];
-    }
     *scale += (double)rule->degree * gm_sum_of(step->q, step->half) +
               gm_sum_of(unknowns, rule->degree * step->half);
     return true;
@@ -265,13 +263,12 @@ static bool solve(struct step *step)
 {
     const struct gm_implicit_equations equations = {.size = step->unknowns,
                                                     .data = step,
-                                                    .linear = linear,
                                                     .counted = step->rule->degree * step->half,
                                                     .least = 0x1p-53,
                                                     .roundoff = 0x1p-46,
                                                     .halved = true};
     memset(step->solution, 0, step->unknowns * sizeof(double));
-    if (!gm_newton_solve(&equations, step->scratch, step->solution, step->progress)) {
+    if (!gm_newton_solve_by(&equations, linear, step->scratch, step->solution, step->progress)) {
         return false;
     }
     correct_impulse(step);
