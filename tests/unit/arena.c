@@ -95,7 +95,7 @@ static void take_too_much(struct gm_arena *arena, void *data)
 static void test_refused_memory_leaves_the_body(void **state)
 {
     (void)state;
-    static const size_t counts[] = {SIZE_MAX, SIZE_MAX / 32};
+    static const size_t counts[] = {SIZE_MAX, SIZE_MAX / 8};
     for (size_t i = 0; i < GM_COUNT(counts); i++) {
         size_t count = counts[i];
         struct gm_arena *arena = gm_arena_open();
