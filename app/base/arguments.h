@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_GROUND_ARGUMENTS_H
-#define GM_APP_GROUND_ARGUMENTS_H
+#ifndef GM_APP_BASE_ARGUMENTS_H
+#define GM_APP_BASE_ARGUMENTS_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -141,8 +141,9 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
     char folder[4096];
     for (size_t i = 0; i < gm_built_in_count; i++) {
         const struct gm_built_in *built_in = &gm_built_in_files[i];
-        struct gm_file file;
-        if (built_in->kind == kind && gm_file_find(kind, built_in->name, &file)) {
+        if (built_in->kind == kind) {
+            struct gm_file file = {.built_in = built_in};
+            snprintf(file.path, sizeof file.path, "%s", built_in->path);
             each(&(struct gm_listed){built_in->name, built_in->title, built_in->about, &file}, data);
         }
     }

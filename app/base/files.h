@@ -2,8 +2,8 @@
 /* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
    name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
    GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
-#ifndef GM_APP_GROUND_FILES_H
-#define GM_APP_GROUND_FILES_H
+#ifndef GM_APP_BASE_FILES_H
+#define GM_APP_BASE_FILES_H
 
 #include <stdbool.h>
 #include <stddef.h>

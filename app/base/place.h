@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_GROUND_PLACE_H
-#define GM_APP_GROUND_PLACE_H
+#ifndef GM_APP_BASE_PLACE_H
+#define GM_APP_BASE_PLACE_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_CERTIFIED_LANE_H
-#define GM_APP_STUDIES_CERTIFIED_LANE_H
+#ifndef GM_APP_GRID_CERTIFIED_LANE_H
+#define GM_APP_GRID_CERTIFIED_LANE_H
 
 #include "core/certify.h"
 #include "scenes/common/lane.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_GRID_H
-#define GM_APP_STUDIES_GRID_H
+#ifndef GM_APP_GRID_GRID_H
+#define GM_APP_GRID_GRID_H
 
 #include "app/base/arguments.h"
 #include "app/grid/listener.h"

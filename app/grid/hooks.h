@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_HOOKS_H
-#define GM_APP_STUDIES_HOOKS_H
+#ifndef GM_APP_GRID_HOOKS_H
+#define GM_APP_GRID_HOOKS_H
 
 #include "app/grid/grid.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_JUDGE_H
-#define GM_APP_STUDIES_JUDGE_H
+#ifndef GM_APP_GRID_JUDGE_H
+#define GM_APP_GRID_JUDGE_H
 
 #include "app/grid/grid.h"
 

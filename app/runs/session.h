@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_SESSION_H
-#define GM_APP_LANES_SESSION_H
+#ifndef GM_APP_RUNS_SESSION_H
+#define GM_APP_RUNS_SESSION_H
 
 #include "app/runs/past.h"
 #include "app/words/request.h"

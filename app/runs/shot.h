@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_SHOT_H
-#define GM_APP_LANES_SHOT_H
+#ifndef GM_APP_RUNS_SHOT_H
+#define GM_APP_RUNS_SHOT_H
 
 #include "app/runs/session.h"
 #include "app/runs/slider.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_FITTING_H
-#define GM_APP_REQUEST_FITTING_H
+#ifndef GM_APP_WORDS_FITTING_H
+#define GM_APP_WORDS_FITTING_H
 
 #include "scenes/common/lane.h"
 

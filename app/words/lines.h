@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The text of a system as it is put together, line by line, and where each part of it came from. */
-#ifndef GM_APP_OWN_LINES_H
-#define GM_APP_OWN_LINES_H
+#ifndef GM_APP_WORDS_LINES_H
+#define GM_APP_WORDS_LINES_H
 
 #include <stddef.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_RANGE_H
-#define GM_APP_REQUEST_RANGE_H
+#ifndef GM_APP_WORDS_RANGE_H
+#define GM_APP_WORDS_RANGE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Words that take the place of a file's formulas. */
-#ifndef GM_APP_OWN_REPLACING_H
-#define GM_APP_OWN_REPLACING_H
+#ifndef GM_APP_WORDS_REPLACING_H
+#define GM_APP_WORDS_REPLACING_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_REQUEST_H
-#define GM_APP_REQUEST_REQUEST_H
+#ifndef GM_APP_WORDS_REQUEST_H
+#define GM_APP_WORDS_REQUEST_H
 
 #include "app/base/exit.h"
 #include "render/message.h"

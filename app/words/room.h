@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes that are made of the files of rooms. */
-#ifndef GM_APP_OWN_ROOM_H
-#define GM_APP_OWN_ROOM_H
+#ifndef GM_APP_WORDS_ROOM_H
+#define GM_APP_WORDS_ROOM_H
 
 struct gm_scene;
 

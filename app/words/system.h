@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes that are made of systems that somebody wrote. Sentences may have three lines: what is wrong, the
    text, a caret below the place. */
-#ifndef GM_APP_OWN_SYSTEM_H
-#define GM_APP_OWN_SYSTEM_H
+#ifndef GM_APP_WORDS_SYSTEM_H
+#define GM_APP_WORDS_SYSTEM_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system that is said by the words of a command line alone, as the text of a file. */
-#ifndef GM_APP_OWN_WORDED_H
-#define GM_APP_OWN_WORDED_H
+#ifndef GM_APP_WORDS_WORDED_H
+#define GM_APP_WORDS_WORDED_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_LINES_H
-#define GM_CORE_FORMULA_LINES_H
+#ifndef GM_CORE_EXPRESSION_LINES_H
+#define GM_CORE_EXPRESSION_LINES_H
 
 #include "core/expression/reader.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system that somebody wrote down: what its file says, as formulas of one graph. docs/systems.md tells the
    words. */
-#ifndef GM_CORE_SYSTEM_SYSTEM_H
-#define GM_CORE_SYSTEM_SYSTEM_H
+#ifndef GM_CORE_MODEL_SYSTEM_H
+#define GM_CORE_MODEL_SYSTEM_H
 
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"

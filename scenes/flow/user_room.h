@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FLOW_OWN_ROOM_H
-#define GM_SCENES_FLOW_OWN_ROOM_H
+#ifndef GM_SCENES_FLOW_USER_ROOM_H
+#define GM_SCENES_FLOW_USER_ROOM_H
 
 #include "core/flow/room.h"
 #include "scenes/common/scene.h"

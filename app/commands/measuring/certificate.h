@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_COMMANDS_CERTIFICATE_H
-#define GM_APP_COMMANDS_CERTIFICATE_H
+#ifndef GM_APP_COMMANDS_MEASURING_CERTIFICATE_H
+#define GM_APP_COMMANDS_MEASURING_CERTIFICATE_H
 
 #include "core/certify.h"
 #include "render/picture/picture.h"

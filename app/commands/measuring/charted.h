@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_COMMANDS_CHARTED_H
-#define GM_APP_COMMANDS_CHARTED_H
+#ifndef GM_APP_COMMANDS_MEASURING_CHARTED_H
+#define GM_APP_COMMANDS_MEASURING_CHARTED_H
 
 #include "app/commands/options.h"
 #include "render/picture/picture.h"

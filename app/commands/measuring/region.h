@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_COMMANDS_REGION_H
-#define GM_APP_COMMANDS_REGION_H
+#ifndef GM_APP_COMMANDS_MEASURING_REGION_H
+#define GM_APP_COMMANDS_MEASURING_REGION_H
 
 #include "app/commands/options.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_OWN_H
-#define GM_APP_EXPLORER_VIEW_OWN_H
+#ifndef GM_APP_EXPLORER_VIEW_TYPED_SYSTEM_H
+#define GM_APP_EXPLORER_VIEW_TYPED_SYSTEM_H
 
 #include "app/explorer/surface/edit.h"
 #include "app/words/typed.h"
