@@ -750,35 +750,13 @@ static struct own *make_processed(const struct making *making, const struct gm_w
 /* -- what the row says
    ---------------------------------------------------------------------------------------- */
 
-/* Words of claims, one after the other. */
 static bool read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
 {
-    const char *text = making->source->text;
-    struct gm_span rest = line->value;
-    const bool none = rest.end - rest.begin == 4 && memcmp(text + rest.begin, "none", 4) == 0;
-    for (*claims = 0; rest.begin < rest.end && !none;) {
-        unsigned found = GM_CLAIM_COUNT;
-        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const char *word = gm_claim_word(bit);
-            const size_t length = strlen(word), left = rest.end - rest.begin;
-            if (length <= left && memcmp(text + rest.begin, word, length) == 0 &&
-                (length == left || strchr(" \t\n,", text[rest.begin + length]))) {
-                found = bit;
-            }
-        }
-        if (found == GM_CLAIM_COUNT) {
-            fail(making, rest.begin,
-                 "a claim was expected: symplectic, symmetric, reversible, keeps energy, keeps quadratic "
-                 "invariants, keeps bilinear invariants, keeps linear invariants, keeps volume; or none");
-            return false;
-        }
-        *claims |= 1u << found;
-        rest.begin += strlen(gm_claim_word(found));
-        while (rest.begin < rest.end && strchr(" \t\n\r,", text[rest.begin])) {
-            rest.begin++;
-        }
-    }
-    return true;
+    size_t wrong;
+    return gm_claims_read(making->source->text, line->value, claims, &wrong) ||
+           fail(making, wrong,
+                "a claim was expected: symplectic, symmetric, reversible, keeps energy, keeps quadratic "
+                "invariants, keeps bilinear invariants, keeps linear invariants, keeps volume; or none");
 }
 
 /* The first numbers of a line, for a title. */
