@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes: Gauss-Legendre collocation
-   in space and time (collocation.c),
+/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes, and for waves, whose state
+   is u at two levels: Gauss-Legendre collocation in space and time (collocation.c),
        r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
    S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The memory is s
    at the stages of the cells, and the stages of three steps, of which the next step's are guessed. What the form
@@ -20,10 +20,10 @@
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
-const struct gm_collocation_tableau gm_collocation_midpoint = {1, {{0.5}}, {1}, {0.5}};
+static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
-const struct gm_collocation_tableau gm_collocation_gauss4 = {
+static const struct gm_collocation_tableau gauss4 = {
     2,
     {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
     {0.5, 0.5},
@@ -101,7 +101,7 @@ static void integrate_potentials(struct gm_collocation *work)
     const struct gm_collocation_tableau *tableau = work->tableau;
     const size_t points = work->points, r = work->r, d = work->d;
     const double dx = work->problem->line.dx;
-    form->gradients(work->problem->parameters, work->low, work->gradient, r * points);
+    gm_collocation_gradients(work, work->low, work->gradient, r * points);
     for (size_t p = 0; p < form->potential_count; p++) {
         const size_t component = form->potentials[p].component, row = form->potentials[p].row;
         const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
@@ -198,6 +198,55 @@ static void settle(struct gm_collocation *work, double dt)
     memcpy(work->low, sum, of_level(work) * sizeof *sum);
 }
 
+/* The mean over the ring of both stages of v: where they differ, no slope of w moves them. */
+static void share_mean(double *stages, size_t points)
+{
+    double means[2] = {0};
+    for (size_t at = 0; at < 2 * points; at++) {
+        means[at / points] += stages[at] / (double)points;
+    }
+    for (size_t at = 0; at < 2 * points; at++) {
+        stages[at] += (means[0] + means[1]) / 2 - means[at / points];
+    }
+}
+
+/* u and v of a wave at two stages, from the two levels of its state: by the first terms of Taylor's series,
+       v = [u(t + g) - u(t)]/g - g [2 u''(t) + u''(t + g)]/6 + O(g^3),
+   then corrected so that a step leads to the other level as well as to the order of the scheme. */
+static void start_wave(struct gm_collocation *work, const double *levels)
+{
+    enum { TIMES = 2 };
+    const struct gm_problem *problem = work->problem;
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    const size_t points = work->points, count = work->r * points;
+    const double gap = levels[2 * points], *other_level = levels + points;
+    /* there are no steps before */
+    double *u = work->low, *v = u + count, *other = work->past_z[1], *second = other + count,
+           *force = second + count;
+    memset(v, 0, 2 * count * sizeof *v);
+    for (size_t k = 0; k < 2; k++) {
+        const double weight = k == 0 ? 2 : 1;
+        gm_collocation_to_stages(work, k == 0 ? levels : other_level, false, other);
+        gm_collocation_to_stages(work, k == 0 ? levels : other_level, true, second);
+        wave->slopes(problem, other, force, count);
+        for (size_t at = 0; at < count; at++) {
+            v[at] += (k == 0 ? -1 : 1) * other[at] / gap - gap * weight * (second[at] - force[at]) / 6;
+            u[at] = k == 0 ? other[at] : u[at];
+        }
+    }
+    share_mean(v, points);
+    for (int k = 0; k < TIMES; k++) {
+        struct gm_progress uncounted = {.status = GM_OK};
+        guess(work, 1);
+        if (gm_collocation_step(work, gap, &uncounted) != GM_OK) {
+            return;
+        }
+        for (size_t at = 0; at < count; at++) {
+            v[at] += (other[at] - work->high[at]) / gap;
+        }
+    }
+}
+
 /* s at the stages, once; for another dt the steps before are forgotten. */
 static enum gm_status start(const struct gm_task *task)
 {
@@ -208,10 +257,15 @@ static enum gm_status start(const struct gm_task *task)
         return GM_OK;
     }
     work->needs_newton = false;
-    gm_collocation_to_stages(work, task->y, work->low);
     gm_collocation_guess_sides(work, task->y);
-    integrate_potentials(work);
     memcpy(work->past_y[0], work->y, work->sides * work->points * sizeof(double));
+    if (gm_field_of(work->problem)->wave) {
+        start_wave(work, task->y);
+        remember(work, 1, task->memory_out);
+        return GM_OK;
+    }
+    gm_collocation_to_stages(work, task->y, false, work->low);
+    integrate_potentials(work);
     if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
         settle(work, task->dt);
     }
@@ -235,6 +289,16 @@ static void shift(double **now, double **past)
     *now = oldest;
 }
 
+/* The state at the nodes; of a wave u at the level before as well, which `work->high` holds. */
+static void find_state(struct gm_collocation *work, double dt, double *state)
+{
+    gm_collocation_to_nodes(work, work->low, state);
+    if (gm_field_of(work->problem)->wave) {
+        gm_collocation_to_nodes(work, work->high, state + work->points);
+        state[2 * work->points] = -dt;
+    }
+}
+
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
@@ -243,7 +307,8 @@ static struct gm_progress advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         guess(work, known);
         progress.status = gm_collocation_step(work, task->dt, &progress);
-        if (progress.status == GM_OK && !gm_field_within(work->high, of_level(work), task->limit)) {
+        if (progress.status == GM_OK &&
+            !gm_field_within(work->high, work->state * work->r * work->points, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
         if (progress.status != GM_OK) {
@@ -258,8 +323,29 @@ static struct gm_progress advance(const struct gm_task *task)
         progress.done++;
     }
     remember(work, known, task->memory_out);
-    gm_collocation_to_nodes(work, work->low, task->out);
+    find_state(work, task->dt, task->out);
     return progress;
+}
+
+/* u_t^2/2 + u_x^2/2 + V(u) at the stages of the cells, with the slopes that the boxes have there. */
+static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *remembered)
+{
+    (void)y;
+    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    if (!work) {
+        return NAN;
+    }
+    const size_t points = work->points, count = work->r * points;
+    const double *u = gm_any_form_stages(remembered), *v = u + count;
+    double sum = 0, *slope = work->high;
+    gm_collocation_slopes(work, u, slope);
+    for (size_t at = 0; at < count; at++) {
+        sum += work->tableau->b[at / points] * ((v[at] * v[at] + slope[at] * slope[at]) / 2 +
+                                                gm_field_of(problem)->wave->potential(problem, u[at]));
+    }
+    gm_collocation_close(work);
+    return problem->line.dx * sum;
 }
 
 /* ---- the discrete multisymplectic law ---- */
@@ -393,21 +479,29 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
     }
 
 static const struct gm_scheme schemes[] = {
+    {
+        .name = "gauss-box3",
+        .title = "Gauss box, r = s = 2",
+        .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
+        .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
+        .family = &gm_family_any_form,
+        .coefficients = &gauss4,
+        .order = 3,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+    },
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        &gm_collocation_midpoint, 2),
-    BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &gm_collocation_midpoint, 2),
+        &midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
-        3),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
     BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };
 
 const struct gm_family gm_family_any_form = {
     .kind = &gm_kind_field,
-    .title = "multisymplectic boxes of all components",
+    .title = "multisymplectic Gauss collocation",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
     .loop = advance,
@@ -416,4 +510,5 @@ const struct gm_family gm_family_any_form = {
     .workspace_open = gm_collocation_open,
     .workspace_close = gm_collocation_close,
     .form = form,
+    .wave_energy = wave_energy,
 };

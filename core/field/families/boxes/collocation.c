@@ -162,7 +162,8 @@ static void invert(struct gm_collocation *work)
 
 void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_form *form = gm_field_of(problem)->form;
+    const struct gm_field *field = gm_field_of(problem);
+    const struct gm_form *form = field->form;
     struct gm_collocation *work = calloc(1, sizeof *work);
     if (!work) {
         return NULL;
@@ -172,7 +173,12 @@ void *gm_collocation_open(const struct gm_problem *problem, const struct gm_sche
     work->tableau = scheme->coefficients;
     work->points = points;
     work->d = d;
+    work->state = field->wave ? 1 : d;
     work->r = work->tableau->r;
+    work->jump[0] = problem->line.jump;
+    for (size_t c = 0; form->jump && c < d; c++) {
+        work->jump[c] = form->jump[c];
+    }
     find_range(work, form);
     invert(work);
     const size_t q = work->r * work->r;
@@ -220,6 +226,37 @@ void *gm_collocation_open(const struct gm_problem *problem, const struct gm_sche
 
 /* ---- the equations ---- */
 
+/* grad S of s = (u, v, w) is (V', v, -w) for a wave, whose form does not state it at many points. */
+void gm_collocation_gradients(const struct gm_collocation *work, const double *s, double *gradient,
+                              size_t count)
+{
+    const struct gm_field *field = gm_field_of(work->problem);
+    if (!field->wave) {
+        field->form->gradients(work->problem->parameters, s, gradient, count);
+        return;
+    }
+    field->wave->slopes(work->problem, s, gradient, count);
+    memcpy(gradient + count, s + count, count * sizeof *s);
+    for (size_t i = 2 * count; i < 3 * count; i++) {
+        gradient[i] = -s[i];
+    }
+}
+
+static void find_hessians(const struct gm_collocation *work, const double *s, double *hessian, size_t count)
+{
+    const struct gm_field *field = gm_field_of(work->problem);
+    if (!field->wave) {
+        field->form->hessians(work->problem->parameters, s, hessian, count);
+        return;
+    }
+    memset(hessian, 0, 9 * count * sizeof *hessian);
+    for (size_t i = 0; i < count; i++) {
+        hessian[i] = field->wave->curvature(work->problem, s[i]);
+        hessian[4 * count + i] = 1;
+        hessian[8 * count + i] = -1;
+    }
+}
+
 /* to += factor from */
 GM_CLONES static void add(double *restrict to, const double *restrict from, double factor, size_t count)
 {
@@ -255,10 +292,9 @@ static double weight_of_sides(const struct gm_collocation *work)
 
 static double jump_of(const struct gm_collocation *work, size_t a)
 {
-    const double *jump = gm_field_of(work->problem)->form->jump;
     double sum = 0;
-    for (size_t c = 0; jump && c < work->d; c++) {
-        sum += work->basis[c][a] * jump[c];
+    for (size_t c = 0; c < work->d; c++) {
+        sum += work->basis[c][a] * work->jump[c];
     }
     return sum;
 }
@@ -608,7 +644,7 @@ static bool make_constant(struct gm_collocation *work, double dt)
         work->constant_dt = dt;
         /* the last cell of a potential is not as the others */
         work->constant.good = form->potential_count == 0;
-        form->hessians(work->problem->parameters, zero, hessian, 1);
+        find_hessians(work, zero, hessian, 1);
         for (size_t i = 0; i < d * d; i++) {
             work->constant.good &= isfinite(hessian[i]);
             for (size_t at = 0; at < q; at++) {
@@ -620,14 +656,18 @@ static bool make_constant(struct gm_collocation *work, double dt)
     return work->constant.good;
 }
 
+static void add_changes(struct gm_collocation *work)
+{
+    add(work->z, work->right, 1, work->stages * work->points);
+    add(work->y, work->right + work->stages * work->points, 1, work->sides * work->points);
+}
+
 /* One iteration; the largest change of a stage, NAN where one is not finite. */
 static double iterate(struct gm_collocation *work, double dt, bool newton, bool anew, double *left,
                       struct gm_progress *progress)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t points = work->points, q = work->r * work->r;
-    const void *parameters = work->problem->parameters;
-    form->gradients(parameters, work->z, work->gradient, q * points);
+    gm_collocation_gradients(work, work->z, work->gradient, q * points);
     find_right(work, dt, false);
     progress->evaluations++;
     progress->iterations++;
@@ -637,7 +677,7 @@ static double iterate(struct gm_collocation *work, double dt, bool newton, bool 
     }
     if (newton) {
         if (anew) {
-            form->hessians(parameters, work->z, work->hessian, q * points);
+            find_hessians(work, work->z, work->hessian, q * points);
             if (!factor(work, &work->newton, false, dt)) {
                 return NAN;
             }
@@ -646,8 +686,7 @@ static double iterate(struct gm_collocation *work, double dt, bool newton, bool 
     } else {
         solve_shared(work, &work->constant);
     }
-    add(work->z, work->right, 1, work->stages * points);
-    add(work->y, work->right + work->stages * points, 1, work->sides * points);
+    add_changes(work);
     return largest(work->right, work->stages * points);
 }
 
@@ -683,10 +722,24 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
     return GM_NO_CONVERGENCE;
 }
 
+/* s behind the step, from that before and the stages */
+static void find_high(struct gm_collocation *work)
+{
+    const size_t points = work->points, r = work->r;
+    for (size_t at = 0; at < work->d * r; at++) {
+        double *high = work->high + at * points;
+        memset(high, 0, points * sizeof *high);
+        add(high, work->low + at * points, work->rest, points);
+        for (size_t k = 0; k < r; k++) {
+            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
+        }
+    }
+}
+
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress)
 {
-    const size_t points = work->points, r = work->r, z_size = work->stages * points * sizeof(double),
-                 y_size = work->sides * points * sizeof(double);
+    const size_t z_size = work->stages * work->points * sizeof(double),
+                 y_size = work->sides * work->points * sizeof(double);
     enum gm_status status = GM_NO_CONVERGENCE;
     if (!work->needs_newton && make_constant(work, dt)) {
         memcpy(work->first_z, work->z, z_size);
@@ -701,30 +754,21 @@ enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struc
         work->needs_newton = true;
         status = solve(work, dt, true, progress);
     }
-    for (size_t at = 0; at < work->d * r && status == GM_OK; at++) {
-        const double *low = work->low + at * points;
-        double *high = work->high + at * points;
-        memset(high, 0, points * sizeof *high);
-        add(high, low, work->rest, points);
-        for (size_t k = 0; k < r; k++) {
-            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
-        }
-    }
+    find_high(work);
     return status;
 }
 
 bool gm_collocation_linearise(struct gm_collocation *work, double dt)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    form->hessians(work->problem->parameters, work->z, work->hessian, work->r * work->r * work->points);
+    find_hessians(work, work->z, work->hessian, work->r * work->r * work->points);
     return factor(work, &work->newton, false, dt);
 }
 
 void gm_collocation_tangent(struct gm_collocation *work, double dt)
 {
-    const size_t points = work->points, r = work->r, q = r * r, d = work->d, count = q * points;
-    memset(work->z, 0, work->stages * points * sizeof(double));
-    memset(work->y, 0, work->sides * points * sizeof(double));
+    const size_t d = work->d, count = work->r * work->r * work->points;
+    memset(work->z, 0, work->stages * work->points * sizeof(double));
+    memset(work->y, 0, work->sides * work->points * sizeof(double));
     for (int again = 0; again < 3; again++) {
         /* solved again for what rounding leaves */
         for (size_t c = 0; c < d; c++) {
@@ -739,31 +783,17 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt)
         }
         find_right(work, dt, true);
         solve_each(work, &work->newton);
-        add(work->z, work->right, 1, work->stages * points);
-        add(work->y, work->right + work->stages * points, 1, work->sides * points);
+        add_changes(work);
     }
-    for (size_t at = 0; at < d * r; at++) {
-        double *high = work->high + at * points;
-        memset(high, 0, points * sizeof *high);
-        add(high, work->low + at * points, work->rest, points);
-        for (size_t k = 0; k < r; k++) {
-            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
-        }
-    }
+    find_high(work);
 }
 
 /* ---- nodes and stages ---- */
 
-static double jump_at(const struct gm_collocation *work, size_t c)
-{
-    const double *jump = gm_field_of(work->problem)->form->jump;
-    return jump ? jump[c] : 0;
-}
-
 /* s - jump x / length is periodic; that of a place `part` of a cell behind node i. */
 static double slant(const struct gm_collocation *work, size_t c, size_t i, double part)
 {
-    return jump_at(work, c) * ((double)i + part) / (double)work->points;
+    return work->jump[c] * ((double)i + part) / (double)work->points;
 }
 
 static double angle_of(size_t mode, size_t points)
@@ -776,7 +806,7 @@ void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes
 {
     memset(work->y, 0, work->sides * work->points * sizeof(double));
     for (size_t at = 0; at < work->sides; at++) {
-        for (size_t c = 0; c < work->d; c++) {
+        for (size_t c = 0; c < work->state; c++) {
             add(work->y + at * work->points, nodes + c * work->points, work->basis[c][at % work->rank],
                 work->points);
         }
@@ -784,32 +814,31 @@ void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes
 }
 
 /* One stage is the mean of both ends of a cell; of several the wave through the nodes has its values. */
-void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages)
+void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, bool second, double *stages)
 {
     const size_t points = work->points, r = work->r;
-    for (size_t c = 0; c < work->d; c++) {
-        const double *from = nodes + c * points;
-        double *to = stages + c * r * points;
+    for (size_t at = 0; at < work->state * r; at++) {
+        const size_t c = at / r;
+        const double *from = nodes + c * points, part = work->tableau->c[at % r];
+        double *to = stages + at * points;
         if (r == 1) {
             for (size_t i = 0; i < points; i++) {
-                to[i] = (from[i] + (i + 1 < points ? from[i + 1] : from[0] + jump_at(work, c))) / 2;
+                to[i] = (from[i] + (i + 1 < points ? from[i + 1] : from[0] + work->jump[c])) / 2;
             }
             continue;
         }
-        for (size_t m = 0; m < r; m++) {
-            const double part = work->tableau->c[m];
-            for (size_t i = 0; i < points; i++) {
-                work->waves[i] = from[i] - slant(work, c, i, 0);
-            }
-            gm_fourier_forward(work->fourier, work->waves);
-            for (size_t mode = 0; mode < points; mode++) {
-                work->waves[mode] *=
-                    2 * mode == points ? cos(M_PI * part) : cexp(I * angle_of(mode, points) * part);
-            }
-            gm_fourier_inverse(work->fourier, work->waves);
-            for (size_t i = 0; i < points; i++) {
-                to[m * points + i] = creal(work->waves[i]) + slant(work, c, i, part);
-            }
+        for (size_t i = 0; i < points; i++) {
+            work->waves[i] = from[i] - slant(work, c, i, 0);
+        }
+        gm_fourier_forward(work->fourier, work->waves);
+        for (size_t mode = 0; mode < points; mode++) {
+            const double angle = angle_of(mode, points), slope = angle / work->problem->line.dx;
+            work->waves[mode] *= 2 * mode == points ? cos(M_PI * part) : cexp(I * angle * part);
+            work->waves[mode] *= second ? -slope * slope : 1;
+        }
+        gm_fourier_inverse(work->fourier, work->waves);
+        for (size_t i = 0; i < points; i++) {
+            to[i] = creal(work->waves[i]) + (second ? 0 : slant(work, c, i, part));
         }
     }
 }
@@ -877,7 +906,7 @@ static void combine(struct gm_collocation *work, const double *stages, double *v
                     void (*weigh)(const struct gm_collocation *work, size_t mode, double complex *weights))
 {
     const size_t points = work->points, r = work->r;
-    for (size_t c = 0; c < work->d; c++) {
+    for (size_t c = 0; c < work->state; c++) {
         const double *from = stages + c * r * points;
         for (size_t m = 0; m < r; m++) {
             double complex *waves = work->waves + m * points;
@@ -912,7 +941,7 @@ void gm_collocation_slopes(struct gm_collocation *work, const double *stages, do
     const double over = 1 / work->problem->line.dx;
     double *sides = work->gradient;
     combine(work, stages, sides, side_weights);
-    for (size_t at = 0; at < work->d * r; at++) {
+    for (size_t at = 0; at < work->state * r; at++) {
         double *slope = slopes + at * points;
         memset(slope, 0, points * sizeof *slope);
         add(slope, sides + at / r * points, -over * work->sums[at % r], points);

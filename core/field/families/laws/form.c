@@ -130,7 +130,7 @@ bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *sche
         for (size_t c = 0; c < d; c++) {
             middle[c] = (a[c] + b[c]) / 2;
         }
-        form->gradient(problem->parameters, middle, slope);
+        form->gradients(problem->parameters, middle, slope, 1);
         residual[i] = form->function(problem->parameters, b) - form->function(problem->parameters, a);
         for (size_t c = 0; c < d; c++) {
             residual[i] -= (b[c] - a[c]) * slope[c];

@@ -594,7 +594,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "rk4sym",
-        .alias = "midpoint-yoshida4",
+        .alias = {"midpoint-yoshida4"},
         .title = "RK4sym",
         .formula = "three midpoint steps of lengths bh, (1 − 2b)h, bh,  b = (2 + ∛2 + 1/∛2)/3",
         .reference = "Sanz-Serna & Abia, SIAM J. Numer. Anal. 28 (1991) 1081; "
