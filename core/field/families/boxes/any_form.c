@@ -350,43 +350,23 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 
 /* ---- the discrete multisymplectic law ---- */
 
+/* Memories before and after a step, and a state that is not looked at. */
 struct base {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    double dt;
-    struct gm_collocation *work;
-    const double *y;
-    const double *memory;
+    const struct gm_law *law;
+    double *given, *made, *state;
 };
 
 /* gm_map: s at the stages to s at those behind a step. */
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t n = base->problem->n, size = memory(base->problem, base->scheme), low = of_level(base->work);
-    double *scratch = malloc((n + 2 * size) * sizeof *scratch);
-    if (!scratch) {
+    const size_t size = of_level(base->law->work) * sizeof *to;
+    memcpy(base->given + ARRAYS, from, size);
+    if (!gm_law_step(base->law, 1, base->law->y, base->given, base->state, base->made)) {
         return false;
     }
-    double *given = scratch + n, *made = given + size;
-    memcpy(given, base->memory, size * sizeof *given);
-    memcpy(given + ARRAYS, from, low * sizeof *given);
-    const struct gm_task task = {
-        .problem = base->problem,
-        .scheme = base->scheme,
-        .dt = base->dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = base->y,
-        .out = scratch,
-        .memory = given,
-        .memory_out = made,
-        .workspace = base->work,
-    };
-    const bool good = base->scheme->family->loop(&task).status == GM_OK;
-    memcpy(to, made + ARRAYS, low * sizeof *to);
-    free(scratch);
-    return good;
+    memcpy(to, base->made + ARRAYS, size);
+    return true;
 }
 
 /* From [component][stage][cell] to faces. */
@@ -402,29 +382,45 @@ static void to_face(const struct gm_collocation *work, const double *stages, dou
     }
 }
 
-/* Advances a tangent from s at the stages and finds its faces. */
-static bool advance_tangent(const struct base *base, bool by_differences, const double *tangent, double *next,
-                            struct gm_faces *faces)
+static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
-    struct gm_collocation *work = base->work;
+    const size_t low = of_level(law->work), size = memory(law->problem, law->scheme);
+    double *given = gm_arena_take(law->arena, 2 * size + law->problem->n, sizeof *given);
+    const struct base base = {law, given, given + size, given + 2 * size};
+    memcpy(given, law->memory, size * sizeof *given);
+    if (!gm_differentiate(one_step, &base, low, law->memory + ARRAYS, tangent, low, next)) {
+        gm_arena_leave(law->arena);
+    }
+}
+
+/* Advances a tangent from s at the stages and finds its faces. */
+static void advance_tangent(const struct gm_law *law, size_t k, struct gm_faces *faces)
+{
+    struct gm_collocation *work = law->work;
     const size_t low = of_level(work), points = work->points, d = work->d, r = work->r;
-    const bool good =
-        !by_differences || gm_differentiate(one_step, base, low, base->memory + ARRAYS, tangent, low, next);
+    const double waves = 2 + (double)k;
+    double *tangent = gm_arena_take(law->arena, 2 * low, sizeof *tangent), *next = tangent + low;
+    for (size_t at = 0; at < d * r; at++) {
+        gm_tangent_start(tangent + at * points, points, waves,
+                         0.3 + 0.4 * (double)k + (double)(at / r) +
+                             2 * M_PI * waves * work->tableau->c[at % r] / (double)points);
+    }
+    if (law->by_differences) {
+        differentiate(law, tangent, next);
+    }
     struct gm_progress uncounted = {.status = GM_OK};
-    guess(work, recall(work, base->memory));
-    if (!good || gm_collocation_step(work, base->dt, &uncounted) != GM_OK ||
-        !gm_collocation_linearise(work, base->dt)) {
-        return false;
+    guess(work, recall(work, law->memory));
+    if (gm_collocation_step(work, law->dt, &uncounted) != GM_OK || !gm_collocation_linearise(work, law->dt)) {
+        gm_arena_leave(law->arena);
     }
     memcpy(work->low, tangent, low * sizeof *tangent);
-    gm_collocation_tangent(work, base->dt);
+    gm_collocation_tangent(work, law->dt);
     to_face(work, tangent, faces->lower);
-    to_face(work, by_differences ? next : work->high, faces->upper);
+    to_face(work, law->by_differences ? next : work->high, faces->upper);
     for (size_t i = 0; i <= points; i++) {
         for (size_t j = 0; j < r; j++) {
             double *side = faces->sides + (i * r + j) * d;
             for (size_t c = 0; c < d; c++) {
-                side[c] = 0;
                 for (size_t a = 0; a < work->rank; a++) {
                     side[c] +=
                         work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
@@ -432,43 +428,15 @@ static bool advance_tangent(const struct base *base, bool by_differences, const 
             }
         }
     }
-    return true;
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *remembered, bool by_differences)
+static double form(const struct gm_law *law)
 {
-    const struct gm_form *field = gm_field_of(problem)->form;
-    const struct gm_collocation_tableau *tableau = scheme->coefficients;
-    const size_t points = problem->line.points, r = tableau->r, d = field->dimension;
-    const struct gm_lattice cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
-    struct gm_faces faces[2] = {{0}};
-    double *tangent = malloc(2 * d * r * points * sizeof *tangent), residual = NAN;
-    bool good = work && tangent;
-    for (size_t t = 0; t < 2 && good; t++) {
-        good = gm_faces_open(&faces[t], field, &cells);
-    }
-    const struct base base = {problem, scheme, dt, work, y, remembered};
-    for (size_t t = 0; t < 2 && good; t++) {
-        const double waves = 2 + (double)t;
-        for (size_t at = 0; at < d * r; at++) {
-            gm_tangent_start(tangent + at * points, points, waves,
-                             0.3 + 0.4 * (double)t + (double)(at / r) +
-                                 2 * M_PI * waves * tableau->c[at % r] / (double)points);
-        }
-        good = advance_tangent(&base, by_differences, tangent, tangent + d * r * points, &faces[t]);
-    }
-    if (good) {
-        residual = gm_lattice_law(field, &cells, &faces[0], &faces[1]);
-    }
-    gm_faces_close(&faces[0]);
-    gm_faces_close(&faces[1]);
-    free(tangent);
-    if (work) {
-        gm_collocation_close(work);
-    }
-    return residual;
+    const struct gm_collocation *work = law->work;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
+                                     law->problem->line.dx, law->dt};
+    return gm_lattice_law(law, &cells, advance_tangent);
 }
 
 #define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \

@@ -193,11 +193,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences)
+static double form(const struct gm_law *law)
 {
-    return is_wave(problem) ? gm_wave_form(problem, scheme, dt, y, memory, by_differences)
-                            : gm_dispersive_form(problem, scheme, dt, y, by_differences);
+    return is_wave(law->problem) ? gm_wave_form(law) : gm_dispersive_form(law);
 }
 
 static const struct gm_scheme schemes[] = {

@@ -109,6 +109,12 @@ static double node_law(const struct gm_problem *problem, const struct gm_levels 
            d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
 }
 
+/* Which law of the nodes is measured, and what it leaves at each. */
+struct node_laws {
+    enum gm_local_law law;
+    double *residual;
+};
+
 static double cell_law(const struct gm_problem *problem, double a, double b, double step)
 {
     const struct gm_wave *wave = gm_field_of(problem)->wave;
@@ -131,28 +137,31 @@ static void cell_laws(const struct gm_problem *problem, double dt, const double 
     }
 }
 
+static void node_laws(const struct gm_law *of, void *data)
+{
+    const struct gm_problem *problem = of->problem;
+    const struct gm_grid1 *grid = &problem->line;
+    const struct gm_levels levels = gm_levels_of(of);
+    const struct node_laws *laws = data;
+    for (size_t i = 0; i < grid->points; i++) {
+        if (laws->law == GM_LAW_OF_ENERGY) {
+            const double rate = (levels.next[i] - levels.past[i]) / (2 * of->dt);
+            laws->residual[i] = rate * node_law(problem, &levels, of->dt, i, levels.next[i], levels.past[i]);
+        } else {
+            const double a = at(grid, levels.now, i, 1), b = at(grid, levels.now, i, -1);
+            laws->residual[i] = (a - b) / (2 * grid->dx) * node_law(problem, &levels, of->dt, i, a, b);
+        }
+    }
+}
+
 bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual)
 {
     const enum gm_wave_law kind = law_of(scheme);
-    const struct gm_grid1 *grid = &problem->line;
-    struct gm_levels levels;
+    struct gm_law of = {problem, scheme, dt, y, NULL, .by_differences = false};
+    struct node_laws nodes = {law, residual};
     if (kind == GM_LAW_CELLS) {
         cell_laws(problem, dt, y, law, residual);
-        return true;
     }
-    if (kind != GM_LAW_NODES || !gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
-        return false;
-    }
-    for (size_t i = 0; i < grid->points; i++) {
-        if (law == GM_LAW_OF_ENERGY) {
-            const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
-            residual[i] = rate * node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
-        } else {
-            const double a = at(grid, levels.now, i, 1), b = at(grid, levels.now, i, -1);
-            residual[i] = (a - b) / (2 * grid->dx) * node_law(problem, &levels, dt, i, a, b);
-        }
-    }
-    gm_levels_close(&levels);
-    return true;
+    return kind == GM_LAW_CELLS || (kind == GM_LAW_NODES && gm_law_measure(&of, node_laws, &nodes));
 }
