@@ -57,6 +57,7 @@ extern const struct gm_parameter *const gm_settings_of_gsl[];              /* to
 extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
 struct gm_coefficients; /* core/theory/coefficients.h */
+struct gm_law;          /* core/field/multisymplectic.h */
 
 /* Where linear theory bounds the steps of a scheme. */
 struct gm_step_limit {
@@ -67,7 +68,7 @@ struct gm_step_limit {
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
-    const char *alias;     /* another name it is known by; or NULL */
+    const char *alias[2];  /* other names it is known by; NULL: no more */
     const char *title;     /* "RK4", as pictures write it */
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* where it comes from */
@@ -124,10 +125,8 @@ struct gm_family {
     bool adaptive;
     /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
     bool doubled;
-    /* The residual of the discrete multisymplectic law at the state y, for gm_form_residual; by differences
-       of the scheme's own steps, or by the linearised scheme. NULL: the family has no such law. */
-    double (*form)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences);
+    /* The residual of the discrete multisymplectic law, for gm_form_residual. NULL: the family has no such law. */
+    double (*form)(const struct gm_law *law);
     /* The energy of a wave as the family's own space and memory have it; NaN: out of memory. NULL: the two levels of
        the state tell it. */
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,

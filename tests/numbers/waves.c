@@ -332,7 +332,6 @@ static void energies_fall_with_the_order_of_the_step(void **unused)
         int order;
         bool keeps_waves;
     } schemes[] = {{"box", 3.2e-4, 2, true},
-                   {"gauss-box2", 1.6e-4, 2, true},
                    {"gauss-box3", 1.1e-8, 4, true},
                    {"midpoint-box", 6.4e-4, 2, true},
                    {"lobatto-box2", 3.9e-4, 2, false},

@@ -138,7 +138,6 @@ static void properties_that_are_false(void **unused)
         {"evolution-projection", GM_KEEPS_LINEAR},
         {"leapfrog", GM_KEEPS_ENERGY},
         {"box", GM_KEEPS_ENERGY},
-        {"gauss-box2", GM_KEEPS_ENERGY},
         {"gauss-box3", GM_KEEPS_ENERGY},
         {"midpoint-box", GM_SYMMETRIC},
         {"box", GM_KEEPS_QUADRATIC},

@@ -50,9 +50,10 @@ static void put_scheme(size_t index, const bool *fits)
 {
     const struct gm_scheme *scheme = gm_scheme_at(index);
     printf("### %s: `%s`\n\n", scheme->title, scheme->name);
-    if (scheme->alias) {
-        printf("Also called `%s`. ", scheme->alias);
+    for (size_t i = 0; i < GM_COUNT(scheme->alias) && scheme->alias[i]; i++) {
+        printf("%s`%s`", i == 0 ? "Also called " : ", ", scheme->alias[i]);
     }
+    printf("%s", scheme->alias[0] ? ". " : "");
     if (scheme->order > 0) {
         printf("Order %d. ", scheme->order);
     }

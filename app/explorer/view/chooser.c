@@ -31,7 +31,8 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
                                scheme->title,
                                scheme->family->title,
                                scheme->reference ? scheme->reference : "",
-                               scheme->alias ? scheme->alias : "",
+                               scheme->alias[0],
+                               scheme->alias[1],
                                NULL};
         const int rank = gm_search_rank(face->typed, texts);
         if (rank < 0) {

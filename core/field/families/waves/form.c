@@ -3,21 +3,35 @@
    schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
        Euler box   v = D_t^- u,   w = D_x^- u
        midpoint    w = D_0 u
-       box         A_x W = D_x A_t u                           W = A_t w, at the sides of the cells
-                   A_t V = D_t A_x u   in the first row        V = A_x v, at the levels
-                   D_t V = D_x W - V'' u   in both rows
-   In the box V at the last level is right only if the step was one of the box. */
+   The box is collocation at one point (boxes/collocation.c), which has all of them. */
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/waves/levels.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
-#include "core/linear/ring.h"
+
+/* Where the state holds two levels, a step is made aside. */
+struct gm_levels gm_levels_of(const struct gm_law *law)
+{
+    const struct gm_two_step_row *row = law->scheme->coefficients;
+    const size_t points = law->problem->line.points, size = gm_wave_size(points);
+    const bool at_start = law->y[2 * points] != -law->dt, centred = row->law == GM_LAW_CENTRED;
+    double *out = gm_arena_take(law->arena, size + 2 * points, sizeof *out), *v = out + size;
+    if (!gm_law_step(law, at_start ? 2 : 1, law->y, centred ? law->memory : NULL, out, centred ? v : NULL)) {
+        gm_arena_leave(law->arena);
+    }
+    struct gm_levels levels = {.past = at_start ? law->y : law->y + points, .now = out + points, .next = out};
+    if (centred) {
+        levels.v_past = at_start ? law->memory : law->memory + points;
+        levels.v_now = v + points;
+        levels.v_next = v;
+    }
+    return levels;
+}
 
 enum { U, V, W, DIMENSION };
 
@@ -26,36 +40,11 @@ struct tangent {
     double *past, *now, *next, *v_past, *v_now, *v_next;
 };
 
-enum { ARRAYS = 6 };
-
-static struct tangent tangent_at(double *memory, size_t points)
-{
-    return (struct tangent){memory,
-                            memory + points,
-                            memory + 2 * points,
-                            memory + 3 * points,
-                            memory + 4 * points,
-                            memory + 5 * points};
-}
-
-static void tangent_start(const struct tangent *tangent, bool centred, size_t points, double waves,
-                          double phase)
-{
-    gm_tangent_start(tangent->past, points, waves, phase);
-    gm_tangent_start(tangent->now, points, waves, 2 * phase - M_PI / 2);
-    if (centred) {
-        gm_tangent_start(tangent->v_past, points, waves, 3 * phase);
-        gm_tangent_start(tangent->v_now, points, waves, 5 * phase);
-    }
-}
-
+/* A solution, and arrays of a step aside. */
 struct base {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    double dt;
+    const struct gm_law *law;
     struct gm_levels levels;
-    double *earlier, *later; /* V'' in the cells of both rows */
-    void *work;
+    double *y, *memory_out;
 };
 
 static size_t left_of(size_t i, size_t points)
@@ -70,147 +59,75 @@ static size_t right_of(size_t i, size_t points)
 
 static void linearised_nodes(const struct base *base, const struct tangent *a)
 {
-    const struct gm_wave *wave = gm_field_of(base->problem)->wave;
-    const struct gm_two_step_row *row = base->scheme->coefficients;
+    const struct gm_wave *wave = gm_field_of(base->law->problem)->wave;
+    const struct gm_two_step_row *row = base->law->scheme->coefficients;
     const struct gm_levels *levels = &base->levels;
-    const size_t points = base->problem->line.points;
-    const double dt = base->dt, ratio = dt / base->problem->line.dx;
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, ratio = dt / base->law->problem->line.dx;
     for (size_t i = 0; i < points; i++) {
         const double change = a->now[right_of(i, points)] - 2 * a->now[i] + a->now[left_of(i, points)];
         const double free_motion = 2 * a->now[i] + ratio * ratio * change;
         if (row->average) {
-            const double in_next = wave->quotient_slope(base->problem, levels->next[i], levels->past[i]);
-            const double in_past = wave->quotient_slope(base->problem, levels->past[i], levels->next[i]);
+            const double in_next = wave->quotient_slope(base->law->problem, levels->next[i], levels->past[i]);
+            const double in_past = wave->quotient_slope(base->law->problem, levels->past[i], levels->next[i]);
             a->next[i] = (free_motion - (1 + dt * dt * in_past) * a->past[i]) / (1 + dt * dt * in_next);
         } else {
             a->next[i] = free_motion - a->past[i] -
-                         dt * dt * wave->curvature(base->problem, levels->now[i]) * a->now[i];
+                         dt * dt * wave->curvature(base->law->problem, levels->now[i]) * a->now[i];
         }
     }
 }
 
 static void linearised_centred(const struct base *base, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points;
-    const double dt = base->dt, dx = base->problem->line.dx;
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
     for (size_t i = 0; i < points; i++) {
         const size_t right = right_of(right_of(i, points), points),
                      left = left_of(left_of(i, points), points);
         const double second = (a->now[right] - 2 * a->now[i] + a->now[left]) / (4 * dx * dx);
         const double force =
-            gm_field_of(base->problem)->wave->curvature(base->problem, base->levels.now[i]) * a->now[i];
+            gm_field_of(base->law->problem)->wave->curvature(base->law->problem, base->levels.now[i]) *
+            a->now[i];
         a->next[i] = a->past[i] + 2 * dt * a->v_now[i];
         a->v_next[i] = a->v_past[i] + 2 * dt * (second - force);
     }
-}
-
-/* The linearised nine-point scheme at node i: A_x' D_t A_x and D_x' A_t D_x of three levels, and V'' in four
-   cells. */
-static double nine_points(const struct base *base, const struct tangent *a, size_t i)
-{
-    const size_t points = base->problem->line.points, l = left_of(i, points), r = right_of(i, points);
-    const double dt = base->dt, dx = base->problem->line.dx;
-    const double *p = a->past, *n = a->now, *f = a->next;
-    const double in_time = f[r] + 2 * f[i] + f[l] - 2 * (n[r] + 2 * n[i] + n[l]) + p[r] + 2 * p[i] + p[l];
-    const double in_space = f[r] - 2 * f[i] + f[l] + 2 * (n[r] - 2 * n[i] + n[l]) + p[r] - 2 * p[i] + p[l];
-    const double force =
-        base->later[i] * (n[i] + n[r] + f[i] + f[r]) + base->later[l] * (n[i] + n[l] + f[i] + f[l]) +
-        base->earlier[i] * (p[i] + p[r] + n[i] + n[r]) + base->earlier[l] * (p[i] + p[l] + n[i] + n[l]);
-    return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
-}
-
-/* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
-static bool linearised_box(const struct base *base, const struct tangent *a)
-{
-    const size_t points = base->problem->line.points;
-    const double dx = base->problem->line.dx;
-    const double in_time = 1 / (4 * base->dt * base->dt), in_space = 1 / (4 * dx * dx);
-    struct gm_ring_band band;
-    if (!gm_ring_band_open(&band, points, 1, 1)) {
-        return false;
-    }
-    memset(a->next, 0, points * sizeof *a->next);
-    double *right = a->v_next; /* no scheme of cells keeps u_t */
-    for (size_t i = 0; i < points; i++) {
-        const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
-        gm_ring_band_add(&band, i, 0, -1, 0, in_time - in_space + before);
-        gm_ring_band_add(&band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
-        gm_ring_band_add(&band, i, 0, 1, 0, in_time - in_space + after);
-    }
-    const bool good = gm_ring_band_factor(&band);
-    for (int k = 0; good && k < 3; k++) {
-        for (size_t i = 0; i < points; i++) {
-            right[i] = -nine_points(base, a, i);
-        }
-        gm_ring_band_solve(&band, right);
-        for (size_t i = 0; i < points; i++) {
-            a->next[i] += right[i];
-        }
-    }
-    gm_ring_band_close(&band);
-    return good;
 }
 
 /* gm_map: u at two levels, with u_t if the scheme keeps it, to the next level of the same. */
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t points = base->problem->line.points, size = gm_wave_size(points);
-    double *y = malloc((2 * size + 2 * points) * sizeof *y);
-    if (!y) {
-        return false;
-    }
-    double *out = y + size, *memory_out = out + size;
-    memcpy(y, from, 2 * points * sizeof *y);
-    y[2 * points] = -base->dt;
+    const size_t points = base->law->problem->line.points, size = points * sizeof *to;
     const bool keeps = base->levels.v_now != NULL;
-    const struct gm_task task = {
-        .problem = base->problem,
-        .scheme = base->scheme,
-        .dt = base->dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = y,
-        .out = out,
-        .memory = keeps ? from + 2 * points : NULL,
-        .memory_out = keeps ? memory_out : NULL,
-        .workspace = base->work,
-    };
-    const bool good = base->scheme->family->loop(&task).status == GM_OK;
-    memcpy(to, out, points * sizeof *to);
-    memcpy(to + points, memory_out, keeps ? points * sizeof *to : 0);
-    free(y);
+    double *out = base->y + gm_wave_size(points);
+    memcpy(base->y, from, 2 * size);
+    base->y[2 * points] = -base->law->dt;
+    const bool good = gm_law_step(base->law, 1, base->y, keeps ? from + 2 * points : NULL, out,
+                                  keeps ? base->memory_out : NULL);
+    memcpy(to, out, size);
+    memcpy(to + points, base->memory_out, keeps ? size : 0);
     return good;
 }
 
-static bool by_own_steps(const struct base *base, const struct tangent *a)
+static void by_own_steps(const struct base *base, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points, size = points * sizeof(double);
-    const bool keeps = base->levels.v_now != NULL;
-    const size_t levels = keeps ? 4 : 2;
-    double *from = malloc((2 * levels + 2) * size);
-    if (!from) {
-        return false;
-    }
+    const struct gm_levels *of = &base->levels;
+    const size_t points = base->law->problem->line.points, size = points * sizeof(double);
+    const size_t levels = of->v_now ? 4 : 2;
+    const double *const from_levels[] = {of->now, of->past, of->v_now, of->v_past};
+    const double *const directions[] = {a->now, a->past, a->v_now, a->v_past};
+    double *from = gm_arena_take(base->law->arena, (2 * levels + 2) * points, sizeof *from);
     double *direction = from + levels * points, *slope = direction + levels * points;
-    memcpy(from, base->levels.now, size);
-    memcpy(from + points, base->levels.past, size);
-    memcpy(direction, a->now, size);
-    memcpy(direction + points, a->past, size);
-    if (keeps) {
-        memcpy(from + 2 * points, base->levels.v_now, size);
-        memcpy(from + 3 * points, base->levels.v_past, size);
-        memcpy(direction + 2 * points, a->v_now, size);
-        memcpy(direction + 3 * points, a->v_past, size);
+    for (size_t k = 0; k < levels; k++) {
+        memcpy(from + k * points, from_levels[k], size);
+        memcpy(direction + k * points, directions[k], size);
     }
-    const bool good =
-        gm_differentiate(one_step, base, levels * points, from, direction, (keeps ? 2 : 1) * points, slope);
-    if (good) {
-        memcpy(a->next, slope, size);
-        memcpy(a->v_next, slope + points, keeps ? size : 0);
+    if (!gm_differentiate(one_step, base, levels * points, from, direction, levels / 2 * points, slope)) {
+        gm_arena_leave(base->law->arena);
     }
-    free(from);
-    return good;
+    memcpy(a->next, slope, size);
+    memcpy(a->v_next, slope + points, levels == 4 ? size : 0);
 }
 
 struct nodes {
@@ -237,153 +154,107 @@ static void complete_node(const void *tangent, size_t node, double *levels)
     }
 }
 
-static double law_of_nodes(const struct base *base, bool centred, const struct tangent *a,
-                           const struct tangent *b)
+static enum gm_wave_law law_of(const struct gm_law *law)
 {
-    const struct gm_grid1 *grid = &base->problem->line;
-    const struct nodes of_a = {grid, base->dt, centred, a}, of_b = {grid, base->dt, centred, b};
-    return gm_nodes_law(gm_field_of(base->problem)->form, centred, grid->points, grid->dx, base->dt,
-                        complete_node, &of_a, &of_b);
+    return ((const struct gm_two_step_row *)law->scheme->coefficients)->law;
 }
 
-/* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
-   alternating part free; the acceleration, which like A_t V = D_t A_x u has none, determines it. */
-static void side_slopes(const struct gm_grid1 *grid, const double *before, const double *after,
-                        const double *curvature, double *w)
+static struct base base_of(const struct gm_law *law)
 {
-    const size_t points = grid->points;
-    double alternating = 0;
+    const size_t points = law->problem->line.points;
+    double *memory_out = gm_arena_take(law->arena, 2 * points + 2 * gm_wave_size(points), sizeof *memory_out);
+    return (struct base){law, gm_levels_of(law), memory_out + 2 * points, memory_out};
+}
+
+static struct tangent tangent_on(const struct gm_law *law)
+{
+    const size_t points = law->problem->line.points;
+    double *u = gm_arena_take(law->arena, 6 * points, sizeof *u), *v = u + 3 * points;
+    return (struct tangent){u, u + points, u + 2 * points, v, v + points, v + 2 * points};
+}
+
+/* Tangent 0 or 1 of a scheme of nodes, a step ahead. */
+static struct tangent tangent_of(const struct base *base, size_t which)
+{
+    const struct gm_law *law = base->law;
+    const bool centred = law_of(law) == GM_LAW_CENTRED;
+    const size_t points = law->problem->line.points;
+    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
+    const struct tangent a = tangent_on(law);
+    gm_tangent_start(a.past, points, waves, phase);
+    gm_tangent_start(a.now, points, waves, 2 * phase - M_PI / 2);
+    if (centred) {
+        gm_tangent_start(a.v_past, points, waves, 3 * phase);
+        gm_tangent_start(a.v_now, points, waves, 5 * phase);
+    }
+    if (law->by_differences) {
+        by_own_steps(base, &a);
+    } else if (centred) {
+        linearised_centred(base, &a);
+    } else {
+        linearised_nodes(base, &a);
+    }
+    return a;
+}
+
+/* The means of two levels in the cells between them. */
+static void find_means(size_t points, double jump, const double *p, const double *q, double *means)
+{
     for (size_t i = 0; i < points; i++) {
         const size_t r = right_of(i, points);
-        const double force = curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
-        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * grid->dx);
-        alternating += i % 2 ? -force : force;
-    }
-    gm_ring_unaverage(w, points);
-    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
-        const double part = grid->dx / 2 * alternating / (double)points;
-        w[i] -= i % 2 ? -part : part;
+        means[i] = (p[i] + p[r] + q[i] + q[r] + (r == 0 ? 2 * jump : 0)) / 4;
     }
 }
 
-/* D_t V in cell i */
-static double acceleration(const struct gm_grid1 *grid, const double *before, const double *after,
-                           const double *curvature, const double *w, size_t i)
+/* A step of the box as collocation at one point, from `low` of a tangent, between two levels of the solution. */
+static void step_in_cells(const struct gm_law *law, struct gm_collocation *work, const double *p,
+                          const double *q)
 {
-    const size_t r = right_of(i, grid->points);
-    return (w[r] - w[i]) / grid->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
+    find_means(work->points, law->problem->line.jump, p, q, work->z);
+    if (!gm_collocation_tangent(work, law->dt)) {
+        gm_arena_leave(law->arena);
+    }
 }
 
-static bool complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
+/* A tangent of the box: a step finds its second level of nodes, the next one its faces. */
+static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
 {
-    const struct gm_grid1 *grid = &base->problem->line;
-    const size_t points = grid->points;
-    double *w = malloc(2 * points * sizeof *w);
-    if (!w) {
-        return false;
-    }
-    double *w_later = w + points;
-    side_slopes(grid, a->past, a->now, base->earlier, w);
-    side_slopes(grid, a->now, a->next, base->later, w_later);
+    const struct base base = base_of(law);
+    const struct gm_levels *levels = &base.levels;
+    const struct tangent a = tangent_on(law);
+    const size_t points = law->problem->line.points;
+    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
+    struct gm_collocation *work = gm_any_form_box(law);
+    gm_tangent_start(a.past, points, waves, phase);
+    find_means(points, 0, a.past, a.past, work->low + U * points);
+    gm_tangent_start(work->low + V * points, points, waves, 2 * phase - M_PI / 2);
+    step_in_cells(law, work, levels->past, levels->now);
     for (size_t i = 0; i < points; i++) {
-        const size_t r = right_of(i, points);
-        double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
-        lower[U] = (a->now[i] + a->now[r]) / 2;
-        upper[U] = (a->next[i] + a->next[r]) / 2;
-        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / base->dt +
-                   base->dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
-        upper[V] = lower[V] + base->dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
+        a.now[i] = -a.past[i];
+        for (size_t k = 0; k < work->rank; k++) {
+            a.now[i] += 2 * work->basis[U][k] * work->y[k * points + i];
+        }
     }
-    for (size_t i = 0; i <= points; i++) {
-        const size_t at = i < points ? i : 0;
-        double *side = faces->sides + i * DIMENSION;
-        side[U] = (a->now[at] + a->next[at]) / 2;
-        side[W] = w_later[at];
+    memcpy(work->low, work->high, DIMENSION * points * sizeof(double));
+    step_in_cells(law, work, levels->now, levels->next);
+    if (law->by_differences) {
+        by_own_steps(&base, &a);
+        find_means(points, 0, a.next, a.next, work->high + U * points);
     }
-    free(w);
-    return true;
+    gm_collocation_faces(work, faces);
 }
 
-static double law_of_cells(const struct base *base, const struct tangent *a, const struct tangent *b)
+double gm_wave_form(const struct gm_law *law)
 {
     static const double one = 1;
-    const struct gm_grid1 *grid = &base->problem->line;
-    const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, base->dt};
-    struct gm_faces of_a, of_b;
-    double law = NAN;
-    if (gm_faces_open(&of_a, gm_field_of(base->problem)->form, &cells)) {
-        if (gm_faces_open(&of_b, gm_field_of(base->problem)->form, &cells)) {
-            if (complete_cells(base, a, &of_a) && complete_cells(base, b, &of_b)) {
-                law = gm_lattice_law(gm_field_of(base->problem)->form, &cells, &of_a, &of_b);
-            }
-            gm_faces_close(&of_b);
-        }
-        gm_faces_close(&of_a);
+    const struct gm_grid1 *grid = &law->problem->line;
+    if (law_of(law) == GM_LAW_CELLS) {
+        const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, law->dt};
+        return gm_lattice_law(law, &cells, advance_tangent);
     }
-    return law;
-}
-
-/* V'' in the cells between two levels. */
-static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
-                            double *curvature)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    for (size_t i = 0; i < grid->points; i++) {
-        const size_t r = right_of(i, grid->points);
-        const double jump = r == 0 ? grid->jump : 0;
-        curvature[i] =
-            gm_field_of(problem)->wave->curvature(problem, (p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
-    }
-}
-
-static bool advance_tangent(const struct base *base, enum gm_wave_law law, bool by_differences,
-                            const struct tangent *a)
-{
-    if (by_differences) {
-        return by_own_steps(base, a);
-    }
-    if (law == GM_LAW_CELLS) {
-        return linearised_box(base, a);
-    }
-    if (law == GM_LAW_CENTRED) {
-        linearised_centred(base, a);
-    } else {
-        linearised_nodes(base, a);
-    }
-    return true;
-}
-
-double gm_wave_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                    const double *y, const double *memory, bool by_differences)
-{
-    const size_t points = problem->line.points;
-    const enum gm_wave_law law = ((const struct gm_two_step_row *)scheme->coefficients)->law;
-    struct base base = {.problem = problem, .scheme = scheme, .dt = dt};
-    double residual = NAN;
-    double *arrays = calloc((2 * ARRAYS + 2) * points, sizeof *arrays);
-    if (law == GM_LAW_NONE || !arrays || !gm_levels_open(&base.levels, problem, scheme, dt, y, memory)) {
-        free(arrays);
-        return NAN;
-    }
-    const struct tangent a = tangent_at(arrays, points), b = tangent_at(arrays + ARRAYS * points, points);
-    base.earlier = arrays + 2 * ARRAYS * points;
-    base.later = base.earlier + points;
-    base.work = scheme->family->workspace_open(problem, scheme);
-    tangent_start(&a, law == GM_LAW_CENTRED, points, 2, 0.3);
-    tangent_start(&b, law == GM_LAW_CENTRED, points, 3, 0.7);
-    if (law == GM_LAW_CELLS) {
-        cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
-        cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
-    }
-    if (base.work && advance_tangent(&base, law, by_differences, &a) &&
-        advance_tangent(&base, law, by_differences, &b)) {
-        residual = law == GM_LAW_CELLS ? law_of_cells(&base, &a, &b)
-                                       : law_of_nodes(&base, law == GM_LAW_CENTRED, &a, &b);
-    }
-    if (base.work) {
-        scheme->family->workspace_close(base.work);
-    }
-    gm_levels_close(&base.levels);
-    free(arrays);
-    return residual;
+    const bool centred = law_of(law) == GM_LAW_CENTRED;
+    const struct base base = base_of(law);
+    const struct tangent a = tangent_of(&base, 0), b = tangent_of(&base, 1);
+    const struct nodes of_a = {grid, law->dt, centred, &a}, of_b = {grid, law->dt, centred, &b};
+    return gm_nodes_law(law, centred, complete_node, &of_a, &of_b);
 }

@@ -80,7 +80,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 static const struct gm_scheme schemes[] = {
     {
         .name = "discrete-moser-veselov2",
-        .alias = "discrete-moser-veselov",
+        .alias = {"discrete-moser-veselov"},
         .title = "discrete Moser-Veselov",
         .formula = "½sh(1 + |c|²) y₀ = I c + c × I c,  y₁ = y₀ − 4/(sh) c × I c/(1 + |c|²)",
         .reference =
