@@ -4,14 +4,39 @@
 
 #include "app/explorer/background/check.h"
 #include "app/explorer/background/measure.h"
-#include "app/explorer/open.h"
+#include "app/explorer/terminal/display.h"
 #include "app/explorer/terminal/mouse.h"
+#include "app/explorer/view/guide.h"
 #include "app/explorer/view/start.h"
+#include "app/explorer/view/studies.h"
 #include "app/explorer/view/typed_system.h"
+#include "app/explorer/worker/worker.h"
+#include "app/words/typed.h"
 
-/* What the files of the explorer share: explorer.c its beginning, its events and its end, choose.c the list
-   of what there is, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
-   mouse, show.c what is shown and when. Everything stands under who writes it. */
+/* What the files of the explorer share: explorer.c its beginning, its loop with what is shown, and its end; open.c what
+   is open, and the list of what there is; input.c the keys, the mouse and typed lines. Everything stands under who
+   writes it. */
+
+/* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
+
+enum { GM_NAME = 256 };
+
+struct gm_open {
+    int wake;                   /* the worker's shots are announced here */
+    struct gm_display *display; /* that may be painting a picture of the worker's */
+    struct gm_worker *worker;
+    const struct gm_scene *scene; /* the worker's; NULL: it makes it first */
+    char name[GM_NAME];           /* of that scene, in the list of what there is */
+    struct gm_shot *shot;         /* NULL: it has given none yet */
+    bool asked;                   /* for a shot */
+    int64_t next_shot;            /* in milliseconds: none is asked for earlier */
+    unsigned long told;           /* number of the last command line that was shown */
+    char said[GM_MESSAGE];        /* why there will be no shot, or "" */
+    struct gm_guide guide;        /* without a tour: none */
+    bool touring;                 /* the worker is led by it */
+    struct gm_studies studies;
+    char *partings; /* a line for every movie that was finished by leaving its scene, or NULL */
+};
 
 /* The list of what there is. */
 struct gm_list {
@@ -65,6 +90,24 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
     explorer->status = status;
 }
 
+/* ---- what is open ---- */
+
+/* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
+bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
+/* What a typed line says (app/words/typed.h), as of a file; what was open stays where that is wrong. */
+bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault);
+/* A shot of the worker, which has made its scene by now. */
+void gm_open_take(struct gm_open *open, struct gm_shot *shot);
+/* The scene of the tour's present step, from its start, and its study. */
+bool gm_open_step(struct gm_open *open, char *message);
+
+/* The study of the tour's present step, once its question is answered. */
+void gm_open_study(struct gm_open *open);
+
+/* Leaves what is open. A movie that is being made, and a file that was asked for, are finished first; otherwise a step
+   that is being made is not waited for. */
+void gm_open_leave(struct gm_open *open);
+
 /* ---- the list of scenes ---- */
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
@@ -78,19 +121,14 @@ void gm_explorer_look(struct gm_explorer *explorer);
 void gm_explorer_enter(struct gm_explorer *explorer);
 void gm_explorer_press_in_list(struct gm_explorer *explorer, int key);
 
-/* ---- a system or scheme of one's own, a map ---- */
+/* ---- input ---- */
 
 /* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
-void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
-void gm_explorer_ask_map(struct gm_explorer *explorer);
-void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
 /* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
 void gm_explorer_check_typed(struct gm_explorer *explorer);
 void gm_explorer_close_typed(struct gm_explorer *explorer);
-
-/* ---- input ---- */
 
 void gm_explorer_key(struct gm_explorer *explorer, int key);
 /* Offers the chosen one of the command lines that are shown to the terminal's clipboard. */
@@ -101,8 +139,5 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
 
 /* The terminal has another size, or may show anything. */
 void gm_explorer_resize(struct gm_explorer *explorer);
-/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
-   wait for input, in milliseconds; -1: as long as it takes. */
-int gm_explorer_output(struct gm_explorer *explorer);
 
 #endif

@@ -43,9 +43,10 @@ enum gm_key_result gm_keystroke_order(const struct gm_keystroke *press, struct g
     return GM_KEY_DONE;
 }
 
-enum gm_key_result gm_keystroke_scheme_page(const struct gm_keystroke *press, const struct gm_scheme *scheme)
+enum gm_key_result gm_keystroke_page(const struct gm_keystroke *press, enum gm_page page,
+                                     const struct gm_scheme *scheme)
 {
-    press->face->page = GM_PAGE_SCHEME;
+    press->face->page = page;
     press->face->explained = scheme;
     press->face->scroll = 0;
     return GM_KEY_DONE;

@@ -41,7 +41,8 @@ bool gm_typed_key(char *typed, int key);
 
 /* Sends an order. */
 enum gm_key_result gm_keystroke_order(const struct gm_keystroke *press, struct gm_order order);
-/* Opens the page of a scheme. */
-enum gm_key_result gm_keystroke_scheme_page(const struct gm_keystroke *press, const struct gm_scheme *scheme);
+/* Opens a page, one about a scheme. */
+enum gm_key_result gm_keystroke_page(const struct gm_keystroke *press, enum gm_page page,
+                                     const struct gm_scheme *scheme);
 
 #endif

@@ -137,7 +137,7 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
         return GM_KEY_DONE;
     case '?':
         return face->choice && face->choice != &gm_chooser_user
-                   ? gm_keystroke_scheme_page(press, face->choice)
+                   ? gm_keystroke_page(press, GM_PAGE_SCHEME, face->choice)
                    : GM_KEY_DONE;
     default:
         if (gm_typed_key(face->typed, press->key)) {

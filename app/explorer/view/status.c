@@ -31,8 +31,8 @@ static void key_hints(const struct gm_shot *shot, struct gm_hint hints[MOST_HINT
     }
     qsort(rows, count, sizeof *rows, by_rank);
     for (size_t i = 0; i < count; i++) {
-        bool go = rows[i]->codes[0] == ' ' && shot->paused;
-        hints[i] = (struct gm_hint){rows[i]->label, go ? "go on" : rows[i]->hint, rows[i]->codes[0]};
+        bool go = rows[i]->keys[0].code == ' ' && shot->paused;
+        hints[i] = (struct gm_hint){rows[i]->label, go ? "go on" : rows[i]->hint, rows[i]->keys[0].code};
     }
     hints[count] = (struct gm_hint){NULL, NULL, 0};
 }
