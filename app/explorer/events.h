@@ -2,19 +2,14 @@
 #ifndef GM_APP_EXPLORER_EVENTS_H
 #define GM_APP_EXPLORER_EVENTS_H
 
-#include "app/explorer/background/check.h"
-#include "app/explorer/background/measure.h"
-#include "app/explorer/terminal/display.h"
-#include "app/explorer/terminal/mouse.h"
-#include "app/explorer/view/guide.h"
-#include "app/explorer/view/start.h"
-#include "app/explorer/view/studies.h"
-#include "app/explorer/view/typed_system.h"
+#include "app/explorer/background/background.h"
+#include "app/explorer/terminal/device.h"
+#include "app/explorer/view/view.h"
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* What the files of the explorer share: explorer.c its beginning, its loop with what is shown, and its end; open.c what
-   is open, and the list of what there is; input.c the keys, the mouse and typed lines. Everything stands under who
+/* What the files of the explorer share: explorer.c its beginning, its loop with what is shown, and its end; input.c the
+   list of what there is, the keys and the mouse; open.c what is open, and typed lines. Everything stands under who
    writes it. */
 
 /* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
@@ -59,6 +54,17 @@ struct gm_pointer {
     int column, row; /* where it was last, while it is down */
 };
 
+/* Whether a line could be read, and nothing is kept of it. */
+typedef bool gm_line_reader(const char *line, struct gm_typed_fault *fault);
+
+struct gm_check { /* {0} has found out nothing */
+    struct gm_job job;
+    bool open;
+    gm_line_reader *read;
+    char *line; /* that was asked about last */
+    struct gm_typed_fault fault;
+};
+
 struct gm_explorer {
     int wake; /* the worker's shots and all signals are announced here */
     struct gm_terminal terminal;
@@ -94,10 +100,8 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 
 /* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
-/* What a typed line says (app/words/typed.h), as of a file; what was open stays where that is wrong. */
-bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault);
-/* A shot of the worker, which has made its scene by now. */
-void gm_open_take(struct gm_open *open, struct gm_shot *shot);
+/* A scene, a system or a room as its name alone gives it; a preview is for the list of them. */
+bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message);
 /* The scene of the tour's present step, from its start, and its study. */
 bool gm_open_step(struct gm_open *open, char *message);
 
@@ -114,28 +118,29 @@ void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
 /* Whether the worker is a look at what is chosen. */
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
-/* The chosen scene is looked at in a while, unless it is open already; or now. Tours are only told of. */
-void gm_explorer_look_soon(struct gm_explorer *explorer);
+/* Looks at the chosen scene now. Tours are only told of. */
 void gm_explorer_look(struct gm_explorer *explorer);
-/* Opens the chosen scene or tour, or goes back to it where it was left. */
-void gm_explorer_enter(struct gm_explorer *explorer);
-void gm_explorer_press_in_list(struct gm_explorer *explorer, int key);
 
-/* ---- input ---- */
+/* ---- typed lines ---- */
 
+/* The run of a line (app/words/typed.h) takes the place of what is open, which stays where the line is wrong. */
+bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
 /* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
+void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
+void gm_explorer_ask_map(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
+void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
 /* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
 void gm_explorer_check_typed(struct gm_explorer *explorer);
 void gm_explorer_close_typed(struct gm_explorer *explorer);
+
+/* ---- input ---- */
 
 void gm_explorer_key(struct gm_explorer *explorer, int key);
 /* Offers the chosen one of the command lines that are shown to the terminal's clipboard. */
 void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);
-
-/* ---- output ---- */
 
 /* The terminal has another size, or may show anything. */
 void gm_explorer_resize(struct gm_explorer *explorer);

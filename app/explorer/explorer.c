@@ -15,8 +15,8 @@
 
 #include "app/base/interrupt.h"
 #include "app/explorer/events.h"
-#include "app/explorer/terminal/console.h"
-#include "app/explorer/view/scene.h"
+#include "app/explorer/terminal/device.h"
+#include "app/explorer/view/view.h"
 #include "app/output/say.h"
 #include "render/clock.h"
 
@@ -25,21 +25,6 @@ enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS 
 static const double FRAMES_SHARE = 1.0 / 3;
 
 /* ---- what is shown, and when ---- */
-
-void gm_explorer_resize(struct gm_explorer *explorer)
-{
-    int columns, rows;
-    gm_terminal_size(&columns, &rows);
-    if (!gm_screen_resize(&explorer->screen, columns, rows)) {
-        gm_explorer_leave(explorer, GM_EXIT_USAGE);
-    }
-    gm_display_forget(&explorer->display);
-    gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
-    if (explorer->face.pixels) {
-        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
-    }
-    explorer->dirty = explorer->fresh = true;
-}
 
 /* A scene that was opened says for a while what to watch. */
 static void begin_watch(struct gm_explorer *explorer)
@@ -98,12 +83,12 @@ static int put_out(struct gm_explorer *explorer)
     if (explorer->list.shown && explorer->list.look_due >= 0 && explorer->list.look_due <= now) {
         gm_explorer_look(explorer);
     }
-    bool good = gm_display_send(&explorer->display);
+    bool good = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();
         draw(explorer);
         explorer->draw_cost = gm_clock_seconds() - begun;
-        good = good && gm_display_send(&explorer->display);
+        good = good && gm_writer_send(&explorer->display.writer);
     }
     if (!good) {
         gm_explorer_leave(explorer, GM_EXIT_FILE);
@@ -112,7 +97,7 @@ static int put_out(struct gm_explorer *explorer)
         return (int)(explorer->list.look_due - now);
     }
     if (!gm_display_takes(&explorer->display)) {
-        return gm_display_patience(&explorer->display);
+        return gm_writer_patience(&explorer->display.writer);
     }
     if (!explorer->open.worker || explorer->open.asked || explorer->dirty) {
         return -1;
@@ -305,13 +290,15 @@ static void read_news(struct gm_explorer *explorer)
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
-        gm_open_take(&explorer->open, shot);
+        explorer->open.shot = shot;
+        explorer->open.scene = shot->scene; /* which the worker has made by now */
+        explorer->open.asked = false;
         read_command(explorer);
         explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {
-            gm_display_renew(&explorer->display);
+            explorer->display.stale = true;
         }
     } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
                gm_worker_failed(explorer->open.worker, explorer->open.said)) {
@@ -370,15 +357,13 @@ static void run(struct gm_explorer *explorer)
     }
 }
 
-/* A request or a tour, or neither: the list of scenes. */
-static int explore(const struct gm_request *request, const struct gm_tour *tour,
-                   const struct gm_overrides *overrides)
+int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
+                const struct gm_overrides *overrides)
 {
     struct gm_explorer explorer = {.wake = -1, .list = {.look_due = -1}, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
-        gm_complain("%s", explorer.message);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s", explorer.message);
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
                                      .pixels = explorer.terminal.graphics.pixels,
@@ -425,22 +410,12 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     free(explorer.open.partings);
     gm_console_release(); /* the eventfd stays: a worker that was left in a long step may yet write to it */
     if (!ok || explorer.status == GM_EXIT_USAGE) {
-        gm_complain("%s", explorer.message[0] ? explorer.message : "There is not enough memory.");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s",
+                          explorer.message[0] ? explorer.message : "There is not enough memory.");
     }
     if (number != 0 && number != SIGINT) {
         signal(number, SIG_DFL);
         raise(number);
     }
     return explorer.status;
-}
-
-int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides)
-{
-    return explore(request, NULL, overrides);
-}
-
-int gm_explorer_tour(const struct gm_tour *tour, const struct gm_overrides *overrides)
-{
-    return explore(NULL, tour, overrides);
 }

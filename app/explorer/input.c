@@ -1,339 +1,318 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the user does: keys, the mouse, and the lines that are typed for a system or a scheme of one's own or a map of
-   many runs. */
+/* What the user does: the list of what there is, keys, and the mouse. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/explorer/surface/keystroke.h"
-#include "app/explorer/view/chooser.h"
-#include "app/explorer/view/keys.h"
-#include "app/explorer/view/pages.h"
-#include "app/explorer/view/prompt.h"
-#include "app/grid/grid.h"
-#include "app/words/replacing.h"
-#include "core/basics.h"
-#include "core/schemes.h"
-#include "render/message.h"
+#include "app/base/files.h"
+#include "app/explorer/surface/surface.h"
+#include "app/explorer/view/view.h"
+#include "render/cells/text.h"
+#include "render/clock.h"
 
-static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
+/* ---- the list ---- */
 
-static void open_prompt(struct gm_explorer *explorer, enum gm_typed_kind kind, const char *text, size_t at)
+/* The choice in the list of scenes rests for this long before it is looked at. */
+enum { REST_MILLISECONDS = 150 };
+
+static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
 {
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    prompt->kind = kind;
-    prompt->checked = prompt->entered = false;
-    prompt->fault = (struct gm_typed_fault){.at = -1};
-    gm_edit_set(&prompt->line, text, at);
-    explorer->dirty = explorer->fresh = true;
-    gm_explorer_check_typed(explorer);
+    const struct gm_start *start = &explorer->list.start;
+    return start->choice < start->count ? &start->found[start->choice] : NULL;
 }
 
-static void close_prompt(struct gm_explorer *explorer)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    free(prompt->last[prompt->kind]);
-    prompt->last[prompt->kind] = strdup(prompt->line.text);
-    prompt->kind = GM_TYPED_NONE;
-    explorer->dirty = explorer->fresh = true;
-}
+/* ---- systems and rooms of files ---- */
 
-/* Three steps of a scheme that fits, of which one goes back, or two stages. */
-static const char *scheme_example(const struct gm_shot *shot)
+static bool is_listed(const struct gm_list *list, const char *name)
 {
-    static const char *const examples[][2] = {
-        {"verlet", "composition(verlet; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
-        {"midpoint", "composition(midpoint; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
-    };
-    for (size_t k = 0; k < GM_COUNT(examples); k++) {
-        for (size_t i = 0; i < shot->scheme_count; i++) {
-            if (strcmp(shot->schemes[i]->name, examples[k][0]) == 0) {
-                return examples[k][1];
-            }
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (strcmp(list->files[i].name, name) == 0) {
+            return true;
         }
     }
-    return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
+    return false;
 }
 
-static void ask_scheme(struct gm_explorer *explorer, bool fork)
+/* Files of a kind, as they are taken into the list. */
+struct taking {
+    struct gm_list *list;
+    enum gm_start_group group;
+};
+
+/* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
+static void add_file(const struct gm_listed *listed, const void *data)
 {
-    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
-    const struct gm_shot *shot = explorer->open.shot;
-    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
-    const char *last = explorer->typed_prompt.last[kind];
-    open_prompt(explorer, kind,
-                present->word ? gm_scheme_word(present)
-                : last        ? last
-                              : scheme_example(shot),
-                SIZE_MAX);
+    const struct taking *taking = data;
+    struct gm_list *list = taking->list;
+    struct gm_start_entry *longer = NULL;
+    char *name = NULL, *title = NULL;
+    if (!is_listed(list, listed->name) && !gm_scene_find(listed->name) && gm_text_is_plain(listed->name)) {
+        longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
+        list->files = longer ? longer : list->files;
+        name = strdup(listed->name);
+        title = strdup(listed->title);
+    }
+    if (longer && name && title) {
+        list->files[list->file_count++] =
+            (struct gm_start_entry){.group = taking->group, .name = name, .title = gm_text_tame(title)};
+    } else {
+        free(name);
+        free(title);
+    }
 }
 
-/* A system of one's own is told first, as a command line, by the thread that runs it. */
-void gm_explorer_ask_system(struct gm_explorer *explorer)
+static void close_files(struct gm_list *list)
+{
+    for (size_t i = 0; i < list->file_count; i++) {
+        free((char *)list->files[i].name);
+        free((char *)list->files[i].title);
+    }
+    free(list->files);
+    list->files = NULL;
+    list->file_count = list->start.count = 0;
+}
+
+void gm_explorer_close_list(struct gm_list *list)
+{
+    close_files(list);
+    gm_tours_close(list->tours, list->tour_count);
+}
+
+/* ---- what is chosen ---- */
+
+/* Whether the worker is that of this entry. */
+static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     const struct gm_open *open = &explorer->open;
-    const char *last = explorer->typed_prompt.last[GM_TYPED_SYSTEM];
-    if (open->shot && open->scene->text) {
-        explorer->editing = explorer->face.awaited = true;
-        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_TELL});
-        return;
+    if (entry->tour) {
+        return open->touring && strcmp(entry->name, open->guide.tour->name) == 0;
     }
-    const size_t formula = (size_t)(strstr(example, " q=") - example);
-    open_prompt(explorer, GM_TYPED_SYSTEM, last ? last : example, last ? SIZE_MAX : formula);
+    if (gm_start_is_user(entry)) { /* or by a file that is in no list */
+        return !open->touring && open->scene && open->scene->text && !is_listed(&explorer->list, open->name);
+    }
+    return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
 }
 
-void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
+/* Whether it has a live look. */
+static bool can_be_looked_at(const struct gm_start_entry *entry)
 {
-    struct gm_arguments typed = {0}, words = {0};
-    bool good = command && gm_typed_split(&typed, command) && typed.count > 1;
-    struct gm_arguments formulas = {0};
-    explorer->editing = false;
-    /* without the program's name; `system` goes without saying, and behind a file's name stand its
-       formulas */
-    const bool formula = good && strcmp(typed.words[1], "system") == 0;
-    good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
-                                gm_replacing_words(explorer->open.scene->text, &formulas)));
-    for (int i = 0; good && i < formulas.count; i++) {
-        good = gm_arguments_add(&words, formulas.words[i]);
-    }
-    for (int i = 2; good && i < typed.count; i++) {
-        good = gm_arguments_have(&formulas, typed.words[i]) || gm_arguments_add(&words, typed.words[i]);
-    }
-    char *text = good ? gm_typed_join(&words) : NULL;
-    if (text) { /* the cursor behind the first formula */
-        size_t at = words.count > 0 ? strlen(words.words[0]) : 0;
-        at += !formula && words.count > 1 ? 1 + strlen(words.words[1]) : 0;
-        open_prompt(explorer, GM_TYPED_SYSTEM, text, at);
-    }
-    free(text);
-    gm_arguments_close(&typed);
-    gm_arguments_close(&words);
-    gm_arguments_close(&formulas);
+    return entry && !entry->tour && !gm_start_is_user(entry);
 }
 
-/* ---- maps ---- */
-
-/* A typed line as the words of the command `sweep`; malloc'ed, NULL: no memory. */
-static char *sweep_words(const char *line)
+bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
 {
-    static const char measure[] = "measure=";
-    struct gm_arguments typed = {0};
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = gm_typed_split(&typed, line) ? open_memstream(&text, &size) : NULL;
-    if (stream && typed.count > 0 && strchr(typed.words[0], '=')) {
-        fputs("system ", stream);
-    }
-    for (int i = 0; stream && i < typed.count; i++) {
-        const char *word = typed.words[i];
-        const bool measured = strncmp(word, measure, strlen(measure)) == 0;
-        fputs(measured ? "--measure " : "", stream);
-        gm_arguments_put(stream, word + (measured ? strlen(measure) : 0));
-        fputc(' ', stream);
-    }
-    gm_arguments_close(&typed);
-    return stream && fclose(stream) == 0 ? text : NULL;
+    const struct gm_start_entry *entry = chosen(explorer);
+    return can_be_looked_at(entry) && is_open(explorer, entry);
 }
 
-static bool check_map(const char *line, struct gm_typed_fault *fault)
+/* The chosen scene is looked at in a while, unless it is open already. */
+static void look_soon(struct gm_explorer *explorer)
 {
-    char *text = sweep_words(line);
-    struct gm_arguments words = {0};
-    struct gm_grid grid;
-    *fault = (struct gm_typed_fault){.at = -1};
-    const bool good = text && gm_arguments_split(&words, text)
-                          ? gm_grid_open(&grid, GM_STUDY_SWEEP, &words, NULL, fault->sentence)
-                          : gm_refuse(fault->sentence, "There is not enough memory.");
-    if (good) {
-        gm_grid_close(&grid);
-    }
-    gm_arguments_close(&words);
-    free(text);
-    return good;
-}
-
-/* A number that is swept: by a half of it to both sides. */
-static bool range_of(const struct gm_shot_parameter *parameter, char *word, size_t size)
-{
-    enum { ACROSS = 24 };
-    const struct gm_parameter *row = parameter->row;
-    double value;
-    if (row->type != GM_REAL || row->automatic || parameter->of_scheme || strcmp(row->key, "dt") == 0 ||
-        strcmp(row->key, "until") == 0 || !gm_number_parse(parameter->value, &value)) {
-        return false;
-    }
-    const double reach = value != 0 ? 0.5 * fabs(value) : 0.5;
-    const bool low = value - reach<row->lowest, high = value + reach> row->highest;
-    snprintf(word, size, "%s=%.*g..%.*g:%d", row->key, low ? DBL_DECIMAL_DIG : 4,
-             low ? row->lowest : value - reach, high ? DBL_DECIMAL_DIG : 4,
-             high ? row->highest : value + reach, ACROSS);
-    return true;
-}
-
-/* The open scene by the selected lane's scheme, over the chosen parameter and the next one that is a number,
-   to be edited. malloc'ed, NULL: no memory. */
-static char *map_example(const struct gm_explorer *explorer)
-{
-    const struct gm_shot *shot = explorer->open.shot;
-    struct gm_arguments present = {0}, words = {0};
-    char ranges[2][64 + GM_TEXT_SIZE], *said = gm_studies_words(shot), *text = NULL;
-    size_t axes = 0;
-    for (size_t i = 0; i < shot->parameter_count && axes < 2; i++) {
-        const size_t at = (explorer->face.parameter + i) % shot->parameter_count;
-        axes += range_of(&shot->parameters[at], ranges[axes], sizeof ranges[axes]);
-    }
-    bool good = said && gm_arguments_split(&present, said);
-    for (int i = 0; good && i < present.count; i++) {
-        const size_t key = strcspn(present.words[i], "=") + 1;
-        const bool swept = (axes > 0 && strncmp(present.words[i], ranges[0], key) == 0) ||
-                           (axes > 1 && strncmp(present.words[i], ranges[1], key) == 0);
-        good = swept || gm_arguments_add(&words, present.words[i]);
-    }
-    char scheme[GM_MESSAGE], measure[GM_MESSAGE];
-    snprintf(scheme, sizeof scheme, "scheme=%.400s", gm_scheme_word(shot->lanes[shot->selected].scheme));
-    snprintf(measure, sizeof measure, "measure=%.100s",
-             shot->scene->observable_count > 0 ? shot->scene->observables[0].key : "");
-    good = good && gm_arguments_add(&words, scheme);
-    for (size_t i = 0; good && i < axes; i++) {
-        good = gm_arguments_add(&words, ranges[i]);
-    }
-    good = good && gm_arguments_add(&words, measure);
-    text = good ? gm_typed_join(&words) : NULL;
-    gm_arguments_close(&present);
-    gm_arguments_close(&words);
-    free(said);
-    return text;
-}
-
-/* With what was typed before, if that was of the same scene. */
-static void ask_map(struct gm_explorer *explorer)
-{
-    const char *last = explorer->typed_prompt.last[GM_TYPED_MAP];
-    char *usual = map_example(explorer);
-    const bool same = last && usual && strncmp(last, usual, strcspn(usual, " ") + 1) == 0;
-    if (usual) {
-        open_prompt(explorer, GM_TYPED_MAP, same ? last : usual, SIZE_MAX);
-    }
-    free(usual);
-}
-
-/* ---- what is typed is taken ---- */
-
-static bool take_map(struct gm_explorer *explorer)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    struct gm_open *open = &explorer->open;
-    char *words = sweep_words(prompt->line.text);
-    const bool good =
-        words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
-    if (!good) {
-        snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
-                 words ? open->studies.notice : "There is not enough memory.");
-    }
-    free(words);
-    return good;
-}
-
-/* For the selected lane, or for one more from its state; false: there is none. */
-static bool take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
-{
-    if (scheme) {
-        gm_worker_order(explorer->open.worker,
-                        (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
-    }
-    return scheme != NULL;
-}
-
-/* The run of a line takes the place of what is open, if it is right. */
-static bool open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
-{
-    struct gm_open *open = &explorer->open;
-    if (!gm_open_line(open, line, fault)) {
-        return false;
-    }
-    open->guide.tour = NULL;
-    open->studies.shown = GM_STUDY_NONE;
-    explorer->face.guide = NULL;
-    explorer->face.parameter = 0;
-    explorer->list.shown = false;
-    return true;
-}
-
-/* What is typed is right: it takes the place of what runs, or of a lane's scheme. */
-static void take(struct gm_explorer *explorer)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    prompt->entered = false;
-    bool good;
-    if (prompt->kind == GM_TYPED_SYSTEM) {
-        good = open_line(explorer, prompt->line.text, &prompt->fault);
-    } else if (prompt->kind == GM_TYPED_MAP) {
-        good = take_map(explorer);
-    } else {
-        good = take_scheme(explorer, prompt->kind == GM_TYPED_FORK,
-                           gm_typed_scheme(prompt->line.text, &prompt->fault));
-    }
-    if (good) {
-        close_prompt(explorer);
-    }
-}
-
-void gm_explorer_check_typed(struct gm_explorer *explorer)
-{
-    static gm_line_reader *const readers[GM_TYPED_KINDS] = {[GM_TYPED_SYSTEM] = gm_typed_check,
-                                                            [GM_TYPED_SWITCH] = gm_typed_check_scheme,
-                                                            [GM_TYPED_FORK] = gm_typed_check_scheme,
-                                                            [GM_TYPED_MAP] = check_map};
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    if (prompt->kind == GM_TYPED_NONE || prompt->checked) {
-        return;
-    }
-    prompt->checked = gm_check_knows(&explorer->check, readers[prompt->kind], prompt->line.text,
-                                     explorer->wake, &prompt->fault);
-    explorer->dirty = explorer->dirty || prompt->checked;
-    if (prompt->checked && prompt->entered) {
-        if (prompt->fault.sentence[0]) {
-            prompt->entered = false;
-        } else {
-            take(explorer);
-        }
-    }
-}
-
-static void press_typed(struct gm_explorer *explorer, int key)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    const struct gm_start_entry *entry = chosen(explorer);
+    bool due = can_be_looked_at(entry) && !is_open(explorer, entry);
+    explorer->list.look_due = due ? gm_clock_milliseconds() + REST_MILLISECONDS : -1;
     explorer->dirty = true;
-    if (gm_key_is_escape(key)) {
-        close_prompt(explorer);
-    } else if (gm_key_is_enter(key)) {
-        prompt->entered = !prompt->checked || !prompt->fault.sentence[0];
-        if (prompt->checked && prompt->entered) {
-            take(explorer);
-        }
-    } else {
-        if (prompt->entered) { /* more came at once: an end of a line in what was pasted is a blank */
-            gm_edit_press(&prompt->line, ' ');
-        }
-        prompt->entered = false;
-        prompt->checked = !gm_edit_press(&prompt->line, key) && prompt->checked;
+}
+
+void gm_explorer_look(struct gm_explorer *explorer)
+{
+    explorer->list.look_due = -1;
+    explorer->list.kept = false;
+    if (!gm_open_named(&explorer->open, chosen(explorer)->name, true, explorer->message)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
 }
 
-void gm_explorer_close_typed(struct gm_explorer *explorer)
+/* Takes what is found into the list, from place `first` on: the best answer to what was typed comes first. */
+static void find(struct gm_start *start, size_t first, const struct gm_start_entry *entry, const char *more,
+                 const char *further)
 {
-    gm_check_close(&explorer->check);
-    for (size_t i = 0; i < GM_TYPED_KINDS; i++) {
-        free(explorer->typed_prompt.last[i]);
+    const char *texts[] = {entry->name, entry->title, more ? more : "", further ? further : "", NULL};
+    const int rank = gm_search_rank(start->typed, texts);
+    if (rank < 0 || start->count == GM_START_ENTRIES) {
+        return;
+    }
+    const size_t at = gm_search_place(start->ranks, first, start->count, rank);
+    memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof *entry);
+    start->found[at] = *entry;
+}
+
+static void find_scenes(struct gm_start *start)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        const struct gm_start_entry entry = {
+            .group = GM_START_SCENES, .name = scene->name, .title = scene->title, .scene = scene};
+        find(start, 0, &entry, scene->blurb, scene->watch);
+    }
+    const struct gm_start_entry start_entry = {
+        .group = GM_START_SCENES, .name = GM_START_OWN, .title = GM_START_OWN_TITLE};
+    find(start, 0, &start_entry, NULL, NULL);
+}
+
+static void find_tours(struct gm_start *start, const struct gm_list *list)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->tour_count; i++) {
+        const struct gm_tour *tour = &list->tours[i];
+        const struct gm_start_entry entry = {
+            .group = GM_START_TOURS, .name = tour->name, .title = tour->title, .tour = tour};
+        find(start, first, &entry, tour->about, "tour");
+    }
+}
+
+static void find_files(struct gm_start *start, const struct gm_list *list, enum gm_start_group group)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (list->files[i].group == group) {
+            find(start, first, &list->files[i], NULL, NULL);
+        }
+    }
+}
+
+/* What was chosen before stays so unless something else answers better. */
+static void choose(struct gm_start *start, const struct gm_start_entry *before)
+{
+    start->choice = 0;
+    for (size_t i = 1; i < start->count && before; i++) {
+        const struct gm_start_entry *entry = &start->found[i];
+        const bool same = entry->group == before->group && entry->name == before->name;
+        const int rank = start->ranks[i], best = start->ranks[start->choice];
+        start->choice = rank < best || (rank == best && same) ? i : start->choice;
+    }
+}
+
+static void find_all(struct gm_explorer *explorer)
+{
+    struct gm_start *start = &explorer->list.start;
+    const struct gm_start_entry *present = chosen(explorer);
+    const struct gm_start_entry before = present ? *present : (struct gm_start_entry){0};
+    start->count = 0;
+    find_scenes(start);
+    find_tours(start, &explorer->list);
+    find_files(start, &explorer->list, GM_START_SYSTEMS);
+    find_files(start, &explorer->list, GM_START_ROOMS);
+    choose(start, present ? &before : NULL);
+    look_soon(explorer);
+}
+
+void gm_explorer_show_start(struct gm_explorer *explorer)
+{
+    char message[GM_MESSAGE]; /* what cannot be read is for `geomint list` to tell */
+    if (!explorer->list.tours) {
+        explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
+    }
+    close_files(&explorer->list);
+    gm_files_each(GM_FILE_SYSTEM, add_file, &(const struct taking){&explorer->list, GM_START_SYSTEMS},
+                  message);
+    gm_files_each(GM_FILE_ROOM, add_file, &(const struct taking){&explorer->list, GM_START_ROOMS}, message);
+    explorer->list.shown = true;
+    explorer->editing = false;
+    explorer->list.start.typed[0] = '\0';
+    find_all(explorer);
+    for (size_t i = 0; i < explorer->list.start.count; i++) {
+        if (is_open(explorer, &explorer->list.start.found[i])) {
+            explorer->list.start.choice = i;
+        }
+    }
+    explorer->list.kept = explorer->open.scene != NULL;
+    look_soon(explorer);
+}
+
+/* A tour that was left goes on with the step where it was. */
+static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
+{
+    struct gm_guide *guide = &explorer->open.guide;
+    if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
+        *guide = gm_guide_open(tour);
+        explorer->face.guide = guide;
+    }
+    return gm_open_step(&explorer->open, explorer->message);
+}
+
+static bool enter_named(struct gm_explorer *explorer, const char *name)
+{
+    explorer->open.guide.tour = NULL;
+    explorer->face.guide = NULL;
+    return gm_open_named(&explorer->open, name, false, explorer->message);
+}
+
+/* Opens the chosen scene or tour, or goes back to it where it was left. */
+static void enter(struct gm_explorer *explorer)
+{
+    const struct gm_start_entry *entry = chosen(explorer);
+    if (!entry) {
+        return;
+    }
+    const bool goes_on = explorer->list.kept && is_open(explorer, entry);
+    if (!goes_on && gm_start_is_user(entry)) {
+        gm_explorer_ask_system(explorer);
+        return;
+    }
+    if (!goes_on) {
+        explorer->face.parameter = 0;
+        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_named(explorer, entry->name))) {
+            gm_explorer_leave(explorer, GM_EXIT_USAGE);
+        }
+    }
+    explorer->list.shown = false;
+    explorer->dirty = explorer->fresh = true;
+}
+
+static void press_in_list(struct gm_explorer *explorer, int key)
+{
+    struct gm_start *start = &explorer->list.start;
+    size_t count = start->count;
+    explorer->dirty = true;
+    if (explorer->face.page != GM_PAGE_SCENE) {
+        if (gm_pages_press(key, &explorer->face) == GM_KEY_LEAVE) {
+            gm_explorer_leave(explorer, GM_EXIT_OK);
+        }
+    } else if (key == '?') {
+        explorer->face.page = GM_PAGE_START;
+        explorer->face.scroll = 0;
+    } else if (gm_key_is_enter(key)) {
+        enter(explorer);
+    } else if (gm_key_is_escape(key)) {
+        start->typed[0] = '\0';
+        find_all(explorer);
+    } else if (key == 'q' && !start->typed[0]) {
+        gm_explorer_leave(explorer, GM_EXIT_OK);
+    } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
+        start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
+        look_soon(explorer);
+    } else if ((key == KEY_HOME || key == KEY_END) && count > 0) {
+        start->choice = key == KEY_HOME ? 0 : count - 1;
+        look_soon(explorer);
+    } else if (key == '\t' || key == KEY_BTAB) {
+        start->choice = gm_start_next_group(start);
+        look_soon(explorer);
+    } else if (key == '/' && !start->typed[0]) {
+        /* what is typed is looked for anyway */
+    } else if (gm_typed_key(start->typed, key)) {
+        find_all(explorer);
     }
 }
 
 /* ---- keys ---- */
+
+void gm_explorer_resize(struct gm_explorer *explorer)
+{
+    int columns, rows;
+    gm_terminal_size(&columns, &rows);
+    if (!gm_screen_resize(&explorer->screen, columns, rows)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
+    }
+    gm_display_forget(&explorer->display);
+    gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
+    if (explorer->face.pixels) {
+        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
+    }
+    explorer->dirty = explorer->fresh = true;
+}
 
 /* In other colours, or none. */
 static void repaint(struct gm_explorer *explorer)
@@ -419,11 +398,11 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
 void gm_explorer_key(struct gm_explorer *explorer, int key)
 {
     if (explorer->typed_prompt.kind != GM_TYPED_NONE && key != GM_KEY_REDRAW) {
-        press_typed(explorer, key);
+        gm_explorer_press_typed(explorer, key);
         return;
     }
     if (explorer->list.shown) {
-        gm_explorer_press_in_list(explorer, key);
+        press_in_list(explorer, key);
         return;
     }
     if (!explorer->open.shot) { /* before the first picture there is only leaving */
@@ -466,7 +445,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         explorer->dirty = true;
         break;
     case GM_KEY_MAP:
-        ask_map(explorer);
+        gm_explorer_ask_map(explorer);
         break;
     case GM_KEY_TYPED: {
         const enum gm_choosing choosing = face->choosing;
@@ -474,7 +453,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         if (choosing == GM_CHOOSE_NOTHING) {
             gm_explorer_ask_system(explorer);
         } else {
-            ask_scheme(explorer, choosing == GM_CHOOSE_FORK);
+            gm_explorer_ask_scheme(explorer, choosing == GM_CHOOSE_FORK);
         }
         break;
     }
@@ -533,7 +512,9 @@ static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *s
         gm_explorer_key(explorer, '\n');
         return;
     }
-    take_scheme(explorer, explorer->face.choosing == GM_CHOOSE_FORK, scheme);
+    const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    gm_worker_order(explorer->open.worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
     explorer->face.choosing = GM_CHOOSE_NOTHING;
 }
 
@@ -577,7 +558,7 @@ static void click_study(struct gm_explorer *explorer, const struct gm_mouse_even
     struct gm_open *open = &explorer->open;
     struct gm_typed_fault fault;
     char *words = gm_studies_pick(&open->studies, explorer->face.blocks, event->column, event->row);
-    if (words && !open_line(explorer, words, &fault)) {
+    if (words && !gm_explorer_open_line(explorer, words, &fault)) {
         snprintf(open->studies.notice, sizeof open->studies.notice, "%s", fault.sentence);
     }
     free(words);
@@ -630,10 +611,10 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
     }
     if (hit->kind == GM_HIT_SCENE) {
         if (explorer->list.start.choice == hit->index) {
-            gm_explorer_enter(explorer);
+            enter(explorer);
         } else {
             explorer->list.start.choice = hit->index;
-            gm_explorer_look_soon(explorer);
+            look_soon(explorer);
         }
         return;
     }
