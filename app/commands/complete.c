@@ -8,7 +8,7 @@
 #include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "app/commands/commands.h"
-#include "app/commands/reference/catalogue.h"
+#include "app/commands/reference/reference.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
 #include "app/words/fitting.h"
@@ -229,13 +229,12 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
     }
 }
 
-static const struct gm_option *option_of(const struct gm_command_row *command, const char *word,
-                                         struct gm_option *option)
+static const struct gm_option *option_of(const struct gm_command_row *command, const char *word)
 {
     word = gm_option_name(word);
     const size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < gm_option_count(); i++) {
-        *option = gm_option_at(i);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        const struct gm_option *option = &gm_option_rows[i];
         if ((option->commands & command->bit) && strlen(option->name) == length &&
             strncmp(option->name, word, length) == 0) {
             return option;
@@ -247,19 +246,18 @@ static const struct gm_option *option_of(const struct gm_command_row *command, c
 static void offer_options(const struct gm_command_row *command, const char *word,
                           const struct gm_scene *scene)
 {
-    struct gm_option option;
     if (strchr(word, '=')) {
+        const struct gm_option *option = option_of(command, word);
         const struct stem value = behind_last(word, "=");
-        if (option_of(command, word, &option)) {
-            offer_values(&option, &value, scene);
+        if (option) {
+            offer_values(option, &value, scene);
         }
         return;
     }
     const struct stem stem = whole(word);
-    for (size_t i = 0; i < gm_option_count(); i++) {
-        option = gm_option_at(i);
-        if (option.commands & command->bit) {
-            offer(&stem, option.name, option.help);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        if (gm_option_rows[i].commands & command->bit) {
+            offer(&stem, gm_option_rows[i].name, gm_option_rows[i].help);
         }
     }
 }
@@ -331,15 +329,17 @@ static void offer_commands(const char *word)
 {
     const struct stem stem = whole(word);
     for (size_t i = 0; i < gm_command_count; i++) {
-        offer(&stem, gm_commands[i]->name, gm_commands[i]->help);
+        offer(&stem, gm_commands[i].name, gm_commands[i].help);
     }
     offer_scenes(&stem);
     offer(&stem, "--help", "commands and options");
     offer(&stem, "--version", "version and libraries");
 }
 
-static int command_complete(int count, char *const words[])
+int gm_command_complete(const struct gm_options *options)
 {
+    const int count = options->arguments.count;
+    char *const *words = options->arguments.words;
     const char *last = count > 0 ? words[count - 1] : "";
     if (count <= 1) {
         offer_commands(last);
@@ -357,14 +357,14 @@ static int command_complete(int count, char *const words[])
             scene = gm_system_scene(count - 1 - i, words + i, &status, message);
         }
     }
-    struct gm_option option;
     if (!command) {
         return gm_finish(GM_EXIT_OK);
     }
-    if (count > 2 && option_of(command, words[count - 2], &option) && option.value[0] &&
-        !strchr(words[count - 2], '=')) {
+    const struct gm_option *option =
+        count > 2 && !strchr(words[count - 2], '=') ? option_of(command, words[count - 2]) : NULL;
+    if (option && option->value[0]) {
         const struct stem stem = whole(last);
-        offer_values(&option, &stem, scene);
+        offer_values(option, &stem, scene);
     } else if (last[0] == '-') {
         offer_options(command, last, scene);
     } else {
@@ -377,11 +377,3 @@ static int command_complete(int count, char *const words[])
     }
     return gm_finish(GM_EXIT_OK);
 }
-
-const struct gm_command_row gm_command_complete = {
-    .name = "complete",
-    .synopsis = "[WORD ...]",
-    .help = "what the last word may become: shells ask this",
-    .bit = GM_COMPLETE,
-    .raw = command_complete,
-};

@@ -8,7 +8,6 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/confirmed.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
 #include "app/output/say.h"
@@ -390,9 +389,9 @@ static int paint_all(struct work *work, const char *name)
         }
     }
     if (gm_interrupted) {
-        gm_complain("stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
-                    work->schedule.ours, gm_plural((double)work->schedule.ours));
-        return GM_EXIT_INTERRUPTED;
+        return gm_give_up(GM_EXIT_INTERRUPTED,
+                          "stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
+                          work->schedule.ours, gm_plural((double)work->schedule.ours));
     }
     const int status = tell_end(work);
     tell_written(work);
@@ -458,12 +457,9 @@ static void close_work(struct work *work)
 /* Frames are pixels. */
 static bool takes_format(const struct work *work, char *message)
 {
-    const bool fits = work->schedule.still || work->options->format == GM_FORMAT_PNG;
-    if (!fits) {
-        snprintf(message, GM_MESSAGE, "--format %s is for one picture: frames are PNG",
-                 gm_format_name(work->options->format));
-    }
-    return fits;
+    return work->schedule.still || work->options->format == GM_FORMAT_PNG ||
+           gm_refuse(message, "--format %s is for one picture: frames are PNG",
+                     gm_format_name(work->options->format));
 }
 
 /* Renders a request; output files below options->out begin with `name`. */
@@ -535,15 +531,14 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
     return good;
 }
 
-static int command_render(const struct gm_options *options)
+int gm_command_render(const struct gm_options *options)
 {
     char message[GM_MESSAGE], name[128];
     struct gm_request request;
     if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RENDER_SCHEMES,
                           message) ||
         !take_changes(&request, options->changes, message)) {
-        gm_complain("%s", message);
-        return gm_request_refusal(&request);
+        return gm_give_up(gm_request_refusal(&request), "%s", message);
     }
     if (!gm_command_confirmed(options, &request)) {
         gm_request_close(&request);
@@ -555,11 +550,3 @@ static int command_render(const struct gm_options *options)
     gm_request_close(&request);
     return gm_finish(status);
 }
-
-const struct gm_command_row gm_command_render = {
-    .name = "render",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "pictures, frames, movies",
-    .bit = GM_RENDER,
-    .function = command_render,
-};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work beside the screen: studies, pictures of pixels, frames of a movie. */
-#include "app/explorer/background/job.h"
+#include "app/explorer/background/background.h"
 
 #include <stdint.h>
 #include <string.h>

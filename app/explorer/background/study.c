@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study under way: what it measures goes to the screen as looks, what the screen orders comes as flags. */
-#include "app/explorer/background/study.h"
+#include "app/explorer/background/background.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "app/base/arguments.h"
-#include "app/explorer/background/job.h"
 #include "app/grid/grid.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
@@ -44,11 +43,6 @@ struct gm_study {
     double looked;            /* when the last look was handed over */
     unsigned long told;       /* number of its message */
 };
-
-const char *gm_study_name(enum gm_study_kind kind)
-{
-    return gm_study_rows[kind].name;
-}
 
 const char *gm_study_words(const struct gm_study *study)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A terminal's answers told from keys, byte by byte, whether they come whole, late or never. */
-#include "app/explorer/terminal/answers.h"
+#include "app/explorer/terminal/device.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mouse, out of the keys that make up its reports. */
-#include "app/explorer/terminal/mouse.h"
+#include "app/explorer/terminal/device.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What to show pictures with, by option, environment, answers and terminfo, and a word on why. */
-#include "app/explorer/terminal/terminal.h"
+#include "app/explorer/terminal/device.h"
 
 #include <curses.h>
 #include <langinfo.h>
@@ -452,8 +452,7 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     struct gm_terminal terminal;
     char message[GM_MESSAGE], text[64];
     if (!gm_terminal_detect(&terminal, overrides, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s", message);
     }
     printf("Found\n");
     line("TERM", terminal.name, terminal.known ? "terminfo knows it" : "no entry in terminfo that serves");

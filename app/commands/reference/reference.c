@@ -1,14 +1,140 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* docs/schemes.md and docs/scenes.md, as the program knows itself. */
+/* What the tables say, in words, so that `list`, the manual, the pages and completion agree; and docs/schemes.md and
+   docs/scenes.md, as the program knows itself. */
+#include "app/commands/reference/reference.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/commands/reference/catalogue.h"
-#include "app/commands/reference/theory.h"
+#include "app/output/json.h"
 #include "app/words/fitting.h"
 #include "core/certify.h"
+#include "core/expression/number.h"
 #include "core/schemes.h"
+
+bool gm_catalogue_shares_name(const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *other = gm_scheme_at(i);
+        if (other != scheme && strcmp(other->name, scheme->name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size)
+{
+    char low[40], high[40];
+    size_t used = 0;
+    switch (row->type) {
+    case GM_TEXT:
+        snprintf(text, size, "a word");
+        return text;
+    case GM_BOOLEAN:
+        snprintf(text, size, "no, yes");
+        return text;
+    case GM_CHOICE:
+        for (size_t i = 0; row->choices[i] && used < size; i++) {
+            used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", row->choices[i]);
+        }
+        return text;
+    case GM_REAL:
+    case GM_INTEGER:
+        break;
+    }
+    snprintf(text, size, "%s to %s", gm_number_format(row->lowest, low, sizeof low),
+             gm_number_format(row->highest, high, sizeof high));
+    return text;
+}
+
+void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters)
+{
+    size_t used = 0;
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (scheme->claims >> bit & 1) {
+            letters[used++] = gm_claim_letter(bit)[0];
+        }
+    }
+    letters[used] = '\0';
+}
+
+/* ---- theory, for certificates and for the documentation of the schemes ---- */
+
+static void print_order(const struct gm_theory *theory)
+{
+    printf("order %d%s", theory->order, theory->at_least ? " at least" : "");
+    if (theory->digits > 0) {
+        printf(", to the %d digit%s written", theory->digits, gm_plural(theory->digits));
+    }
+    printf(": %d condition%s", theory->conditions, theory->conditions == 1 ? " holds" : "s hold");
+    if (theory->failing > 0) {
+        printf("; of order %d, %d of %d fail, most that of %s, by %.1e; error constant %.3g",
+               theory->order + 1, theory->failing, theory->of, theory->condition, fabs(theory->residual),
+               theory->error_constant);
+    } else if (theory->at_most == theory->order) {
+        printf("; by B, C and D no further one is asked for; %s fails, by %.1e", theory->condition,
+               fabs(theory->residual));
+    }
+}
+
+static void print_structure(const struct gm_theory *theory)
+{
+    if (theory->symplectic) {
+        printf("symplectic");
+    } else if (theory->pseudo_symplectic > theory->order) {
+        printf("symplectic up to dt^%d", theory->pseudo_symplectic);
+    } else {
+        printf("not symplectic");
+    }
+    printf(", %ssymmetric", theory->symmetric ? "" : "not ");
+    if (theory->b > 0) {
+        printf("; B(%d), C(%d), D(%d)", theory->b, theory->c, theory->d);
+    }
+}
+
+static void print_stability(const struct gm_theory_stability *stability)
+{
+    if (stability->oscillator && isinf(stability->imaginary)) {
+        printf("stable on every oscillator");
+    } else if (stability->oscillator) {
+        printf("stable on the oscillator up to ω dt = %.6g", stability->imaginary);
+    } else if (stability->a_stable) {
+        printf("%s", stability->l_stable ? "A-stable and L-stable" : "A-stable, not L-stable");
+    } else {
+        const double bounds[] = {stability->real, stability->imaginary};
+        static const char *const axes[] = {"negative", "imaginary"};
+        for (int i = 0; i < 2; i++) {
+            printf("%s", i == 0 ? "stable on the " : ", on the ");
+            if (bounds[i] == 0) {
+                printf("%s axis nowhere", axes[i]);
+            } else if (isinf(bounds[i])) {
+                printf("whole %s axis", axes[i]);
+            } else {
+                printf("%s axis up to %.6g", axes[i], bounds[i]);
+            }
+        }
+    }
+}
+
+void gm_theory_print(const struct gm_theory *theory, const char *indent)
+{
+    if (!theory->known) {
+        return;
+    }
+    printf("%s", indent);
+    print_order(theory);
+    printf(";\n%s", indent);
+    print_structure(theory);
+    if (theory->stability.known) {
+        printf(";\n%s", indent);
+        print_stability(&theory->stability);
+    }
+}
+
+/* ---- the pages of the documentation ---- */
 
 /* A cell of a table: a bar would end it. */
 static void put_cell(const char *text)
