@@ -18,7 +18,6 @@
 #include "core/field/families/waves/lobatto.h"
 #include "core/field/problems/burgers.h"
 #include "core/flow/families/families.h"
-#include "core/mesh/families/control.h"
 #include "core/mesh/families/families.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
@@ -695,7 +694,7 @@ static void a_stage_that_is_late(void **unused)
     struct gm_tableau late = gm_tableau_gauss2;
     late.a[0][0] += 1e-4;
     late.abar[0][0] += 1e-4;
-    struct gm_control row = *(const struct gm_control *)gm_scheme_find("uniform-gauss2")->coefficients;
+    struct gm_mesh_row row = *(const struct gm_mesh_row *)gm_scheme_find("uniform-gauss2")->coefficients;
     row.tableau = &late;
     struct gm_scheme wrong = changed("uniform-gauss2");
     wrong.coefficients = &row;
