@@ -15,7 +15,6 @@
 #include "app/output/wrapped.h"
 #include "app/words/fitting.h"
 #include "app/words/lookup.h"
-#include "app/words/room.h"
 #include "app/words/system.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
@@ -452,7 +451,7 @@ static int command_list(const struct gm_options *options)
     if (room) {
         int status;
         char message[GM_MESSAGE];
-        scene = gm_room_scene(what, &status, message);
+        scene = gm_system_scene(1, options->arguments.words, &status, message);
         if (!scene) {
             gm_complain("%s", message);
             return status;

@@ -13,7 +13,7 @@
 #include "app/words/lookup.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
-#include "app/words/worded.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
@@ -494,7 +494,7 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }
-    if (!scene && gm_worded_is_formula(words[0])) {
+    if (!scene && gm_typed_is_formula(words[0])) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
     } else if (!scene) {
         char near[GM_NEAR], folder[GM_MESSAGE];
