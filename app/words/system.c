@@ -12,6 +12,7 @@
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
 #include "app/base/files.h"
+#include "app/words/range.h"
 #include "app/words/typed_file.h"
 #include "core/expression/lines.h"
 #include "core/memory.h"
@@ -248,9 +249,9 @@ static bool open_system(struct making *making)
         making->first = (struct gm_user_system){0};
         derived = gm_equations_derive(&making->system, &fault);
     }
-    if (!derived || !gm_arguments_end(&made->words)) {
+    if (!derived) {
         gm_system_close(&making->system);
-        return !derived && refuse_text(making, &fault);
+        return refuse_text(making, &fault);
     }
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system);

@@ -9,6 +9,7 @@
 
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
+#include "app/words/range.h"
 #include "core/model/scope.h"
 #include "render/message.h"
 
@@ -20,20 +21,6 @@ const char *gm_word_after(const char *word, const char *key)
 {
     const size_t length = strlen(key);
     return strncmp(word, key, length) == 0 && word[length] == '=' ? word + length + 1 : NULL;
-}
-
-size_t gm_word_first(const char *value)
-{
-    int depth = 0;
-    size_t length = 0;
-    for (; value[length]; length++) {
-        const char here = value[length];
-        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
-        if (depth == 0 && (here == ',' || (here == '.' && value[length + 1] == '.'))) {
-            break;
-        }
-    }
-    return length;
 }
 
 /* The first of some keys that a word sets, or their number, and its value. */
@@ -213,7 +200,7 @@ struct name {
     size_t length;
 };
 
-enum { MOST_NAMES = 256, MOST_FORMULAS = 256 };
+enum { MOST_NAMES = 256 };
 
 struct names {
     struct name list[MOST_NAMES];
@@ -223,9 +210,9 @@ struct names {
 /* What is typed, on its way to the lines of a file. */
 struct typing {
     const struct gm_typed_file *file;
-    struct name formulas[MOST_FORMULAS]; /* H, L and what stands on the right of rates, and */
-    int words[MOST_FORMULAS];            /* the words that these are in */
-    size_t formula_count;
+    struct gm_formula *graph;      /* of the formula that is read while its names have no values yet */
+    struct gm_fault fault;         /* of the first that is none, and */
+    struct gm_word_place wrong;    /* its place */
     struct names names;            /* in the formulas */
     struct names parts;            /* components of the state */
     struct names given;            /* which have a value, and those that need none: the indices of sums */
@@ -291,13 +278,40 @@ static void collect(struct names *names, struct names *indices, const char *text
     }
 }
 
+static enum gm_meaning find_unvalued(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    (void)sentence;
+    const struct typing *typing = data;
+    *node = gm_formula_constant(typing->graph, 1);
+    return holds(&typing->names, name->text, name->length) && !holds(&typing->given, name->text, name->length)
+               ? GM_KNOWN
+               : GM_UNKNOWN;
+}
+
+static const char *no_name(size_t i, const void *data)
+{
+    (void)i;
+    (void)data;
+    return NULL;
+}
+
+/* Notes the names of H, L or what stands on the right of a rate, and what is wrong with it whatever these are. */
 static void add_formula(struct typing *typing, int word, const char *text, size_t length)
 {
+    struct gm_formula graph;
+    const struct gm_scope scope = {.find = find_unvalued, .known = no_name, .data = typing};
+    gm_node_id node;
     collect(&typing->names, &typing->given, text, length);
-    if (typing->formula_count < MOST_FORMULAS) {
-        typing->words[typing->formula_count] = word;
-        typing->formulas[typing->formula_count++] = (struct name){text, length};
+    if (typing->fault.sentence[0]) {
+        return;
     }
+    gm_formula_open(&graph);
+    typing->graph = &graph;
+    if (!gm_formula_read(&graph, text, 0, length, &scope, &node, &typing->fault)) {
+        typing->wrong.word = word;
+        typing->wrong.offset = (size_t)(text - typing->file->words[word]) + typing->fault.offset;
+    }
+    gm_formula_close(&graph);
 }
 
 /* Rates, x = y, y = -x: what stands on the left is a part of the state. */
@@ -410,52 +424,6 @@ static bool needs_none(const struct typing *typing, const struct name *name, boo
                 : is_part(typing, name->text, name->length);
 }
 
-/* A formula while its names have no values yet. */
-struct unvalued {
-    struct gm_formula graph;
-    struct names names, indices;
-};
-
-static enum gm_meaning find_unvalued(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
-{
-    (void)sentence;
-    struct unvalued *formula = data;
-    *node = gm_formula_constant(&formula->graph, 1);
-    return holds(&formula->names, name->text, name->length) &&
-                   !holds(&formula->indices, name->text, name->length)
-               ? GM_KNOWN
-               : GM_UNKNOWN;
-}
-
-static const char *no_name(size_t i, const void *data)
-{
-    (void)i;
-    (void)data;
-    return NULL;
-}
-
-/* Whether H, L and what stands on the right of rates can be read, whatever their names are. */
-static bool are_formulas(const struct typing *typing, struct gm_word_place *place, char *message)
-{
-    struct gm_fault fault = {0};
-    for (size_t i = 0; i < typing->formula_count && !fault.sentence[0]; i++) {
-        const struct name *text = &typing->formulas[i];
-        const char *word = typing->file->words[typing->words[i]];
-        struct unvalued formula = {.names = {.count = 0}};
-        const struct gm_scope scope = {.find = find_unvalued, .known = no_name, .data = &formula};
-        gm_node_id node;
-        gm_formula_open(&formula.graph);
-        collect(&formula.names, &formula.indices, text->text, text->length);
-        if (!gm_formula_read(&formula.graph, text->text, 0, text->length, &scope, &node, &fault) &&
-            fault.sentence[0]) { /* what memory was too short for is reported where it is needed */
-            *place = (struct gm_word_place){typing->words[i], (size_t)(text->text - word) + fault.offset};
-            word_fault(word, place->offset, fault.sentence, message);
-        }
-        gm_formula_close(&formula.graph);
-    }
-    return !fault.sentence[0];
-}
-
 /* The place of a name that was collected; word -1: it is not in a word. */
 static struct gm_word_place place_of(const struct gm_typed_file *file, const char *name)
 {
@@ -490,9 +458,14 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
             snprintf(missing + used, sizeof missing - used, "%s%.*s=", used ? " " : "", brief, name->text);
         }
     }
-    return !missing[0] || (are_formulas(typing, place, message) &&
-                           gm_refuse(message, "the formula needs values that are not given: %s%s", missing,
-                                     file_momenta ? "; without coordinates= a momentum is p, not p_q" : ""));
+    if (missing[0] && typing->fault.sentence[0]) {
+        *place = typing->wrong;
+        word_fault(typing->file->words[place->word], place->offset, typing->fault.sentence, message);
+    } else if (missing[0]) {
+        gm_refuse(message, "the formula needs values that are not given: %s%s", missing,
+                  file_momenta ? "; without coordinates= a momentum is p, not p_q" : "");
+    }
+    return !missing[0];
 }
 
 /* Writes what the system is made of, and notes which names have a value at the start. */

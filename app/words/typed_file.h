@@ -26,8 +26,6 @@ extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L
 bool gm_typed_is_formula(const char *word);
 /* The value of a word that sets this key; NULL if it sets another one. */
 const char *gm_word_after(const char *word, const char *key);
-/* How long the first value of a list, or of a range, is. */
-size_t gm_word_first(const char *value);
 
 /* Writes the file that "system H=... key=value ..." would be: coordinates that are not given are q, or q1, q2 and so
    on, names of the state have their values at the start, others are parameters. False with a sentence, and a place
