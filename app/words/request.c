@@ -241,17 +241,20 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
     return true;
 }
 
+const char *gm_request_idle(const struct gm_request *request, const char *key)
+{
+    const char *why = NULL;
+    for (size_t k = 0; k < request->count && (k == 0 || why); k++) {
+        why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
+    }
+    return why;
+}
+
 /* A key that has no effect in any lane is not taken: whoever types it expects one. */
 static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < words->count; i++) {
-        const char *key = words->list[i].key, *why = NULL;
-        for (size_t k = 0; k < request->count; k++) {
-            why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
-            if (!why) {
-                break;
-            }
-        }
+        const char *key = words->list[i].key, *why = gm_request_idle(request, key);
         if (why) {
             snprintf(request->refused, sizeof request->refused, "%s", key);
             return gm_refuse(message, "%s= has no effect here: %s", key, why);

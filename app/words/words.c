@@ -56,6 +56,7 @@ void gm_words_close(struct gm_words *words)
     words->count = 0;
 }
 
+/* False: out of memory, or with a sentence. */
 static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
 {
     if (length == 0) {
@@ -67,12 +68,9 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     }
     struct gm_word_piece *piece = &list->pieces[list->piece_count];
     *piece = (struct gm_word_piece){.text = strndup(text, length)};
-    if (!piece->text) {
-        return gm_refuse(message, "not enough memory");
-    }
-    list->piece_count++;
+    list->piece_count += piece->text != NULL;
     list->count++;
-    return true;
+    return piece->text != NULL;
 }
 
 /* Where the last piece of a number's list is a range, it stands for its values. */
@@ -235,7 +233,7 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
     struct gm_word *list = &words->list[words->count];
     *list = (struct gm_word){.key = strndup(word, (size_t)(equals - word))};
     if (!list->key) {
-        return gm_refuse(message, "not enough memory");
+        return false;
     }
     words->count++;
     if (!known_key(scene, list->key)) {
@@ -406,7 +404,7 @@ static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t 
     memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
     words->list[0] = list;
     words->count++;
-    return good || gm_refuse(message, "not enough memory");
+    return good;
 }
 
 /* Those of the common keys that are not the lane's have one value, of their choices. */
@@ -448,6 +446,7 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
                    size_t schemes, char *message)
 {
     memset(words, 0, sizeof *words);
+    gm_refuse(message, "not enough memory");
     for (int i = 0; i < count; i++) {
         if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], message)) {
             return false;
@@ -457,6 +456,7 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
         return false;
     }
     words->zip = gm_words_chosen(words, "zip");
+    message[0] = '\0';
     return true;
 }
 
