@@ -19,27 +19,16 @@ void gm_arguments_close(struct gm_arguments *arguments)
 
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word)
 {
-    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
+    char **more = realloc(arguments->words, ((size_t)arguments->count + 2) * sizeof *more);
     if (!more) {
         return false;
     }
     arguments->words = more;
-    more[arguments->count] = strdup(word);
-    if (!more[arguments->count]) {
-        return false;
-    }
-    arguments->count++;
-    return true;
-}
-
-bool gm_arguments_end(struct gm_arguments *arguments)
-{
-    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
-    if (more) {
-        arguments->words = more;
-        more[arguments->count] = NULL;
-    }
-    return more != NULL;
+    char *copy = strdup(word);
+    more[arguments->count] = copy;
+    arguments->count += copy != NULL;
+    more[arguments->count] = NULL;
+    return copy != NULL;
 }
 
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text)

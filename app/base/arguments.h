@@ -10,7 +10,7 @@
 struct gm_scene;
 
 struct gm_arguments { /* {0} is an empty list */
-    char **words;     /* its own copies */
+    char **words;     /* its own copies, and a NULL behind the last */
     int count;
 };
 void gm_arguments_close(struct gm_arguments *arguments);
@@ -19,9 +19,6 @@ void gm_arguments_close(struct gm_arguments *arguments);
    that belongs to a word. False when memory is short; the list is then to be closed as always. */
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
-
-/* Puts a NULL behind the last word, which it does not count. */
-bool gm_arguments_end(struct gm_arguments *arguments);
 
 /* The first of the words that sets what `word` sets, "dt=" or "dt=0.1"; NULL. Both steps= and until= set the
    end of a run. */

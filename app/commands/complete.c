@@ -12,8 +12,8 @@
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
 #include "app/words/fitting.h"
-#include "app/words/replacing.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -314,7 +314,7 @@ static void offer_formulas(const char *word, const char *system, const struct gm
     if (gm_file_is(GM_FILE_ROOM, system)) {
         return; /* it has its lines in the file alone */
     }
-    const bool known = scene && gm_replacing_words(scene->text, &formulas);
+    const bool known = scene && gm_typed_file_formulas(scene->text, &formulas);
     for (const char *const *key = gm_system_keys(system); *key; key++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "%s=", *key);

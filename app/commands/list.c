@@ -13,7 +13,6 @@
 #include "app/output/wrapped.h"
 #include "app/words/fitting.h"
 #include "app/words/lookup.h"
-#include "app/words/room.h"
 #include "app/words/system.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
@@ -463,7 +462,7 @@ int gm_command_list(const struct gm_options *options)
     if (room) {
         int status;
         char message[GM_MESSAGE];
-        scene = gm_room_scene(what, &status, message);
+        scene = gm_system_scene(1, options->arguments.words, &status, message);
         if (!scene) {
             return gm_give_up(status, "%s", message);
         }

@@ -12,7 +12,7 @@
 #include "app/explorer/surface/surface.h"
 #include "app/explorer/view/view.h"
 #include "app/grid/grid.h"
-#include "app/words/replacing.h"
+#include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -238,7 +238,7 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
        formulas */
     const bool formula = good && strcmp(typed.words[1], "system") == 0;
     good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
-                                gm_replacing_words(explorer->open.scene->text, &formulas)));
+                                gm_typed_file_formulas(explorer->open.scene->text, &formulas)));
     for (int i = 0; good && i < formulas.count; i++) {
         good = gm_arguments_add(&words, formulas.words[i]);
     }

@@ -11,7 +11,7 @@
 enum {
     GM_SHOT_OBSERVABLES = 24,
     GM_SHOT_PARAMETERS = 48,
-    GM_SHOT_SCHEMES = 256,
+    GM_SHOT_SCHEMES = GM_FITTING_SCHEMES,
     GM_SPARK = 16, /* places of a tiny graph */
 };
 

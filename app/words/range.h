@@ -13,6 +13,9 @@ struct gm_range {
     bool logarithmic;
 };
 
+/* How long the first value of a list, or of a range, is: the sum in sum(i = 1 .. 3, q[i]) is one. */
+size_t gm_word_first(const char *value);
+
 /* Whether a text is to be read as a range: ".." is read before numbers. */
 bool gm_range_is(const char *text);
 

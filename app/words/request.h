@@ -64,6 +64,9 @@ void gm_request_close(struct gm_request *request);
    sentence if not. */
 bool gm_request_ends_together(const struct gm_request *request, char *message);
 
+/* Why a key has no effect in any lane; NULL: it has one. */
+const char *gm_request_idle(const struct gm_request *request, const char *key);
+
 /* The exit status for a request that gm_request_parse refused. */
 int gm_request_refusal(const struct gm_request *request);
 

@@ -133,6 +133,7 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
         struct gm_system_variable *variable = &reading->system->variables[i];
         pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
         entry->value = value;
+        variable->start_place = entry->place;
         variable->meaning = gm_reading_text(reading, meaning);
         variable->unit = gm_reading_text(reading, unit);
     }

@@ -47,7 +47,7 @@ struct gm_system_variable {
     /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
        was given. Else GM_NO_NODE. */
     gm_node_id start;
-    size_t start_place; /* of a component, where that stands in the text */
+    size_t start_place; /* where that stands in the text; of a parameter its name */
     gm_node_id force, exact;
     gm_node_id jump; /* of a component of matrices */
 };

@@ -679,8 +679,7 @@ static int open_system(struct report *report, const struct gm_arguments *argumen
                  : !file || read_values(arguments, values, &count) ? GM_EXIT_OK
                                                                    : GM_EXIT_USAGE;
     if (status == GM_EXIT_OK) {
-        status = file ? gm_system_open(&report->system, file, values, count, message)
-                      : gm_system_open_typed(&report->system, arguments->count, arguments->words, message);
+        status = gm_system_open(&report->system, file, arguments, values, count, message);
         if (status != GM_EXIT_OK) {
             gm_complain("%s", message);
         }
