@@ -60,6 +60,13 @@ void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim 
     verdict->problem = verdict->measured ? verdict->problem : problem;
 }
 
+double gm_invariant_value(const void *invariant, const double *y, const double *memory)
+{
+    const struct gm_invariant *of = invariant;
+    (void)memory;
+    return of->value(of->problem, y);
+}
+
 double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
                            const double *direction)
 {

@@ -60,6 +60,13 @@ struct gm_kept {
     const void *data;
 };
 
+/* A function of a problem's state, and its value as that of such a quantity. */
+struct gm_invariant {
+    double (*value)(const struct gm_problem *problem, const double *y);
+    const struct gm_problem *problem;
+};
+double gm_invariant_value(const void *invariant, const double *y, const double *memory);
+
 /* Differences of this many steps, up to 3, of such a quantity from a state of n numbers along a direction, beside the
    size of its values: 0 of a polynomial of lower degree. NaN where memory is short. */
 double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
