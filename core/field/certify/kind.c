@@ -378,35 +378,10 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
             measure(certificate, equation, &farthest);
         }
     }
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        certificate->claims[bit].reason = NULL; /* on the program's own equations nothing excuses a claim */
-    }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
 
 /* ---- on a given equation ---- */
-
-/* Which claims a kept quantity of a field tells of: whether it is linear or quadratic, along directions that a scheme's
-   own numbers do not take part in. */
-static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_system *system, double size)
-{
-    enum { DIRECTIONS = 3 };
-    const double none = 1e-11;
-    const size_t n = system->problem->n,
-                 fixed = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
-    double *direction = calloc(n, sizeof *direction);
-    bool varies = false, linear = true, quadratic = true;
-    for (int k = 1; direction && k <= DIRECTIONS; k++) {
-        for (size_t c = 0; c < n - fixed; c++) {
-            direction[c] = size * sin(k * (double)(3 * c + 1)); /* any */
-        }
-        varies = varies || !(gm_kept_differences(kept, system->start, n, 1, direction) < none);
-        linear = linear && gm_kept_differences(kept, system->start, n, 2, direction) < none;
-        quadratic = quadratic && gm_kept_differences(kept, system->start, n, 3, direction) < none;
-    }
-    free(direction);
-    return !varies ? 0 : linear ? GM_KEEPS_LINEAR : quadratic ? GM_KEEPS_QUADRATIC : 0;
-}
 
 /* The energy of a form, which is of a scheme's own kind. */
 static double form_energy(const void *subject, const double *y, const double *memory)
@@ -439,6 +414,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
     const struct gm_field *field = gm_field_of(system->problem);
     const double *const y = system->start, size = gm_field_size(system->problem, y);
+    const size_t n = system->problem->n,
+                 levels = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
     const char *const name = system->problem->name;
     const char *const failing =
         field->equation ? "without --on it is measured on this equation" : no_steps(&subject, y);
@@ -454,10 +431,12 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
             gm_field_note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
         }
         for (size_t i = 0; i < system->kept_count; i++) {
-            const unsigned claim = claims_of(&system->kept[i], system, size);
-            if (claim) {
-                gm_field_note_kept(certificate, (enum gm_claim)claim, &subject, y, &system->kept[i],
-                                   system->kept[i].name);
+            /* along directions that a scheme's own last number takes no part in */
+            const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size);
+            if (claims & (GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC)) {
+                gm_field_note_kept(certificate,
+                                   claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC, &subject,
+                                   y, &system->kept[i], system->kept[i].name);
             }
         }
     }
@@ -472,12 +451,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     for (size_t i = 0; i < GM_COUNT(missing); i++) {
         gm_certificate_withhold(certificate, missing[i].claim, failing ? failing : missing[i].reason);
     }
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (certificate->claims[bit].claimed && !certificate->claims[bit].reason) {
-            gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit),
-                                    failing ? failing : "it is measured on the scheme's own equation alone");
-        }
-    }
+    gm_certificate_withhold_all(certificate, scheme->claims,
+                                failing ? failing : "it is measured on the scheme's own equation alone");
 }
 
 static const struct gm_family *const families[] = {
