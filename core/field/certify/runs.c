@@ -152,7 +152,7 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
     note(certificate, claim, change, round_off(subject, y), name);
 }
 
-double gm_field_order_in_time(struct gm_field_subject *subject, const double *y)
+double gm_field_order_in_time(const struct gm_field_subject *subject, const double *y, double until)
 {
     const size_t points = subject->problem.line.points;
     double *end = calloc(3 * points, sizeof *end), change[2] = {0};
@@ -161,7 +161,7 @@ double gm_field_order_in_time(struct gm_field_subject *subject, const double *y)
         struct gm_field_subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
         good = gm_field_begin(&part, y);
         if (good) {
-            good = gm_run_until(part.run, 1) == GM_OK;
+            good = gm_run_until(part.run, until) == GM_OK;
             memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
             gm_run_close(part.run);
         }

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/certify.h"
 #include "core/mesh/nodes.h"
-#include "core/run.h"
 
 static const struct gm_settings settings = {0};
 
@@ -32,14 +32,8 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                              int64_t steps, const double *from, double *end)
 {
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_advance(run, steps) == GM_OK;
-    memcpy(end, gm_run_state(run), subject->problem.n * sizeof *end);
-    gm_run_close(run);
-    return good;
+    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, steps};
+    return gm_trial_advance(&trial, from, end);
 }
 
 /* The state near the start whose y and dy/dt are shifted, and X and dX/dt follow as the constraint says. */

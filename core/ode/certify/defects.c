@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
-#include "core/run.h"
 
 enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS, LEVELS = 4 };
 
@@ -106,31 +106,6 @@ struct defect {
     bool clear;
 };
 
-typedef struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                double tolerance);
-
-/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
-   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
-static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                     double tolerance, defect_at *measure)
-{
-    enum { SHORTER = 2, POWERS = 5 };
-    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
-    for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
-        const struct defect here = measure(subject, scheme, dt, tolerance);
-        if (here.size <= tolerance) {
-            return here.size;
-        }
-        if (here.clear) {
-            const struct defect next = measure(subject, scheme, dt / 4, tolerance);
-            if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
-                return here.size;
-            }
-        }
-    }
-    return NAN;
-}
-
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
@@ -142,7 +117,7 @@ static struct defect of_derivative(const struct gm_subject *subject, const struc
     const size_t n = gm_subject_components(subject, scheme);
     struct derivative derivative, closer;
     struct defect found = {.size = NAN};
-    const double scale = subject->scale > 0 ? subject->scale : 1;
+    const double scale = subject->scale;
     for (double distance = 0.02 * scale;
          distance > 1e-4 * scale && !found.clear && !(found.size <= tolerance); distance /= 4) {
         if (!differentiate(subject, scheme, dt, distance, &derivative)) {
@@ -198,30 +173,7 @@ static double form_defect(const struct gm_subject *subject, const struct gm_sche
 static double conformal_form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                     double dt, const struct derivative *derivative)
 {
-    return areas_defect(subject, scheme, derivative, exp(-subject->friction * dt));
-}
-
-static struct defect of_form(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                             double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, form_defect);
-}
-
-double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_form);
-}
-
-static struct defect of_conformal_form(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                       double dt, double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, conformal_form_defect);
-}
-
-double gm_conformal_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_conformal_form);
+    return areas_defect(subject, scheme, derivative, exp(-gm_subject_friction(subject) * dt));
 }
 
 static double bracket_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
@@ -251,17 +203,6 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
     return defect;
 }
 
-static struct defect of_bracket(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, bracket_defect);
-}
-
-double gm_poisson_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_bracket);
-}
-
 static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  const struct derivative *derivative)
 {
@@ -277,17 +218,6 @@ static double determinant_defect(const struct gm_subject *subject, const struct 
     return fabs(determinant - 1);
 }
 
-static struct defect of_determinant(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                    double dt, double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 3, determinant_defect);
-}
-
-double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return subject->problem.n == 3 ? decide(subject, scheme, subject->dt, tolerance, of_determinant) : NAN;
-}
-
 /* How far a run that turns round ends from its start. Where the scheme chooses its steps, a few of them, so
    that it has chosen some. */
 static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
@@ -295,44 +225,62 @@ static struct defect of_way_back(const struct gm_subject *subject, const struct 
 {
     const int64_t steps = scheme->family->adaptive ? 3 : 1;
     const size_t n = gm_subject_components(subject, scheme);
-    const double scale = subject->scale > 0 ? subject->scale : 1, push = 1e-12 * scale;
+    const double push = 1e-12 * subject->scale;
     double start[MOST], back[MOST], pushed[MOST];
     gm_subject_start(subject, scheme, start);
     if (!gm_subject_turn(subject, scheme, dt, steps, reflected, 0, back)) {
         return (struct defect){.size = NAN};
     }
-    const double size = gm_distance(back, start, n) / scale;
+    const double size = gm_distance(back, start, n) / subject->scale;
     /* so many times round-off is stretched on the way back */
     const bool told = gm_subject_turn(subject, scheme, dt, steps, reflected, push, pushed);
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
-static struct defect of_return(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                               double tolerance)
+/* What is told of the derivative of a step. */
+static const struct {
+    enum gm_claim claim;
+    int degree;
+    defect_of *defect;
+} of_step[] = {
+    {GM_SYMPLECTIC, 2, form_defect},
+    {GM_CONFORMAL, 2, conformal_form_defect},
+    {GM_POISSON_MAP, 2, bracket_defect},
+    {GM_KEEPS_VOLUME, 3, determinant_defect},
+};
+
+static struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                               enum gm_claim claim, double dt, double tolerance)
 {
-    return (void)tolerance, of_way_back(subject, scheme, dt, false);
+    for (size_t i = 0; i < GM_COUNT(of_step); i++) {
+        if (of_step[i].claim == claim) {
+            return of_derivative(subject, scheme, dt, tolerance, of_step[i].degree, of_step[i].defect);
+        }
+    }
+    return of_way_back(subject, scheme, dt, claim == GM_REVERSIBLE);
 }
 
-static struct defect of_reflection(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                   double dt, double tolerance)
+/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
+   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
+static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
+                     double tolerance)
 {
-    return (void)tolerance, of_way_back(subject, scheme, dt, true);
-}
-
-static double step_of(const struct gm_subject *subject, const struct gm_scheme *scheme)
-{
-    return scheme->family->adaptive ? subject->dt / 4 : subject->dt;
-}
-
-double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_return);
-}
-
-double gm_reversibility_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               double tolerance)
-{
-    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_reflection);
+    enum { SHORTER = 2, POWERS = 5 };
+    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
+    double dt = scheme->family->adaptive ? subject->dt / 4 : subject->dt;
+    for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
+        const struct defect here = defect_at(subject, scheme, claim, dt, tolerance);
+        if (here.size <= tolerance) {
+            return here.size;
+        }
+        if (here.clear) {
+            const struct defect next = defect_at(subject, scheme, claim, dt / 4, tolerance);
+            if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
+                return here.size;
+            }
+        }
+    }
+    return NAN;
 }
 
 /* The state after many smaller steps; false: they fail. */
@@ -346,26 +294,16 @@ static bool go_on(const struct gm_subject *subject, const struct gm_scheme *sche
     return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, 1, whole, end) || adaptive;
 }
 
-struct gm_manifold_defects gm_constraint_defects(const struct gm_subject *subject,
-                                                 const struct gm_scheme *scheme)
+static double change_of(const struct gm_kept *kept, const double *from, const double *to)
 {
-    double end[MOST];
-    return go_on(subject, scheme, end) ? gm_manifold_defects(&subject->problem, end)
-                                       : (struct gm_manifold_defects){NAN, NAN};
-}
-
-static double change_of(double before, double after)
-{
+    const double before = kept->value(kept->data, from, NULL), after = kept->value(kept->data, to, NULL);
     return fabs(after - before) / fmax(1, fabs(before));
 }
 
-double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                   const struct gm_kept *kept)
+double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept)
 {
     double end[MOST];
-    return go_on(subject, scheme, end)
-               ? change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, end, NULL))
-               : NAN;
+    return go_on(subject, scheme, end) ? change_of(kept, subject->start, end) : NAN;
 }
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
@@ -374,25 +312,37 @@ double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *k
     for (size_t c = 0; c < subject->problem.n; c++) {
         near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * sin((double)(3 * c + 1));
     }
-    return change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, near, NULL));
+    return change_of(kept, subject->start, near);
 }
 
-double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                gm_invariant *const *quantities, size_t count)
+static double energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
-    double end[MOST], largest = 0;
+    const struct gm_ode *ode = gm_ode_of(&subject->problem);
+    const struct gm_invariant energy = {ode->hamiltonian ? gm_energy : ode->poisson->energy,
+                                        &subject->problem};
+    return gm_drift(subject, scheme, &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
+}
+
+static double constraint_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, bool hidden)
+{
+    double end[MOST];
     if (!go_on(subject, scheme, end)) {
         return NAN;
     }
-    for (size_t i = 0; i < count && quantities[i]; i++) {
-        largest = fmax(largest, change_of(quantities[i](&subject->problem, subject->start),
-                                          quantities[i](&subject->problem, end)));
-    }
-    return largest;
+    const struct gm_manifold_defects defects = gm_manifold_defects(&subject->problem, end);
+    return hidden ? defects.hidden : defects.constraint;
 }
 
-double gm_energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme)
+double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
+                 double tolerance)
 {
-    static gm_invariant *const energies[] = {gm_energy};
-    return gm_drift(subject, scheme, energies, 1);
+    switch (claim) {
+    case GM_KEEPS_ENERGY:
+        return energy_drift(subject, scheme);
+    case GM_KEEPS_CONSTRAINTS:
+    case GM_KEEPS_HIDDEN:
+        return constraint_defect(subject, scheme, claim == GM_KEEPS_HIDDEN);
+    default:
+        return decide(subject, scheme, claim, tolerance);
+    }
 }

@@ -13,170 +13,105 @@ static const double well = 0.3, no_well = 0, friction = 0.4, perturbation = 0.05
 static const double abc_constants[] = {1, 0.8, 0.6};
 static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
 
-static double momentum(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[2] + y[3];
-}
+/* Quantities that a motion conserves, as sums of factor y_first y_second, or factor y_first alone; a factor 0 ends one. */
+enum { ALONE = -1 };
+struct term {
+    double factor;
+    int first, second;
+};
 
-static double sphere(const struct gm_problem *problem, const double *y)
+static double sum_of_terms(const void *data, const double *y, const double *memory)
 {
-    (void)problem;
-    return (y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) / 2;
-}
-
-static double ellipsoid(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[0] * y[0] / 4 + y[1] * y[1] / 2 + 3 * y[2] * y[2] / 4;
-}
-
-static double angular_momentum(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[0] * y[3] - y[1] * y[2];
-}
-
-static double vertical_momentum(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[0] * y[4] - y[1] * y[3];
-}
-
-static double impulse_x(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[0] + y[1] + y[2] + y[3];
-}
-
-static double impulse_y(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return y[4] + y[5] + y[6] + y[7];
-}
-
-static double angular_impulse(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
+    (void)memory;
     double sum = 0;
-    for (int i = 0; i < 8; i++) {
-        sum += y[i] * y[i];
+    for (const struct term *term = data; term->factor != 0; term++) {
+        sum += term->factor * y[term->first] * (term->second == ALONE ? 1 : y[term->second]);
     }
     return sum;
 }
 
-static double ring_sum(const struct gm_problem *problem, const double *y)
-{
-    double sum = 0;
-    for (size_t i = 0; i < problem->n; i++) {
-        sum += y[i];
-    }
-    return sum;
-}
+static const struct term momentum[] = {{1, 2, ALONE}, {1, 3, ALONE}, {0, 0, 0}};
+static const struct term angular_momentum[] = {{1, 0, 3}, {-1, 1, 2}, {0, 0, 0}};
+static const struct term vertical_momentum[] = {{1, 0, 4}, {-1, 1, 3}, {0, 0, 0}};
+static const struct term circle[] = {{0.5, 0, 0}, {0.5, 1, 1}, {0, 0, 0}};
+static const struct term sphere[] = {{0.5, 0, 0}, {0.5, 1, 1}, {0.5, 2, 2}, {0, 0, 0}};
+static const struct term ellipsoid[] = {{0.25, 0, 0}, {0.5, 1, 1}, {0.75, 2, 2}, {0, 0, 0}};
+static const struct term impulse_x[] = {
+    {1, 0, ALONE}, {1, 1, ALONE}, {1, 2, ALONE}, {1, 3, ALONE}, {0, 0, 0}};
+static const struct term impulse_y[] = {
+    {1, 4, ALONE}, {1, 5, ALONE}, {1, 6, ALONE}, {1, 7, ALONE}, {0, 0, 0}};
+static const struct term angular_impulse[] = {{1, 0, 0}, {1, 1, 1}, {1, 2, 2}, {1, 3, 3}, {1, 4, 4},
+                                              {1, 5, 5}, {1, 6, 6}, {1, 7, 7}, {0, 0, 0}};
+static const struct term ring_sum[] = {
+    {1, 0, ALONE}, {1, 1, ALONE}, {1, 2, ALONE}, {1, 3, ALONE},  {1, 4, ALONE},  {1, 5, ALONE}, {1, 6, ALONE},
+    {1, 7, ALONE}, {1, 8, ALONE}, {1, 9, ALONE}, {1, 10, ALONE}, {1, 11, ALONE}, {0, 0, 0}};
+static const struct term ring_square[] = {{1, 0, 0},   {1, 1, 1},   {1, 2, 2}, {1, 3, 3}, {1, 4, 4},
+                                          {1, 5, 5},   {1, 6, 6},   {1, 7, 7}, {1, 8, 8}, {1, 9, 9},
+                                          {1, 10, 10}, {1, 11, 11}, {0, 0, 0}};
 
-static double ring_square(const struct gm_problem *problem, const double *y)
-{
-    double sum = 0;
-    for (size_t i = 0; i < problem->n; i++) {
-        sum += y[i] * y[i];
+#define KEPT(terms)                                                                                          \
+    {                                                                                                        \
+        .value = sum_of_terms, .data = terms                                                                 \
     }
-    return sum;
-}
-
-/* of the oscillator: not of the form q' A p, as angular momentum is, which more schemes keep */
-static double circle(const struct gm_problem *problem, const double *y)
-{
-    (void)problem;
-    return (y[0] * y[0] + y[1] * y[1]) / 2;
-}
 
 static const struct {
     const struct gm_problem *problem;
     const void *parameters;
-    struct gm_subject subject;
+    double dt;
+    unsigned only; /* facets: not for schemes that need none of them; 0: for all */
+    double start[12];
+    struct gm_kept kept[GM_SUBJECT_INVARIANTS];
 } subjects[] = {
-    {&gm_problem_pendulum, NULL, {.start = {0.6, 1.1}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_particles, &well, {.start = {0.5, -0.4, 0.3, 0.8}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_particles,
-     &no_well,
-     {.start = {0.7, -0.2, 0.4, -0.9},
-      .dt = 0.6,
-      .hamiltonian = true,
-      .linear = {momentum},
-      .momentum = {momentum}}},
-    {&gm_problem_kepler,
-     NULL,
-     {.start = {0.8, 0.1, -0.2, 1.2},
-      .dt = 0.3,
-      .hamiltonian = true,
-      .quadratic = {angular_momentum},
-      .bilinear = {angular_momentum},
-      .momentum = {angular_momentum}}},
-    {&gm_problem_oscillator,
-     NULL,
-     {.start = {0.8, -0.5}, .dt = 0.1, .only = GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN, .quadratic = {circle}}},
-    {&gm_problem_damped_pendulum,
-     &friction,
-     {.start = {0.6, 1.1}, .dt = 0.6, .only = GM_NEEDS_FRICTION, .friction = friction}},
+    {&gm_problem_pendulum, NULL, 0.6, 0, {0.6, 1.1}, {{0}}},
+    {&gm_problem_particles, &well, 0.6, 0, {0.5, -0.4, 0.3, 0.8}, {{0}}},
+    {&gm_problem_particles, &no_well, 0.6, 0, {0.7, -0.2, 0.4, -0.9}, {KEPT(momentum)}},
+    {&gm_problem_kepler, NULL, 0.3, 0, {0.8, 0.1, -0.2, 1.2}, {KEPT(angular_momentum)}},
+    /* not of the form q' A p, as angular momentum is, which more schemes conserve */
+    {&gm_problem_oscillator, NULL, 0.1, GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN, {0.8, -0.5}, {KEPT(circle)}},
+    {&gm_problem_damped_pendulum, &friction, 0.6, GM_NEEDS_FRICTION, {0.6, 1.1}, {{0}}},
     {&gm_problem_spherical_pendulum,
      NULL,
-     {.start = {0.6, 0, -0.8, 0.4, 0.7, 0.3},
-      .dt = 0.3,
-      .only = GM_NEEDS_CONSTRAINTS,
-      .hamiltonian = true,
-      .momentum = {vertical_momentum}}},
-    {&gm_problem_henon_heiles, NULL, {.start = {0.1, -0.1, 0.3, 0.2}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_product, NULL, {.start = {0.5, -0.6}, .dt = 0.3, .hamiltonian = true}},
-    {&gm_problem_fish_eye,
-     NULL,
-     {.start = {0.8, 0.1, -0.2, 0.7},
-      .dt = 0.3,
-      .only = GM_NEEDS_INSEPARABLE,
-      .hamiltonian = true,
-      .bilinear = {angular_momentum},
-      .momentum = {angular_momentum}}},
+     0.3,
+     GM_NEEDS_CONSTRAINTS,
+     {0.6, 0, -0.8, 0.4, 0.7, 0.3},
+     {KEPT(vertical_momentum)}},
+    {&gm_problem_henon_heiles, NULL, 0.6, 0, {0.1, -0.1, 0.3, 0.2}, {{0}}},
+    {&gm_problem_product, NULL, 0.3, 0, {0.5, -0.6}, {{0}}},
+    {&gm_problem_fish_eye, NULL, 0.3, GM_NEEDS_INSEPARABLE, {0.8, 0.1, -0.2, 0.7}, {KEPT(angular_momentum)}},
     {&gm_problem_vortices_four,
      &strength,
-     {.start = {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
-      .dt = 0.6,
-      .hamiltonian = true,
-      .linear = {impulse_x, impulse_y},
-      .quadratic = {angular_impulse}}},
-    {&gm_problem_rigid_body,
-     NULL,
-     {.start = {0.9, 0.5, -0.7}, .dt = 0.6, .quadratic = {sphere, ellipsoid}, .casimir = {sphere}}},
-    {&gm_problem_abc, abc_constants, {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .volume = true}},
-    {&gm_problem_linear,
-     trace_free,
-     {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .only = GM_NEEDS_VOLUME, .volume = true}},
+     0.6,
+     0,
+     {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
+     {KEPT(impulse_x), KEPT(impulse_y), KEPT(angular_impulse)}},
+    {&gm_problem_rigid_body, NULL, 0.6, 0, {0.9, 0.5, -0.7}, {KEPT(sphere), KEPT(ellipsoid)}},
+    {&gm_problem_abc, abc_constants, 0.6, 0, {0.5, 1.1, -0.4}, {{0}}},
+    {&gm_problem_linear, trace_free, 0.6, GM_NEEDS_VOLUME, {0.5, 1.1, -0.4}, {{0}}},
     {&gm_problem_kepler_perturbed,
      &perturbation,
-     {.start = {0.8, 0.1, -0.2, 1.2},
-      .dt = 0.3,
-      .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
-      .hamiltonian = true,
-      .quadratic = {angular_momentum},
-      .bilinear = {angular_momentum}}},
+     0.3,
+     GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
+     {0.8, 0.1, -0.2, 1.2},
+     {KEPT(angular_momentum)}},
     {&gm_problem_ring,
      NULL,
-     {.start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
-      .dt = 0.3,
-      .only = GM_NEEDS_SEMILINEAR,
-      .linear = {ring_sum},
-      .quadratic = {ring_square}}},
+     0.3,
+     GM_NEEDS_SEMILINEAR,
+     {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
+     {KEPT(ring_sum), KEPT(ring_square)}},
     {&gm_problem_fpu,
      &omega,
-     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-      .dt = 0.3,
-      .only = GM_NEEDS_FAST_LINEAR,
-      .hamiltonian = true}},
+     0.3,
+     GM_NEEDS_FAST_LINEAR,
+     {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+     {{0}}},
     /* (h Omega)^2 = 0.09, with which two copies of phase space bear the binding that they are given here */
     {&gm_problem_fpu,
      &omega,
-     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-      .dt = 0.06,
-      .only = GM_NEEDS_HAMILTONIAN,
-      .hamiltonian = true}},
+     0.06,
+     GM_NEEDS_HAMILTONIAN,
+     {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+     {{0}}},
 };
 
 size_t gm_subject_count(void)
@@ -186,9 +121,17 @@ size_t gm_subject_count(void)
 
 struct gm_subject gm_subject_at(size_t index)
 {
-    struct gm_subject subject = subjects[index].subject;
-    subject.problem = *subjects[index].problem;
+    struct gm_subject subject = {.problem = *subjects[index].problem,
+                                 .start = subjects[index].start,
+                                 .dt = subjects[index].dt,
+                                 .unit = 1,
+                                 .scale = 1,
+                                 .only = subjects[index].only,
+                                 .kept = subjects[index].kept};
     subject.problem.parameters = subjects[index].parameters;
+    while (subject.kept_count < GM_SUBJECT_INVARIANTS && subject.kept[subject.kept_count].value) {
+        subject.kept_count++;
+    }
     return subject;
 }
 
@@ -211,84 +154,72 @@ void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *
     }
 }
 
-/* The map of both copies of phase space, which no run shows: the memory is given and taken. */
-static bool advance_doubled(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            const struct gm_settings *settings, double dt, int64_t steps, const double *whole,
-                            double *end)
+double gm_subject_friction(const struct gm_subject *subject)
 {
-    const size_t count = problem->n * problem->m;
-    void *workspace = scheme->family->workspace_open(problem, scheme);
+    const struct gm_action *action = gm_ode_of(&subject->problem)->action;
+    return action && action->friction ? action->friction(&subject->problem) : 0;
+}
+
+struct gm_settings gm_subject_settings(double dt)
+{
+    return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt), .newmark_beta = 0.15};
+}
+
+/* The map of both copies of phase space, which no run shows: the memory is given and taken. */
+static bool advance_doubled(const struct gm_trial *trial, const double *whole, double *end)
+{
+    const struct gm_family *family = trial->scheme->family;
+    const size_t count = trial->problem->n * trial->problem->m;
+    void *workspace = family->workspace_open(trial->problem, trial->scheme);
     if (!workspace) {
         return false;
     }
     const struct gm_task task = {
-        .problem = problem,
-        .scheme = scheme,
-        .dt = dt,
-        .steps = steps,
+        .problem = trial->problem,
+        .scheme = trial->scheme,
+        .dt = trial->dt,
+        .steps = trial->steps,
         .limit = 1e10,
         .y = whole,
         .out = end,
         .memory = whole + count,
         .memory_out = end + count,
         .workspace = workspace,
-        .settings = settings,
+        .settings = trial->settings,
     };
-    const struct gm_progress progress = scheme->family->loop(&task);
-    scheme->family->workspace_close(workspace);
-    return progress.done == steps;
-}
-
-/* for the schemes that choose their step tau0 is what dt is for the others */
-static struct gm_settings settings_for(double dt)
-{
-    return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt), .newmark_beta = 0.15};
+    const struct gm_progress progress = family->loop(&task);
+    family->workspace_close(workspace);
+    return progress.done == trial->steps;
 }
 
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                         int64_t steps, size_t m, const double *whole, double *end)
 {
-    const struct gm_settings settings = settings_for(dt);
+    const struct gm_settings settings = gm_subject_settings(dt);
     struct gm_problem problem = subject->problem;
     problem.m = m;
-    if (scheme->family->doubled) {
-        return advance_doubled(&problem, scheme, &settings, dt, steps, whole, end);
-    }
-    struct gm_run *run = gm_run_open(&problem, scheme, &settings, 0, dt, whole);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_advance(run, steps) == GM_OK;
-    memcpy(end, gm_run_state(run), problem.n * m * sizeof *end);
-    gm_run_close(run);
-    return good;
-}
-
-/* p := -p in every copy of phase space */
-static void reflect(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole)
-{
-    const size_t n = subject->problem.n;
-    for (size_t c = 0; c < gm_subject_components(subject, scheme); c++) {
-        whole[c] = c % n >= n / 2 ? -whole[c] : whole[c];
-    }
+    const struct gm_trial trial = {&problem, scheme, &settings, dt, steps};
+    return scheme->family->doubled ? advance_doubled(&trial, whole, end)
+                                   : gm_trial_advance(&trial, whole, end);
 }
 
 /* Two copies of phase space remember nothing else. */
 static bool turn_doubled(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          int64_t steps, bool reflected, double push, double *end)
 {
+    const size_t n = subject->problem.n;
     double start[2 * GM_SUBJECT_COMPONENTS], there[2 * GM_SUBJECT_COMPONENTS];
     gm_subject_start(subject, scheme, start);
     if (!gm_subject_advance(subject, scheme, dt, steps, 1, start, there)) {
         return false;
     }
     if (reflected) {
-        reflect(subject, scheme, there);
+        gm_reflect(there, n, 2);
     }
     there[0] += push;
     const bool good = gm_subject_advance(subject, scheme, reflected ? dt : -dt, steps, 1, there, end);
     if (reflected) {
-        reflect(subject, scheme, end);
+        gm_reflect(end, n, 2);
     }
     return good;
 }
@@ -299,28 +230,7 @@ bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *s
     if (scheme->family->doubled) {
         return turn_doubled(subject, scheme, dt, steps, reflected, push, end);
     }
-    const struct gm_settings settings = settings_for(dt);
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, subject->start);
-    const size_t bytes = subject->problem.n * sizeof *end;
-    bool good = run && gm_run_advance(run, steps) == GM_OK;
-    if (good && (reflected || push != 0)) {
-        memcpy(end, gm_run_state(run), bytes);
-        if (reflected) {
-            reflect(subject, scheme, end);
-        }
-        end[0] += push;
-        gm_run_set_state(run, end, NULL);
-    }
-    if (good && !reflected) {
-        gm_run_set_step(run, -dt);
-    }
-    good = good && gm_run_advance(run, steps) == GM_OK;
-    if (good) {
-        memcpy(end, gm_run_state(run), bytes);
-        if (reflected) {
-            reflect(subject, scheme, end);
-        }
-    }
-    gm_run_close(run);
-    return good;
+    const struct gm_settings settings = gm_subject_settings(dt);
+    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, steps};
+    return gm_trial_turn(&trial, subject->start, reflected, push, end);
 }
