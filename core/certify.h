@@ -116,6 +116,10 @@ struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum
 /* The largest difference. */
 double gm_distance(const double *a, const double *b, size_t n);
 
+/* Extrapolates central differences, each at half the distance of the one before, in place: the last is the best.
+   Returns what that still changes. */
+double gm_romberg(double *differences, size_t levels);
+
 /* So many steps of a scheme on a problem. */
 struct gm_trial {
     const struct gm_problem *problem;
@@ -125,7 +129,8 @@ struct gm_trial {
     int64_t steps;
 };
 
-/* The state after them; false if one fails. */
+/* The state after them, and where a scheme has a second copy of phase space, that behind it, as in `start`. False if
+   one fails: then it is the last good one. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
 
 /* Where a run that turns round after them is after as many more: by the step -dt, or with its velocities or momenta
@@ -133,9 +138,6 @@ bool gm_trial_advance(const struct gm_trial *trial, const double *start, double 
    remembers. False if a step fails. */
 bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
                    double *end);
-
-/* Changes the sign of the second half of each of `copies` states of n numbers. */
-void gm_reflect(double *state, size_t n, size_t copies);
 
 /* y := the solution at the time `until` of these equations, from y at 0, by GSL's Prince-Dormand stepper with
    this absolute and relative tolerance; false where it finds none or memory is short. */

@@ -75,7 +75,7 @@ bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_
 {
     enum { LEVELS = 4 };
     const double widest = 0.05;
-    double table[LEVELS][GM_MESH_OBSERVED], sides[2][GM_MESH_OBSERVED], state[GM_MESH_SUBJECT_STATE];
+    double table[GM_MESH_OBSERVED][LEVELS], sides[2][GM_MESH_OBSERVED], state[GM_MESH_SUBJECT_STATE];
     for (int level = 0; level < LEVELS; level++) {
         const double by = ldexp(widest, -level);
         for (int side = 0; side < 2; side++) {
@@ -85,17 +85,12 @@ bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_
             }
         }
         for (size_t i = 0; i < count; i++) {
-            table[level][i] = (sides[1][i] - sides[0][i]) / (2 * by);
+            table[i][level] = (sides[1][i] - sides[0][i]) / (2 * by);
         }
     }
-    double power = 4;
-    for (int done = 1; done < LEVELS; done++, power *= 4) {
-        for (int level = LEVELS - 1; level >= done; level--) {
-            for (size_t i = 0; i < count; i++) {
-                table[level][i] += (table[level][i] - table[level - 1][i]) / (power - 1);
-            }
-        }
+    for (size_t i = 0; i < count; i++) {
+        gm_romberg(table[i], LEVELS);
+        derivative[i] = table[i][LEVELS - 1];
     }
-    memcpy(derivative, table[LEVELS - 1], count * sizeof *derivative);
     return true;
 }

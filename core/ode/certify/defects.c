@@ -24,19 +24,6 @@ struct derivative {
     double error, largest;
 };
 
-/* by Romberg's scheme; returns the last change */
-static double extrapolate(double table[LEVELS])
-{
-    double power = 4, last = 0;
-    for (size_t done = 1; done < LEVELS; done++, power *= 4) {
-        for (size_t level = LEVELS - 1; level >= done; level--) {
-            last = (table[level] - table[level - 1]) / (power - 1);
-            table[level] += last;
-        }
-    }
-    return fabs(last);
-}
-
 /* Every member of a start onto the manifold of the constraints. */
 static bool project(const struct gm_problem *problem, size_t members, double *start)
 {
@@ -89,8 +76,8 @@ static bool differentiate(const struct gm_subject *subject, const struct gm_sche
                 table[level] = (end[at] - end[at + 1]) / apart;
                 begun[level] = (start[at] - start[at + 1]) / apart;
             }
-            derivative->error = fmax(derivative->error, extrapolate(table));
-            derivative->error = held ? fmax(derivative->error, extrapolate(begun)) : derivative->error;
+            derivative->error = fmax(derivative->error, gm_romberg(table, LEVELS));
+            derivative->error = held ? fmax(derivative->error, gm_romberg(begun, LEVELS)) : derivative->error;
             derivative->start[row][column] = held ? begun[LEVELS - 1] : row == column;
             derivative->at[row][column] = table[LEVELS - 1];
             derivative->largest = fmax(derivative->largest, fabs(table[LEVELS - 1]));
