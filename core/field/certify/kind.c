@@ -248,9 +248,13 @@ static struct gm_problem problem_of(const struct equation *equation, const void 
     problem.line.points <<= finer;
     problem.line.dx = ldexp(problem.line.dx, -finer);
     const size_t points = problem.line.points;
-    problem.n = equation->numbers == 0                                ? gm_wave_size(points)
-                : gm_field_of(&problem)->equation == GM_NEEDS_BURGERS ? gm_burgers_size(parameters, points)
-                                                                      : equation->numbers * points;
+    if (equation->numbers == 0) {
+        problem.n = gm_wave_size(points);
+    } else if (gm_field_of(&problem)->equation == GM_NEEDS_BURGERS) {
+        problem.n = gm_burgers_size(parameters, points);
+    } else {
+        problem.n = equation->numbers * points;
+    }
     return problem;
 }
 
