@@ -16,7 +16,6 @@
    S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
 #include "core/mesh/certify/law.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -34,8 +33,6 @@ struct motion {
     double pull[ELEMENTS][2][2];                     /* dL_e/dq, with the multiplier's share */
     double lambda[POINTS + 2], ell[ELEMENTS];
 };
-
-static_assert(sizeof(struct motion) <= GM_MESH_OBSERVED * sizeof(double), "too many numbers");
 
 /* Where the Lagrangian of an element is taken in a step. */
 enum rule { TRAPEZOIDAL, MIDPOINT };
@@ -244,12 +241,10 @@ static double defect_of(const struct gm_mesh_subject *subject, const struct law 
     struct motion tangents[DIRECTIONS];
     double defect = 0;
     for (size_t v = 0; v < DIRECTIONS; v++) {
-        double values[GM_MESH_OBSERVED];
         if (!gm_mesh_subject_derive(subject, law->kind, v, observe, law, sizeof tangents[v] / sizeof(double),
-                                    values)) {
+                                    (double *)&tangents[v])) {
             return INFINITY;
         }
-        memcpy(&tangents[v], values, sizeof tangents[v]);
         for (size_t w = 0; w < v; w++) {
             for (size_t a = 1; a <= POINTS; a++) {
                 for (size_t b = a; b <= POINTS; b++) {
