@@ -129,18 +129,6 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     return GM_KEEPS_QUADRATIC | (bilinear ? GM_KEEPS_BILINEAR | map : 0);
 }
 
-double gm_romberg(double *differences, size_t levels)
-{
-    double power = 4, last = 0;
-    for (size_t done = 1; done < levels; done++, power *= 4) {
-        for (size_t level = levels - 1; level >= done; level--) {
-            last = (differences[level] - differences[level - 1]) / (power - 1);
-            differences[level] += last;
-        }
-    }
-    return fabs(last);
-}
-
 /* The state, and where a scheme has a second copy of phase space in its memory, that behind it. */
 static void copy_state(const struct gm_run *run, double *y)
 {

@@ -164,12 +164,11 @@ struct gm_settings gm_subject_settings(double dt)
 }
 
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        int64_t steps, size_t m, const double *whole, double *end)
+                        int64_t steps, const double *whole, double *end)
 {
     const struct gm_settings settings = gm_subject_settings(dt);
-    struct gm_problem problem = subject->problem;
-    problem.m = m;
-    return gm_trial_advance(&(const struct gm_trial){&problem, scheme, &settings, dt, steps}, whole, end);
+    return gm_trial_advance(&(const struct gm_trial){&subject->problem, scheme, &settings, dt, steps}, whole,
+                            end);
 }
 
 bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
