@@ -129,49 +129,76 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     return GM_KEEPS_QUADRATIC | (bilinear ? GM_KEEPS_BILINEAR | map : 0);
 }
 
+/* The state, and where a scheme has a second copy of phase space in its memory, that behind it. */
+static void copy_state(const struct gm_run *run, double *y)
+{
+    const size_t count = run->problem->n * run->problem->m;
+    memcpy(y, gm_run_state(run), count * sizeof *y);
+    if (run->scheme->family->doubled) {
+        memcpy(y + count, gm_run_memory(run), count * sizeof *y);
+    }
+}
+
+static void set_state(struct gm_run *run, const double *y)
+{
+    const size_t count = run->problem->n * run->problem->m;
+    gm_run_set_state(run, y, run->scheme->family->doubled ? y + count : NULL);
+}
+
+/* A run after its steps, or those before one that fails; NULL where memory is short. */
+static struct gm_run *make_steps(const struct gm_trial *trial, const double *start)
+{
+    struct gm_run *run = gm_run_open(trial->problem, trial->scheme, trial->settings, 0, trial->dt, start);
+    if (run && trial->scheme->family->doubled) {
+        set_state(run, start);
+    }
+    if (run) {
+        gm_run_advance(run, trial->steps);
+    }
+    return run;
+}
+
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end)
 {
-    const struct gm_problem *problem = trial->problem;
-    struct gm_run *run = gm_run_open(problem, trial->scheme, trial->settings, 0, trial->dt, start);
-    const bool good = run && gm_run_advance(run, trial->steps) == GM_OK;
+    struct gm_run *run = make_steps(trial, start);
+    const bool good = run && run->status == GM_OK;
     if (run) {
-        memcpy(end, gm_run_state(run), problem->n * problem->m * sizeof *end);
+        copy_state(run, end);
     }
     gm_run_close(run);
     return good;
 }
 
-void gm_reflect(double *state, size_t n, size_t copies)
+static void reflect(const struct gm_trial *trial, double *y)
 {
+    const size_t n = trial->problem->n, copies = trial->scheme->family->doubled ? 2 : 1;
     for (size_t c = 0; c < copies * n; c++) {
-        state[c] = c % n >= n / 2 ? -state[c] : state[c];
+        y[c] = c % n >= n / 2 ? -y[c] : y[c];
     }
 }
 
 bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
                    double *end)
 {
-    const struct gm_problem *problem = trial->problem;
-    const size_t bytes = problem->n * sizeof *end;
-    struct gm_run *run = gm_run_open(problem, trial->scheme, trial->settings, 0, trial->dt, start);
-    bool good = run && gm_run_advance(run, trial->steps) == GM_OK;
-    if (good && (reflected || push != 0)) {
-        memcpy(end, gm_run_state(run), bytes);
-        if (reflected) {
-            gm_reflect(end, problem->n, 1);
-        }
-        end[0] += push;
-        gm_run_set_state(run, end, NULL);
+    struct gm_run *run = make_steps(trial, start);
+    if (!run || run->status != GM_OK) {
+        gm_run_close(run);
+        return false;
     }
-    if (good && !reflected) {
+    copy_state(run, end);
+    if (reflected) {
+        reflect(trial, end);
+    } else {
         gm_run_set_step(run, -trial->dt);
     }
-    good = good && gm_run_advance(run, trial->steps) == GM_OK;
-    if (good) {
-        memcpy(end, gm_run_state(run), bytes);
-        if (reflected) {
-            gm_reflect(end, problem->n, 1);
-        }
+    end[0] += push;
+    if (reflected || push != 0 || trial->scheme->family->doubled) {
+        set_state(run, end);
+    }
+    const bool good = gm_run_advance(run, trial->steps) == GM_OK;
+    copy_state(run, end);
+    if (reflected) {
+        reflect(trial, end);
     }
     gm_run_close(run);
     return good;

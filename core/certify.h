@@ -72,9 +72,9 @@ double gm_invariant_value(const void *invariant, const double *y, const double *
 double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
                            const double *direction);
 
-/* Which claims such a quantity tells of: whether it is linear, of the form q' A p, quadratic; of the form p' x(q), x
-   affine, it is the momentum map of the symmetry whose generator is x (Noether's theorem, read backwards). It is taken
-   along directions of this size from a state of n numbers, in the first `varied` of them. 0: none, or memory is short. */
+/* Returns the claims that such a quantity bears on, as bits: it may be linear, quadratic, of the form q' A p, or of the
+   form p' x(q) with x affine, the momentum map of the symmetry whose generator is x (Noether's theorem, read backwards).
+   Differences along directions of this size decide, in the first `varied` of n numbers. 0: none, or memory is short. */
 unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied,
                         double size);
 
@@ -109,14 +109,14 @@ void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim
 void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem);
 /* Tells why nothing was measured of a claim on a given system, where nothing was. */
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason);
-/* The same of all of these claims. */
+/* Withholds every one of these claims, bits, for the same reason. */
 void gm_certificate_withhold_all(struct gm_certificate *certificate, unsigned claims, const char *reason);
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
 
 /* The largest difference. */
 double gm_distance(const double *a, const double *b, size_t n);
 
-/* So many steps of a scheme on a problem. */
+/* A number of steps of a scheme on a problem. */
 struct gm_trial {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
@@ -125,17 +125,15 @@ struct gm_trial {
     int64_t steps;
 };
 
-/* The state after them; false if one fails. */
+/* The state after them, and where a scheme has a second copy of phase space, that behind it, as in `start`. False if
+   one fails: then it is the last good one. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
 
-/* Where a run that turns round after them is after as many more: by the step -dt, or with its velocities or momenta
-   reflected; where it turns, the first component is pushed by `push`, if it is not 0. It remembers what the scheme
-   remembers. False if a step fails. */
+/* Writes the state of a run that turns round after its steps and makes as many more: by the step -dt, or with the second
+   half of the state, momenta or velocities, reflected. Where it turns, the first component is pushed by `push`, if it
+   is not 0. It remembers what the scheme remembers. False if a step fails. */
 bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
                    double *end);
-
-/* Changes the sign of the second half of each of `copies` states of n numbers. */
-void gm_reflect(double *state, size_t n, size_t copies);
 
 /* y := the solution at the time `until` of these equations, from y at 0, by GSL's Prince-Dormand stepper with
    this absolute and relative tolerance; false where it finds none or memory is short. */

@@ -171,7 +171,7 @@ struct equation {
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;
     double dt, until;
-    int power; /* of dx that dt follows, in an order in space and time; 0: the order is one in time */
+    int power; /* dt falls as this power of dx, and errors give the order in space and time; 0: order in time alone */
     enum gm_claim claim;
     double (*kept)(const struct gm_problem *problem, const double *y);
     const struct frames *frames;
@@ -248,9 +248,13 @@ static struct gm_problem problem_of(const struct equation *equation, const void 
     problem.line.points <<= finer;
     problem.line.dx = ldexp(problem.line.dx, -finer);
     const size_t points = problem.line.points;
-    problem.n = equation->numbers == 0                                ? gm_wave_size(points)
-                : gm_field_of(&problem)->equation == GM_NEEDS_BURGERS ? gm_burgers_size(parameters, points)
-                                                                      : equation->numbers * points;
+    if (equation->numbers == 0) {
+        problem.n = gm_wave_size(points);
+    } else if (gm_field_of(&problem)->equation == GM_NEEDS_BURGERS) {
+        problem.n = gm_burgers_size(parameters, points);
+    } else {
+        problem.n = equation->numbers * points;
+    }
     return problem;
 }
 
@@ -320,7 +324,7 @@ static double frame_defect(const struct equation *equation, const struct gm_fiel
     return largest;
 }
 
-/* Takes in the order on one problem: that counts which is farthest from what is claimed. */
+/* Takes in the order on one problem. The one farthest from the claimed order counts. */
 static void note_order(struct gm_certificate *certificate, double *farthest, double order,
                        const char *problem)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of the geometry a scheme breaks in a step or a short run: the defects of symplecticity, volume,
    symmetry, reversibility, energy and other invariants. The derivative of a step is found by extrapolated
-   differences between members of an ensemble, so it asks nothing of the scheme. A defect refutes a claim only
+   differences, so it asks nothing of the scheme. A defect refutes a claim only
    where it stands clear of the error of the measurement: steps that stretch phase space a millionfold stretch
    round-off too. */
 #include <float.h>
@@ -10,94 +10,58 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/linear/differences.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
 
-enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS, LEVELS = 4 };
+enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
 
-/* The derivative of one step at the start; the error of its entries is what the last extrapolation still
-   changes. Under constraints the members begin on the manifold, as close as may be to where they would
-   without; `start` is the derivative of where they begin, else the identity. */
+/* The derivative of one step at the start, and that of where it begins: the identity, or under constraints that of the
+   state on the manifold which is as close as may be. */
 struct derivative {
     double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
-    double error, largest;
+    double largest;
 };
 
-/* by Romberg's scheme; returns the last change */
-static double extrapolate(double table[LEVELS])
-{
-    double power = 4, last = 0;
-    for (size_t done = 1; done < LEVELS; done++, power *= 4) {
-        for (size_t level = LEVELS - 1; level >= done; level--) {
-            last = (table[level] - table[level - 1]) / (power - 1);
-            table[level] += last;
-        }
-    }
-    return fabs(last);
-}
+struct step {
+    const struct gm_subject *subject;
+    const struct gm_scheme *scheme;
+    double dt;
+};
 
-/* Every member of a start onto the manifold of the constraints. */
-static bool project(const struct gm_problem *problem, size_t members, double *start)
+/* Writes the state where a step begins, and behind it the one where the step ends. */
+static bool make_step(const void *context, const double *from, double *to)
 {
-    double y[MOST];
-    bool good = true;
-    for (size_t member = 0; good && member < members; member++) {
-        for (size_t c = 0; c < problem->n; c++) {
-            y[c] = start[c * members + member];
-        }
-        good = gm_manifold_project(problem, y);
-        for (size_t c = 0; c < problem->n; c++) {
-            start[c * members + member] = y[c];
-        }
-    }
-    return good;
+    const struct step *step = context;
+    const struct gm_problem *problem = &step->subject->problem;
+    const size_t n = gm_subject_components(step->subject, step->scheme);
+    memcpy(to, from, n * sizeof *to);
+    return (gm_action_constraints(problem) == 0 || gm_manifold_project(problem, to)) &&
+           gm_subject_advance(step->subject, step->scheme, step->dt, 1, to, to + n);
 }
 
 static bool differentiate(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                          double widest, struct derivative *derivative)
+                          double length, struct derivative *derivative)
 {
-    const size_t n = gm_subject_components(subject, scheme), members = n * LEVELS * 2;
-    double from[MOST], *start = malloc(2 * n * members * sizeof *start),
-                       *end = start ? start + n * members : NULL;
-    if (!start) {
-        return false;
-    }
-    derivative->error = derivative->largest = 0;
+    const size_t n = gm_subject_components(subject, scheme);
+    double from[MOST], along[TANGENTS] = {0}, slope[2 * TANGENTS];
     gm_subject_start(subject, scheme, from);
+    derivative->largest = 0;
     for (size_t column = 0; column < n; column++) {
-        for (size_t level = 0; level < LEVELS; level++) {
-            for (size_t side = 0; side < 2; side++) {
-                const size_t member = (column * LEVELS + level) * 2 + side;
-                for (size_t c = 0; c < n; c++) {
-                    const double shift = c == column ? ldexp(widest, -(int)level) : 0;
-                    start[c * members + member] = from[c] + (side ? -shift : shift);
-                }
-            }
+        along[column] = length;
+        if (!gm_differentiate(make_step, &(const struct step){subject, scheme, dt}, n, from, along, 2 * n,
+                              slope)) {
+            return false;
+        }
+        along[column] = 0;
+        for (size_t row = 0; row < n; row++) {
+            derivative->start[row][column] = slope[row] / length;
+            derivative->at[row][column] = slope[n + row] / length;
+            derivative->largest = gm_larger(fabs(derivative->at[row][column]), derivative->largest);
         }
     }
-    const bool held = gm_action_constraints(&subject->problem) > 0;
-    const bool made = (!held || project(&subject->problem, members, start)) &&
-                      gm_subject_advance(subject, scheme, dt, 1, members, start, end);
-    for (size_t row = 0; made && row < n; row++) {
-        for (size_t column = 0; column < n; column++) {
-            double table[LEVELS], begun[LEVELS];
-            for (size_t level = 0; level < LEVELS; level++) {
-                const size_t at = row * members + (column * LEVELS + level) * 2;
-                const size_t below = column * members + (column * LEVELS + level) * 2;
-                const double apart = held ? ldexp(2 * widest, -(int)level) : start[below] - start[below + 1];
-                table[level] = (end[at] - end[at + 1]) / apart;
-                begun[level] = (start[at] - start[at + 1]) / apart;
-            }
-            derivative->error = fmax(derivative->error, extrapolate(table));
-            derivative->error = held ? fmax(derivative->error, extrapolate(begun)) : derivative->error;
-            derivative->start[row][column] = held ? begun[LEVELS - 1] : row == column;
-            derivative->at[row][column] = table[LEVELS - 1];
-            derivative->largest = fmax(derivative->largest, fabs(table[LEVELS - 1]));
-        }
-    }
-    free(start);
-    return made && isfinite(derivative->largest) && isfinite(derivative->error);
+    return isfinite(derivative->largest);
 }
 
 /* A defect of one step: NaN where it fails; clear where it stands clear of the error of its measurement. */
@@ -109,23 +73,22 @@ struct defect {
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
-/* Of a polynomial of this degree in the entries of the derivative, which has to be the same between closer
-   members. */
+/* The defect that is a polynomial of this degree in the entries of the derivative. It stands clear where shorter
+   differences give nearly the same entries. */
 static struct defect of_derivative(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                    double dt, double tolerance, int degree, defect_of *defect)
 {
     const size_t n = gm_subject_components(subject, scheme);
     struct derivative derivative, closer;
     struct defect found = {.size = NAN};
-    const double scale = subject->scale;
-    for (double distance = 0.02 * scale;
-         distance > 1e-4 * scale && !found.clear && !(found.size <= tolerance); distance /= 4) {
-        if (!differentiate(subject, scheme, dt, distance, &derivative)) {
+    for (double length = 0.4 * subject->scale;
+         length > 2e-3 * subject->scale && !found.clear && !(found.size <= tolerance); length /= 4) {
+        if (!differentiate(subject, scheme, dt, length, &derivative)) {
             continue;
         }
         found.size = defect(subject, scheme, dt, &derivative);
-        if (found.size > tolerance && differentiate(subject, scheme, dt, distance / 4, &closer)) {
-            double error = derivative.error;
+        if (found.size > tolerance && differentiate(subject, scheme, dt, length / 3, &closer)) {
+            double error = 0;
             for (size_t row = 0; row < n; row++) {
                 error = fmax(error, gm_distance(derivative.at[row], closer.at[row], n));
             }
@@ -184,7 +147,7 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
     double start[MOST], end[MOST], *before = malloc(2 * n * n * sizeof *before),
                                    *after = before ? before + n * n : NULL, defect = 0;
     gm_subject_start(subject, scheme, start);
-    if (!before || !gm_subject_advance(subject, scheme, dt, 1, 1, start, end)) {
+    if (!before || !gm_subject_advance(subject, scheme, dt, 1, start, end)) {
         free(before);
         return NAN;
     }
@@ -237,7 +200,7 @@ static struct defect of_way_back(const struct gm_subject *subject, const struct 
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
-/* What is told of the derivative of a step. */
+/* Claims about the derivative of a step: the defect of each is a polynomial of this degree in its entries. */
 static const struct {
     enum gm_claim claim;
     int degree;
@@ -291,7 +254,7 @@ static bool go_on(const struct gm_subject *subject, const struct gm_scheme *sche
     const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
     double whole[MOST];
     gm_subject_start(subject, scheme, whole);
-    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, 1, whole, end) || adaptive;
+    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, whole, end) || adaptive;
 }
 
 static double change_of(const struct gm_kept *kept, const double *from, const double *to)

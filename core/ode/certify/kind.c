@@ -199,7 +199,7 @@ static bool is_even(const struct gm_subject *subject)
     return true;
 }
 
-/* Takes in the order on one system: what counts is the lowest of those that are settled. Before the asymptotic regime
+/* Takes in the order on one system. The lowest of those that are settled counts. Before the asymptotic regime
    an order may look higher than it is, and where errors cancel, lower. */
 static void measure_order(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
@@ -214,7 +214,7 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
     }
 }
 
-/* Notes how far what a system says that it conserves changes, under the claims that it tells of. */
+/* Notes the change of a quantity that a system conserves, under every claim that the quantity bears on. */
 static void measure_kept(struct gm_certificate *certificate, const struct gm_subject *subject,
                          const struct gm_kept *kept)
 {
@@ -244,7 +244,7 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
     }
 }
 
-/* Measures what can be on a system, and says why of the rest. */
+/* Measures the order and every claim that means something on a system; the others get the reason why not. */
 static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
     const struct gm_scheme *scheme = certificate->scheme;

@@ -35,9 +35,9 @@ double gm_subject_friction(const struct gm_subject *subject);
 /* For the schemes that choose their step tau0 is what dt is for the others. */
 struct gm_settings gm_subject_settings(double dt);
 
-/* Makes `steps` steps of m members, whole and end [component * m + member]; false if it fails. */
+/* gm_trial_advance, of the components that the scheme maps. */
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        int64_t steps, size_t m, const double *whole, double *end);
+                        int64_t steps, const double *whole, double *end);
 
 /* gm_trial_turn, with p reflected in every copy of phase space. */
 bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
@@ -49,8 +49,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
                         struct gm_ladder *ladder);
 
 /* The defect of a claim; NaN where a step fails, or where a defect beyond the tolerance does not stand clear of the
-   error of its own measurement, for this dt and two smaller ones. M is the derivative of one step: central differences
-   at 4 distances, extrapolated by Romberg, all as one ensemble. Error of the differences about 1e-13.
+   error of its own measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
+   (core/linear/differences.h).
        GM_SYMPLECTIC         |M' J M - J|, under constraints of tangents of their manifold alone
        GM_CONFORMAL          |M' J M - exp(-c dt) J|
        GM_POISSON_MAP        |M B(y0) M' - B(y1)|

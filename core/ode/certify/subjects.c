@@ -2,12 +2,10 @@
 /* The certification problems: non-linear, not chaotic over the times that are used, each with structure of
    its own. */
 #include <math.h>
-#include <string.h>
 
 #include "core/basics.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/problems/problems.h"
-#include "core/run.h"
 
 static const double well = 0.3, no_well = 0, friction = 0.4, perturbation = 0.05, omega = 5, strength = 2;
 static const double abc_constants[] = {1, 0.8, 0.6};
@@ -165,72 +163,20 @@ struct gm_settings gm_subject_settings(double dt)
     return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt), .newmark_beta = 0.15};
 }
 
-/* The map of both copies of phase space, which no run shows: the memory is given and taken. */
-static bool advance_doubled(const struct gm_trial *trial, const double *whole, double *end)
-{
-    const struct gm_family *family = trial->scheme->family;
-    const size_t count = trial->problem->n * trial->problem->m;
-    void *workspace = family->workspace_open(trial->problem, trial->scheme);
-    if (!workspace) {
-        return false;
-    }
-    const struct gm_task task = {
-        .problem = trial->problem,
-        .scheme = trial->scheme,
-        .dt = trial->dt,
-        .steps = trial->steps,
-        .limit = 1e10,
-        .y = whole,
-        .out = end,
-        .memory = whole + count,
-        .memory_out = end + count,
-        .workspace = workspace,
-        .settings = trial->settings,
-    };
-    const struct gm_progress progress = family->loop(&task);
-    family->workspace_close(workspace);
-    return progress.done == trial->steps;
-}
-
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        int64_t steps, size_t m, const double *whole, double *end)
+                        int64_t steps, const double *whole, double *end)
 {
     const struct gm_settings settings = gm_subject_settings(dt);
-    struct gm_problem problem = subject->problem;
-    problem.m = m;
-    const struct gm_trial trial = {&problem, scheme, &settings, dt, steps};
-    return scheme->family->doubled ? advance_doubled(&trial, whole, end)
-                                   : gm_trial_advance(&trial, whole, end);
-}
-
-/* Two copies of phase space remember nothing else. */
-static bool turn_doubled(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                         int64_t steps, bool reflected, double push, double *end)
-{
-    const size_t n = subject->problem.n;
-    double start[2 * GM_SUBJECT_COMPONENTS], there[2 * GM_SUBJECT_COMPONENTS];
-    gm_subject_start(subject, scheme, start);
-    if (!gm_subject_advance(subject, scheme, dt, steps, 1, start, there)) {
-        return false;
-    }
-    if (reflected) {
-        gm_reflect(there, n, 2);
-    }
-    there[0] += push;
-    const bool good = gm_subject_advance(subject, scheme, reflected ? dt : -dt, steps, 1, there, end);
-    if (reflected) {
-        gm_reflect(end, n, 2);
-    }
-    return good;
+    return gm_trial_advance(&(const struct gm_trial){&subject->problem, scheme, &settings, dt, steps}, whole,
+                            end);
 }
 
 bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                      int64_t steps, bool reflected, double push, double *end)
 {
-    if (scheme->family->doubled) {
-        return turn_doubled(subject, scheme, dt, steps, reflected, push, end);
-    }
     const struct gm_settings settings = gm_subject_settings(dt);
-    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, steps};
-    return gm_trial_turn(&trial, subject->start, reflected, push, end);
+    double start[2 * GM_SUBJECT_COMPONENTS];
+    gm_subject_start(subject, scheme, start);
+    return gm_trial_turn(&(const struct gm_trial){&subject->problem, scheme, &settings, dt, steps}, start,
+                         reflected, push, end);
 }
