@@ -22,7 +22,6 @@
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
-#include "render/files/regular_file.h"
 
 static void list_scenes(const struct gm_options *options)
 {
@@ -390,7 +389,7 @@ static int refuse_name(const char *word)
 static int list_source(const char *word)
 {
     struct gm_file file;
-    char reason[GM_REGULAR_REASON];
+    char message[GM_MESSAGE];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
     while (kind < GM_FILE_MESH && (gm_scene_find(word) || !gm_file_find(kind, word, &file))) {
@@ -407,9 +406,9 @@ static int list_source(const char *word)
     if (kind == GM_FILE_MESH) {
         return refuse_name(word);
     }
-    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, reason);
+    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, message);
     if (!text) {
-        gm_complain("%.300s could not be read: %s", file.path, reason);
+        gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
     fwrite(text, 1, length, stdout);

@@ -2,7 +2,6 @@
 /* The scenes that are made of systems and rooms, of files and of formulas. */
 #include "app/words/system.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +17,6 @@
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/model/reader.h"
-#include "render/files/regular_file.h"
 #include "render/message.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
@@ -29,15 +27,13 @@ const char gm_system_typed[] = "system";
 /* The whole of a file; of a system's that is too large nothing but its length, since its reader refuses it. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
-    char reason[GM_REGULAR_REASON];
     struct stat about;
     const bool large = most == GM_LARGEST_SYSTEM && !file->built_in && stat(file->path, &about) == 0 &&
                        S_ISREG(about.st_mode) && about.st_size > GM_LARGEST_SYSTEM;
     written->path = file->path;
     written->length = large ? (size_t)about.st_size : 0;
-    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, reason);
-    return written->text ||
-           gm_refuse(message, "%.300s could not be read: %s", file->path, large ? strerror(ENOMEM) : reason);
+    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, message);
+    return written->text || (large && gm_refuse(message, "not enough memory"));
 }
 
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
