@@ -77,7 +77,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
     return true;
 }
 
-/* What is wrong, and where: in a file its line and column, in a word the column. */
+/* Reports what is wrong, and where: in a file its line and column, in a word the column. */
 static void report(const struct reading *reading)
 {
     const struct gm_user_scheme_source *source = &reading->source;

@@ -48,7 +48,8 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
     *system = (struct gm_user_system){0};
     if (file ? !read_file(&written, file, GM_LARGEST_SYSTEM, message)
              : !gm_typed_file_write(&written, &place, message)) {
-        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        status = file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : status;
     } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault)) {
         if (gm_memory_refusals() != refusals) { /* whatever else is blamed */
             fault = (struct gm_fault){0};
@@ -150,7 +151,7 @@ struct making {
     char *message;
 };
 
-/* What is wrong with the text, and the exit status. Returns false. */
+/* Reports what is wrong with the text, with its exit status. Returns false. */
 static bool refuse_text(struct making *making, const struct gm_fault *fault)
 {
     making->trial->status =

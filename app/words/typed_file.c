@@ -10,6 +10,7 @@
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
 #include "app/words/range.h"
+#include "core/memory.h"
 #include "core/model/scope.h"
 #include "render/message.h"
 
@@ -489,13 +490,15 @@ static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place 
 
 bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place, char *message)
 {
+    const unsigned long refusals = gm_memory_refusals();
     struct typing *typing = calloc(1, sizeof *typing);
     FILE *stream = typing ? open_memstream(&file->text, &file->length) : NULL;
-    bool good = stream != NULL;
-    if (good) {
+    bool good = false;
+    if (stream) {
         typing->file = file;
         good = put_typed(typing, stream, place, message);
+        fclose(stream);
     }
     free(typing);
-    return stream && fclose(stream) == 0 ? good : gm_refuse(message, "not enough memory");
+    return gm_memory_refusals() == refusals ? good : gm_refuse(message, "not enough memory");
 }
