@@ -20,9 +20,9 @@ bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file
 /* Whether it means one. */
 bool gm_file_is(enum gm_file_kind kind, const char *word);
 
-/* Its text with a zero behind it; malloc'ed. NULL with a reason (GM_REGULAR_REASON bytes), as where it has more than
+/* Its text with a zero behind it; malloc'ed. NULL with a sentence (GM_MESSAGE bytes), as where it has more than
    `most` bytes. */
-char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason);
+char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *message);
 
 /* A name, what lists call its file (gm_file_title), and the line `about:`; "" where it cannot be read. */
 struct gm_listed {

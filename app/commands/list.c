@@ -21,7 +21,6 @@
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
-#include "render/files/regular_file.h"
 
 /* A row of a list: as JSON its texts with their keys, else the first, the second behind it, and in a long list those
    that follow, up to number `longer`. */
@@ -403,7 +402,7 @@ static int refuse_name(const char *word)
 static int list_source(const char *word)
 {
     struct gm_file file;
-    char reason[GM_REGULAR_REASON];
+    char message[GM_MESSAGE];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
     while (kind < GM_FILE_MESH && (gm_scene_find(word) || !gm_file_find(kind, word, &file))) {
@@ -415,9 +414,9 @@ static int list_source(const char *word)
     if (kind == GM_FILE_MESH) {
         return refuse_name(word);
     }
-    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, reason);
+    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, message);
     if (!text) {
-        return gm_give_up(GM_EXIT_FILE, "%.300s could not be read: %s", file.path, reason);
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     fwrite(text, 1, length, stdout);
     free(text);

@@ -17,7 +17,6 @@
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
-#include "render/files/regular_file.h"
 
 enum { MOST_BYTES = 1 << 20, MOST_STEPS = 60, MOST_SCHEMES = 3 };
 
@@ -565,11 +564,7 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
 {
     *tour = (struct gm_tour){0};
     size_t size = 0;
-    char reason[GM_REGULAR_REASON];
-    char *text = gm_file_read(file, MOST_BYTES, &size, reason);
-    if (!text) {
-        gm_refuse(message, "%.300s could not be read: %s", file->path, reason);
-    }
+    char *text = gm_file_read(file, MOST_BYTES, &size, message);
     const bool good = text && gm_tour_parse(tour, file->path, text, size, message);
     free(text);
     if (good) {

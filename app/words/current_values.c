@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/expression/lines.h"
 #include "scenes/common/scene.h"
 
@@ -74,14 +73,10 @@ static size_t put_values(FILE *stream, const char *text, struct gm_span pairs, c
 
 char *gm_system_now(const struct gm_scene *scene, const void *parameters)
 {
-    static const char *const lines[] = {"dt",     "until", "members",   "half_length",
-                                        "points", "lanes", "parameter", "start"};
-    enum {
-        DT,
-        LANES = 5,
-        VALUES,
-        LINES = GM_COUNT(lines)
-    }; /* before lanes: of one number, which a key sets */
+    /* before lanes: of one number, which a key sets; after them: of values */
+    enum { DT, LANES = 5, PARAMETER, START };
+    static const char *const lines[] = {"dt",    "until",     "members", "half_length", "points",
+                                        "lanes", "parameter", "start",   NULL};
     const struct gm_parameter *rows[LANES];
     bool put[LANES];
     char *text = NULL, number[GM_TEXT_SIZE];
@@ -98,17 +93,12 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         fputs("geomint: 1\n", stream);
     }
     while (stream && gm_lines_next(scene->text, strlen(scene->text), &at, &line, &fault)) {
-        const size_t letters = line.word.end - line.word.begin;
-        size_t i = 0;
-        while (i < LINES && (strlen(lines[i]) != letters ||
-                             memcmp(lines[i], scene->text + line.word.begin, letters) != 0)) {
-            i++;
-        }
+        const size_t i = gm_span_among(scene->text, line.word, lines);
         has_dt = has_dt || i == DT;
         if (i == LANES || (i < LANES && put[i])) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
-        } else if (i >= VALUES && i < LINES) {
+        } else if (i == PARAMETER || i == START) {
             const size_t values = line.value.begin + strcspn(scene->text + line.value.begin, ";#");
             const struct gm_span pairs = gm_span_trimmed(
                 scene->text,

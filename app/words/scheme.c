@@ -15,7 +15,6 @@
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
-#include "render/files/regular_file.h"
 
 static bool is_path(const char *name)
 {
@@ -47,15 +46,14 @@ static const struct gm_scheme *bring(void *data, const char *name, char *sentenc
 /* Reads the text of a file, or of a name that is a word. False with a message. The text is to be freed. */
 static bool open_source(struct reading *reading, const char *name, const struct gm_file *file)
 {
-    char reason[GM_REGULAR_REASON];
     size_t length = strlen(name);
     const char *text = name;
     if (file) {
         reading->path = file->path;
-        text = reading->text = gm_file_read(file, GM_LARGEST_SCHEME, &length, reason);
+        text = reading->text = gm_file_read(file, GM_LARGEST_SCHEME, &length, reading->message);
+        reading->unreadable = !text;
         if (!text) {
-            reading->unreadable = true;
-            return gm_refuse(reading->message, "%.300s could not be read: %s", file->path, reason);
+            return false;
         }
         const char *slash = strrchr(file->path, '/'), *base = slash ? slash + 1 : file->path;
         /* a title, without what ends one where the scheme is one word, and no half letter */
@@ -79,7 +77,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
     return true;
 }
 
-/* What is wrong, and where: in a file its line and column, in a word the column. */
+/* Reports what is wrong, and where: in a file its line and column, in a word the column. */
 static void report(const struct reading *reading)
 {
     const struct gm_user_scheme_source *source = &reading->source;

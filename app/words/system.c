@@ -2,7 +2,6 @@
 /* The scenes that are made of systems and rooms, of files and of formulas. */
 #include "app/words/system.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +17,6 @@
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/model/reader.h"
-#include "render/files/regular_file.h"
 #include "render/message.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
@@ -29,15 +27,13 @@ const char gm_system_typed[] = "system";
 /* The whole of a file; of a system's that is too large nothing but its length, since its reader refuses it. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
-    char reason[GM_REGULAR_REASON];
     struct stat about;
     const bool large = most == GM_LARGEST_SYSTEM && !file->built_in && stat(file->path, &about) == 0 &&
                        S_ISREG(about.st_mode) && about.st_size > GM_LARGEST_SYSTEM;
     written->path = file->path;
     written->length = large ? (size_t)about.st_size : 0;
-    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, reason);
-    return written->text ||
-           gm_refuse(message, "%.300s could not be read: %s", file->path, large ? strerror(ENOMEM) : reason);
+    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, message);
+    return written->text || (large && gm_refuse(message, "not enough memory"));
 }
 
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
@@ -52,7 +48,8 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
     *system = (struct gm_user_system){0};
     if (file ? !read_file(&written, file, GM_LARGEST_SYSTEM, message)
              : !gm_typed_file_write(&written, &place, message)) {
-        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        status = file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : status;
     } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault)) {
         if (gm_memory_refusals() != refusals) { /* whatever else is blamed */
             fault = (struct gm_fault){0};
@@ -154,7 +151,7 @@ struct making {
     char *message;
 };
 
-/* What is wrong with the text, and the exit status. Returns false. */
+/* Reports what is wrong with the text, with its exit status. Returns false. */
 static bool refuse_text(struct making *making, const struct gm_fault *fault)
 {
     making->trial->status =

@@ -10,6 +10,7 @@
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
 #include "app/words/range.h"
+#include "core/memory.h"
 #include "core/model/scope.h"
 #include "render/message.h"
 
@@ -41,18 +42,6 @@ bool gm_typed_is_formula(const char *word)
 
 /* ---- words in place of a file's lines ---- */
 
-/* The key of a line that words replace; NULL: it is another one. */
-static const char *replaced_key(const char *text, const struct gm_text_line *line)
-{
-    const size_t length = line->word.end - line->word.begin;
-    size_t k = 0;
-    while (gm_replacing_keys[k] && (strlen(gm_replacing_keys[k]) != length ||
-                                    memcmp(gm_replacing_keys[k], text + line->word.begin, length) != 0)) {
-        k++;
-    }
-    return gm_replacing_keys[k];
-}
-
 /* Whether a word sets what a line does: that key, and of a rate or a bracket the same names before the =. */
 static bool replaces(const char *word, const char *key, const char *value)
 {
@@ -75,7 +64,7 @@ bool gm_typed_file_replace(struct gm_typed_file *file)
     struct gm_fault fault;
     FILE *stream = open_memstream(&text, &size);
     while (stream && gm_lines_next(file->text, file->length, &at, &line, &fault)) {
-        const char *key = replaced_key(file->text, &line);
+        const char *key = gm_replacing_keys[gm_span_among(file->text, line.word, gm_replacing_keys)];
         int i = 1;
         while (key && i < file->count && !replaces(file->words[i], key, file->text + line.value.begin)) {
             i++;
@@ -104,7 +93,7 @@ bool gm_typed_file_has(const struct gm_typed_file *file, const char *word)
     const char *value;
     bool has = !file->path && gm_typed_keys[key_of(word, gm_typed_keys, &value)];
     while (file->path && !has && gm_lines_next(file->text, file->length, &at, &line, &fault)) {
-        const char *key = replaced_key(file->text, &line);
+        const char *key = gm_replacing_keys[gm_span_among(file->text, line.word, gm_replacing_keys)];
         has = key && replaces(word, key, file->text + line.value.begin);
     }
     return has;
@@ -117,7 +106,7 @@ bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)
     struct gm_fault fault;
     bool good = true;
     while (good && gm_lines_next(text, strlen(text), &at, &line, &fault)) {
-        const char *key = replaced_key(text, &line);
+        const char *key = gm_replacing_keys[gm_span_among(text, line.word, gm_replacing_keys)];
         char *value = key ? gm_span_words(text, line.value) : NULL, *word = NULL;
         good = !key || (value && asprintf(&word, "%s=%s", key, value) >= 0 && gm_arguments_add(words, word));
         free(value);
@@ -501,13 +490,15 @@ static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place 
 
 bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place, char *message)
 {
+    const unsigned long refusals = gm_memory_refusals();
     struct typing *typing = calloc(1, sizeof *typing);
     FILE *stream = typing ? open_memstream(&file->text, &file->length) : NULL;
-    bool good = stream != NULL;
-    if (good) {
+    bool good = false;
+    if (stream) {
         typing->file = file;
         good = put_typed(typing, stream, place, message);
+        fclose(stream);
     }
     free(typing);
-    return stream && fclose(stream) == 0 ? good : gm_refuse(message, "not enough memory");
+    return gm_memory_refusals() == refusals ? good : gm_refuse(message, "not enough memory");
 }

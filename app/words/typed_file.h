@@ -10,7 +10,7 @@
 struct gm_arguments;
 struct gm_fault;
 
-/* What is wrong with a line that a word wrote is reported at the place in the word. */
+/* A fault in a line that a word wrote is reported at its place in the word. */
 struct gm_typed_file { /* {0} is an empty text */
     const char *path;  /* NULL: of words alone */
     char *text;        /* malloc'ed */
