@@ -40,7 +40,14 @@ static bool is_one_of(const char *word, const char *const *words)
 static void help_command(const struct gm_command_row *command)
 {
     printf("  geomint %s %s\n      %s\n", command->name, command->synopsis, command->help);
-    gm_options_help(command->bit);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        const struct gm_option *option = &gm_option_rows[i];
+        if (option->commands & command->bit) {
+            char left[40];
+            snprintf(left, sizeof left, "%s %s", option->name, option->value);
+            printf("      %-20s %s\n", left, option->help);
+        }
+    }
 }
 
 static int help_of(const struct gm_command_row *command)

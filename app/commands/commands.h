@@ -70,9 +70,6 @@ extern const size_t gm_option_count;
 /* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
 const char *gm_option_name(const char *word);
 
-/* Writes the options of a command for --help. */
-void gm_options_help(enum gm_command command);
-
 /* A command, as a line of commands.def says: its bit, its function, which returns the exit status, and texts. */
 struct gm_command_row {
     enum gm_command bit;

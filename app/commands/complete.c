@@ -100,12 +100,12 @@ static void offer_observables(const struct stem *stem, const struct gm_scene *sc
     }
 }
 
-/* The values that an option's help names: "truecolor, 256, 16 or none". */
+/* The values that an option's help names: "truecolor, 256, 16 or none", or "png|svg|pdf". */
 static void offer_named(const struct stem *stem, const char *names)
 {
     char copy[128], *rest = NULL;
     snprintf(copy, sizeof copy, "%s", names);
-    for (char *name = strtok_r(copy, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
+    for (char *name = strtok_r(copy, ", |", &rest); name; name = strtok_r(NULL, ", |", &rest)) {
         if (strcmp(name, "or") != 0) {
             offer(stem, name, "");
         }
@@ -137,9 +137,7 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
     } else if (strcmp(option->name, "--on") == 0) {
         offer_scenes(stem);
     } else if (strcmp(option->name, "--format") == 0) {
-        for (int i = 0; i < GM_FORMAT_COUNT; i++) {
-            offer(stem, gm_format_name((enum gm_format)i), "");
-        }
+        offer_named(stem, option->value);
     } else if (strcmp(option->name, "--engine") == 0) {
         offer(stem, "auto", "compiled where that pays");
         offer(stem, "interpreted", "at once, everywhere");

@@ -66,6 +66,18 @@ static void print_formula(const char *text)
     }
 }
 
+/* Whether there are further schemes of its name, for other kinds. */
+static bool shares_name(const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *other = gm_scheme_at(i);
+        if (other != scheme && strcmp(other->name, scheme->name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The widths of the columns of schemes' names, and up to their titles. */
 enum { NAME = 29, TITLE = 42 };
 
@@ -75,7 +87,7 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
     char letters[GM_CLAIM_COUNT + 1], text[512];
     gm_catalogue_letters(scheme, letters);
     if (!options->json) {
-        const bool several = options->longer || (kinds && gm_catalogue_shares_name(scheme));
+        const bool several = options->longer || (kinds && shares_name(scheme));
         snprintf(text, sizeof text, "%s%s%s", scheme->title, several ? ", for " : "",
                  several ? gm_scheme_problems(scheme) : "");
         gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);

@@ -503,14 +503,3 @@ const char *gm_option_name(const char *word)
 {
     return strcmp(word, "-o") == 0 ? "--output" : word;
 }
-
-void gm_options_help(enum gm_command command)
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        if (gm_option_rows[i].commands & command) {
-            char left[40];
-            snprintf(left, sizeof left, "%s %s", gm_option_rows[i].name, gm_option_rows[i].value);
-            printf("      %-20s %s\n", left, gm_option_rows[i].help);
-        }
-    }
-}

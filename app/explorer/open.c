@@ -122,11 +122,6 @@ static void find_out(void *self)
     check->read(check->line, &check->fault);
 }
 
-static void end_check(void *self)
-{
-    (void)self;
-}
-
 /* Whether it is known; else that is found out, unless another line still is, and `wake` is written to at the end. */
 static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char *line, int wake,
                         struct gm_typed_fault *fault)
@@ -140,7 +135,7 @@ static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char
         check->read = read;
         check->fault = (struct gm_typed_fault){.at = -1};
         char message[GM_MESSAGE];
-        check->open = check->open || gm_job_open(&check->job, find_out, end_check, check, wake, message);
+        check->open = check->open || gm_job_open(&check->job, find_out, NULL, check, wake, message);
         if (check->line && check->open) {
             gm_job_begin(&check->job);
             return false;

@@ -14,17 +14,6 @@
 #include "core/expression/number.h"
 #include "core/schemes.h"
 
-bool gm_catalogue_shares_name(const struct gm_scheme *scheme)
-{
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
-        const struct gm_scheme *other = gm_scheme_at(i);
-        if (other != scheme && strcmp(other->name, scheme->name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size)
 {
     char low[40], high[40];
@@ -147,6 +136,13 @@ static void put_cell(const char *text)
     }
 }
 
+static void put_meaning(const char *help, const char *unit)
+{
+    put_cell(help);
+    fputs(unit[0] ? ", in " : "", stdout);
+    put_cell(unit);
+}
+
 static void put_claims(const struct gm_scheme *scheme)
 {
     const char *comma = "";
@@ -239,11 +235,7 @@ static void put_parameter(const struct gm_parameter *row)
     printf(" | ");
     put_cell(gm_catalogue_range(row, range, sizeof range));
     printf(" | ");
-    put_cell(row->help);
-    if (row->unit[0]) {
-        printf(", in ");
-        put_cell(row->unit);
-    }
+    put_meaning(row->help, row->unit);
     printf("%s |\n", row->live ? "; live" : "");
 }
 
@@ -262,11 +254,7 @@ static void put_scene(const struct gm_scene *scene)
     for (size_t i = 0; (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
         printf("| `%s` | ", observable->key);
         char title[GM_MESSAGE];
-        put_cell(gm_observable_title(observable, title, sizeof title));
-        if (observable->unit[0]) {
-            printf(", in ");
-            put_cell(observable->unit);
-        }
+        put_meaning(gm_observable_title(observable, title, sizeof title), observable->unit);
         fputs(i < scene->observable_count ? "" : "; when asked for", stdout);
         printf(" |\n");
     }

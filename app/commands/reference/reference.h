@@ -10,9 +10,6 @@
 
 /* What the tables say, in words: for `list`, the manual, the pages and completion, so that they agree. */
 
-/* Whether there are further schemes of its name, for other kinds. */
-bool gm_catalogue_shares_name(const struct gm_scheme *scheme);
-
 /* What a parameter may be: "0 to 1", "light, dark", "a word". Returns text. */
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size);
 

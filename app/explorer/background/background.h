@@ -23,8 +23,8 @@ struct gm_job {
     void *self;
 };
 
-/* `end` is called in the thread at its end; `wake` is an eventfd that is written to whenever a piece of work
-   is done, or -1. False with a sentence (GM_MESSAGE bytes). */
+/* `end`, unless it is NULL, is called in the thread at its end; `wake` is an eventfd that is written to whenever a
+   piece of work is done, or -1. False with a sentence (GM_MESSAGE bytes). */
 bool gm_job_open(struct gm_job *job, void (*work)(void *self), void (*end)(void *self), void *self, int wake,
                  char *message);
 /* What was begun is finished. */

@@ -30,7 +30,9 @@ static void *go_on(void *self)
         }
     }
     pthread_mutex_unlock(&job->lock);
-    job->end(job->self);
+    if (job->end) {
+        job->end(job->self);
+    }
     return NULL;
 }
 

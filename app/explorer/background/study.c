@@ -178,7 +178,8 @@ static void close_grid(void *self)
 
 static bool open_grid(struct gm_study *study, char *message)
 {
-    if (!gm_arguments_split(&study->arguments, study->words)) {
+    if (!study->words || !study->looks[0].picture || !study->looks[1].picture ||
+        !gm_arguments_split(&study->arguments, study->words)) {
         return gm_refuse(message, "There is not enough memory.");
     }
     return gm_grid_open(&study->grid, study->kind, &study->arguments, NULL, message);
@@ -206,11 +207,6 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     study->looks[0].picture = gm_picture_open();
     study->looks[1].picture = gm_picture_open();
     study->looked = -INFINITY;
-    if (!study->words || !study->looks[0].picture || !study->looks[1].picture) {
-        gm_refuse(message, "There is not enough memory.");
-        free_study(study);
-        return NULL;
-    }
     if (!open_grid(study, message)) {
         free_study(study);
         return NULL;

@@ -274,7 +274,7 @@ void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, 
     hit.column = sheet->column + column;
     hit.row = sheet->row + row;
     hit.width = width;
-    hit.height = 1;
+    hit.height = hit.height > 0 ? hit.height : 1;
     sheet->hits->hits[sheet->hits->count++] = hit;
 }
 

@@ -127,7 +127,7 @@ struct gm_hit {
     enum gm_hit_kind kind;
     size_t index;
     const struct gm_scheme *scheme;
-    int column, row, width, height; /* on the screen; set by gm_sheet_hit */
+    int column, row, width, height; /* on the screen; set by gm_sheet_hit, the height where it is 0 */
 };
 
 enum { GM_MOST_HITS = 160 };
@@ -194,7 +194,7 @@ void gm_sheet_paint(const struct gm_sheet *sheet, struct gm_painting *painting, 
 bool gm_cells_resize(struct gm_cells *cells, int columns, int rows);
 void gm_cells_clear(struct gm_cells *cells, enum gm_theme theme);
 
-/* Makes cells of one row clickable. */
+/* Makes cells clickable: of one row, or of as many as the hit has. */
 void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit);
 /* What is at a cell of the screen: the one that was made last; NULL: nothing. */
 const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row);

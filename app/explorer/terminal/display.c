@@ -5,7 +5,6 @@
 
 #include <errno.h>
 #include <poll.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -27,7 +26,6 @@ struct gm_pixels {
     struct gm_pixels_job job;
     const char *bytes;
     size_t size;
-    char message[GM_MESSAGE];
 
     /* the thread's */
     struct gm_pixels_job made_for; /* what the following are for */
@@ -47,9 +45,14 @@ static void forget(void *self)
     pixels->rgb = NULL;
 }
 
+static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
+{
+    return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
+}
+
 static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
 {
-    return a->kind == b->kind && a->theme == b->theme && memcmp(&a->place, &b->place, sizeof a->place) == 0;
+    return same_kind(a, b) && a->theme == b->theme;
 }
 
 /* Makes sure of a canvas of the right size. */
@@ -57,13 +60,14 @@ static bool prepare(struct gm_pixels *pixels)
 {
     const struct gm_pixels_job *job = &pixels->job;
     struct gm_appearance look = {.theme = job->theme, .live = true};
+    char message[GM_MESSAGE];
     if (pixels->canvas && same_place(job, &pixels->made_for)) {
         return true;
     }
     forget(pixels);
     pixels->made_for = *job;
     gm_inline_size(&job->place, job->kind, &look.width, &look.height);
-    pixels->canvas = gm_canvas_open(&look, pixels->message);
+    pixels->canvas = gm_canvas_open(&look, message);
     if (!pixels->canvas) {
         return false;
     }
@@ -75,7 +79,6 @@ static bool prepare(struct gm_pixels *pixels)
 static void paint(void *self)
 {
     struct gm_pixels *pixels = self;
-    snprintf(pixels->message, sizeof pixels->message, "There is not enough memory for a picture.");
     pixels->bytes = NULL;
     pixels->size = 0;
     if (!prepare(pixels) || !gm_canvas_paint(pixels->canvas, pixels->picture, pixels->rgb) ||
@@ -159,11 +162,6 @@ static void remove_picture(struct gm_display *display)
     gm_writer_tell(&display->writer, gm_inline_removal(display->shown));
     display->shown = GM_INLINE_NONE;
     display->lost = true;
-}
-
-static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
-{
-    return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
 }
 
 /* Begins the picture that the screen leaves room for, unless it is there. */

@@ -161,24 +161,13 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
 
 static void put_glyph(struct gm_writer *writer, uint32_t code)
 {
-    char bytes[4];
-    size_t size = 0;
-    if (code < 0x80) {
-        bytes[size++] = (char)code;
-    } else if (code < 0x800) {
-        bytes[size++] = (char)(0xC0 | code >> 6);
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        bytes[size++] = (char)(0xE0 | code >> 12);
-        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
-    } else {
-        bytes[size++] = (char)(0xF0 | code >> 18);
-        bytes[size++] = (char)(0x80 | (code >> 12 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
+    static const unsigned char lead[] = {0, 0xC0, 0xE0, 0xF0};
+    const int more = (code >= 0x80) + (code >= 0x800) + (code >= 0x10000); /* bytes after the first */
+    char bytes[4] = {(char)(lead[more] | code >> 6 * more)};
+    for (int i = 1; i <= more; i++) {
+        bytes[i] = (char)(0x80 | (code >> 6 * (more - i) & 0x3F));
     }
-    put(writer, bytes, size);
+    put(writer, bytes, 1 + (size_t)more);
 }
 
 /* A capability without its padding $<5>: it would make us wait for terminals of old. */

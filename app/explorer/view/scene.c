@@ -206,9 +206,7 @@ static void draw_study(const struct gm_sheet *whole, int rows, int below)
     struct gm_studies *studies = whole->face->studies;
     const struct gm_sheet diagram = gm_sheet_part(whole, 0, 0, whole->width, rows);
     gm_studies_draw(&diagram, studies);
-    for (int row = 0; row < rows; row++) {
-        gm_sheet_hit(&diagram, 0, row, diagram.width, (struct gm_hit){.kind = GM_HIT_PICTURE});
-    }
+    gm_sheet_hit(&diagram, 0, 0, diagram.width, (struct gm_hit){.kind = GM_HIT_PICTURE, .height = rows});
     if (below == 2) {
         gm_screen_rule(whole, 0);
     }
@@ -271,9 +269,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
     int side = side_columns(cells, face), width = cells->columns - side;
     const struct gm_sheet picture = gm_sheet_part(&whole, 0, 0, width, rows);
     gm_screen_picture(screen, &picture, shot);
-    for (int row = 0; row < rows; row++) {
-        gm_sheet_hit(&whole, 0, row, width, (struct gm_hit){.kind = GM_HIT_PICTURE});
-    }
+    gm_sheet_hit(&whole, 0, 0, width, (struct gm_hit){.kind = GM_HIT_PICTURE, .height = rows});
     if (below == 2 && !asked) {
         gm_screen_rule(&whole, face->guide ? 0 : side);
         draw_past(&whole, shot, width);

@@ -27,7 +27,7 @@ enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };
 
 struct gm_recorder {
     struct gm_job painting;
-    char *path;
+    char path[128];
     enum gm_theme theme;
     struct gm_sink *sink;
 
@@ -78,8 +78,24 @@ static void end(void *self)
 static void release(struct gm_recorder *recorder)
 {
     gm_picture_close(recorder->picture);
-    free(recorder->path);
     free(recorder);
+}
+
+static bool begin_movie(struct gm_recorder *recorder, char *message)
+{
+    const struct gm_sink_settings settings = {
+        .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
+    recorder->picture = gm_picture_open();
+    if (!recorder->picture) {
+        return gm_refuse(message, "There is not enough memory.");
+    }
+    recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
+    if (recorder->sink && !gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
+        char given_up[GM_MESSAGE];
+        gm_sink_close(recorder->sink, false, given_up);
+        return false;
+    }
+    return recorder->sink != NULL;
 }
 
 static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, char *message)
@@ -91,23 +107,8 @@ static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, 
     }
     recorder->theme = theme;
     recorder->begun = NAN;
-    recorder->path = strdup(path);
-    recorder->picture = gm_picture_open();
-    const struct gm_sink_settings settings = {
-        .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
-    if (!recorder->path || !recorder->picture) {
-        gm_refuse(message, "There is not enough memory.");
-        release(recorder);
-        return NULL;
-    }
-    recorder->sink = gm_sink_open_movie(path, &settings, message);
-    if (!recorder->sink) {
-        release(recorder);
-        return NULL;
-    }
-    if (!gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
-        char given_up[GM_MESSAGE];
-        gm_sink_close(recorder->sink, false, given_up);
+    snprintf(recorder->path, sizeof recorder->path, "%s", path);
+    if (!begin_movie(recorder, message)) {
         release(recorder);
         return NULL;
     }
