@@ -109,6 +109,27 @@ static void test_refused_memory_leaves_the_body(void **state)
     assert_string_equal(gm_arena_reason(NULL), "not enough memory");
 }
 
+static void print_and_need(struct gm_arena *arena, void *data)
+{
+    char **text = data;
+    *text = gm_arena_print(arena, "%s, %d", "a text", 7);
+    gm_arena_need(arena, true);
+    assert_string_equal(*text, "a text, 7");
+    gm_arena_need(arena, false);
+    *text = NULL; /* not reached */
+}
+
+static void test_texts_and_what_others_take(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    struct gm_arena *arena = gm_arena_open();
+    assert_false(gm_arena_run(arena, print_and_need, &text));
+    assert_non_null(text);
+    assert_string_equal(gm_arena_reason(arena), "not enough memory");
+    gm_arena_close(arena);
+}
+
 static void test_scratch_goes_before_the_rest(void **state)
 {
     (void)state;
@@ -131,6 +152,7 @@ int main(void)
         cmocka_unit_test(test_a_refusal_closes_what_the_body_took),
         cmocka_unit_test(test_blocks_grow),
         cmocka_unit_test(test_refused_memory_leaves_the_body),
+        cmocka_unit_test(test_texts_and_what_others_take),
         cmocka_unit_test(test_scratch_goes_before_the_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
