@@ -43,6 +43,24 @@ void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top)
     }
 }
 
+void gm_arena_drop(struct gm_arena *arena, const void *thing)
+{
+    struct gm_arena_entry *entry = arena->top;
+    while (entry->thing != thing) {
+        entry = entry->before;
+    }
+    if (entry->before) {
+        entry->before->after = entry->after;
+    }
+    if (entry->after) {
+        entry->after->before = entry->before;
+    } else {
+        arena->top = entry->before;
+    }
+    entry->close(entry->thing);
+    free(entry);
+}
+
 struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena)
 {
     return arena->top;

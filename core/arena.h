@@ -34,6 +34,9 @@ __attribute__((format(printf, 2, 3))) char *gm_arena_print(struct gm_arena *aren
 /* Closes the thing with the arena; at once, if the memory to note it is refused. A thing that is NULL was refused. */
 void *gm_arena_keep(struct gm_arena *arena, void *thing, void (*close)(void *thing));
 
+/* Closes a thing that was kept before the others. */
+void gm_arena_drop(struct gm_arena *arena, const void *thing);
+
 /* What was taken last; and closes all that was taken after it. Scratch memory lies between the two. */
 struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena);
 void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top);

@@ -85,6 +85,7 @@ struct gm_grid_axis {
 struct gm_study_row;
 
 struct gm_grid {
+    struct gm_arena *arena;    /* of all that the others point to */
     struct gm_request request; /* its first lane has the parameters that all share */
     const struct gm_study_row *row;
     struct gm_grid_line *lines;
@@ -126,12 +127,12 @@ struct gm_grid {
 struct gm_study_row {
     const char *name; /* of its command */
     int refusal;      /* the exit status where nothing can be measured */
-    bool (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure,
-                 char *message);
+    /* Leaves the body of the grid's arena, with a sentence, where it cannot be opened; so do those of gm_cells_open and
+       `prepare`. */
+    void (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure);
     bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
     void (*draw)(const struct gm_grid *grid, struct gm_picture *picture);
     bool (*write)(const struct gm_grid *grid, const char *path);
-    void (*close)(struct gm_grid *grid);
     /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL
        where it shows none, and for a kind that has no runs of its own. In any thread, while it measures. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
@@ -139,20 +140,19 @@ struct gm_study_row {
     /* ---- of gm_cells_open ---- */
     const char *which; /* what is asked where there is no scene */
     size_t schemes;    /* so many of the scene's preferred ones are taken where none is named */
-    /* The words unless overridden; malloc'ed. NULL with a sentence where the scene has nothing to ask for, or
-       where memory is short. */
-    char *(*usual)(const struct gm_scene *scene, char *message);
-    /* Changes the words before they are read; NULL: nothing. False with a sentence. */
-    bool (*edit)(struct gm_grid *grid, struct gm_arguments *words, char *message);
-    /* Fills axes, lines and cells; `words` are all, among them those typed. False with a sentence. */
-    bool (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                    const char *measure, char *message);
+    /* The words unless overridden. */
+    const char *(*usual)(struct gm_grid *grid, const struct gm_scene *scene);
+    /* Changes the words before they are read; NULL: nothing. */
+    void (*edit)(struct gm_grid *grid, struct gm_arguments *words);
+    /* Fills axes, lines and cells; `words` are all, among them those typed. */
+    void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
+                    const char *measure);
 
     /* ---- of gm_cells_measure ---- */
     bool
         alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
-    /* Finds what runs are compared with; NULL: nothing. False with a sentence. */
-    bool (*prepare)(struct gm_grid *grid, char *message);
+    /* Finds what runs are compared with; NULL: nothing. */
+    void (*prepare)(struct gm_grid *grid);
     /* Whether a cell is of no use, after those before it; NULL: all are of use. */
     bool (*is_needless)(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
     /* Makes the run of an open lane and fills its cell, in any thread; a message is why it has no numbers. */

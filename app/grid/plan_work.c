@@ -7,6 +7,7 @@
 
 #include "app/grid/hooks.h"
 #include "app/words/chosen.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/expression/lines.h"
@@ -16,10 +17,10 @@ static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
 
 static const char solution_error[] = "solution_error";
 
-char *gm_work_usual(const struct gm_scene *scene, char *message)
+const char *gm_work_usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
-    (void)message;
-    return strdup(scene->work ? scene->work->arguments : "");
+    (void)grid;
+    return scene->work ? scene->work->arguments : "";
 }
 
 static bool is_typed(const struct gm_arguments *typed, const char *key)
@@ -102,27 +103,24 @@ static bool take_best(struct gm_arguments *words)
     return false;
 }
 
-bool gm_work_edit(struct gm_grid *grid, struct gm_arguments *words, char *message)
+void gm_work_edit(struct gm_grid *grid, struct gm_arguments *words)
 {
     grid->best = take_best(words);
     for (int i = 1; grid->best && i < words->count; i++) {
         if (strcmp(words->words[i], "scheme=") == 0) {
-            return gm_refuse(message, "best are those to compare a scheme with: scheme=my.scheme,best");
+            gm_arena_refuse(grid->arena, "best are those to compare a scheme with: scheme=my.scheme,best");
         }
     }
-    return true;
 }
 
 /* A line for each scheme, however often it is named. */
-static bool add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme, char *message)
+static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
 {
-    for (size_t i = 0; i < grid->count; i++) {
-        if (grid->lines[i].scheme == scheme) {
-            return true;
-        }
+    if (gm_grid_find(grid, scheme)) {
+        return;
     }
-    struct gm_grid_line *line = gm_grid_add(grid, scheme, grid->values.count * grid->steps.count, message);
-    for (size_t r = 0; line && r < grid->values.count; r++) {
+    struct gm_grid_line *line = gm_grid_add(grid, scheme, grid->values.count * grid->steps.count);
+    for (size_t r = 0; r < grid->values.count; r++) {
         for (size_t k = 0; k < grid->steps.count; k++) {
             const double value = grid->values.values[r];
             line->cells[line->count++] =
@@ -133,20 +131,15 @@ static bool add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme, cha
                                       .resolution = grid->smaller_is_finer ? 1 / value : value};
         }
     }
-    if (line && grid->parameter) {
-        line->credited = calloc(line->count, sizeof *line->credited);
+    for (size_t cost = 0; grid->parameter && cost < GM_COST_COUNT; cost++) {
+        line->front[cost] = gm_arena_take(grid->arena, line->count, sizeof *line->front[cost]);
     }
-    bool good = line && (!grid->parameter || line->credited || gm_refuse(message, "not enough memory"));
-    for (size_t cost = 0; good && grid->parameter && cost < GM_COST_COUNT; cost++) {
-        line->front[cost] = calloc(line->count, sizeof *line->front[cost]);
-        good = line->front[cost] || gm_refuse(message, "not enough memory");
-    }
-    return good;
+    line->credited = gm_arena_take(grid->arena, line->count, sizeof *line->credited);
 }
 
 /* The built-in schemes of the first one's family that promise the smallest error at equal cost: the smallest
    error constant by theory, of its order before those of other orders. */
-static bool add_best(struct gm_grid *grid, const struct gm_lane *lane, char *message)
+static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
 {
     enum { BEST = 3 };
     const struct gm_scheme *like = grid->lines[0].scheme, *best[BEST] = {NULL};
@@ -172,12 +165,13 @@ static bool add_best(struct gm_grid *grid, const struct gm_lane *lane, char *mes
             }
         }
     }
-    bool good = best[0] || gm_refuse(message, "best: of the family of %s, %s, no other scheme fits",
-                                     like->name, like->family->title);
-    for (int k = 0; good && k < BEST && best[k]; k++) {
-        good = add_scheme(grid, best[k], message);
+    if (!best[0]) {
+        gm_arena_refuse(grid->arena, "best: of the family of %s, %s, no other scheme fits", like->name,
+                        like->family->title);
     }
-    return good;
+    for (int k = 0; k < BEST && best[k]; k++) {
+        add_scheme(grid, best[k]);
+    }
 }
 
 /* Whether a scheme is measured where none is named. */
@@ -193,17 +187,21 @@ static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *schem
 }
 
 /* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
-static bool choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named, char *message)
+static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named)
 {
     const struct gm_request *request = &grid->request;
-    bool good = gm_grid_lines(grid, gm_scheme_count() + request->count, message);
-    for (size_t i = 0; good && named && i < request->count; i++) {
-        good = add_scheme(grid, request->lanes[i].scheme, message);
+    grid->lines = gm_arena_take(grid->arena, gm_scheme_count() + request->count, sizeof *grid->lines);
+    for (size_t i = 0; named && i < request->count; i++) {
+        add_scheme(grid, request->lanes[i].scheme);
     }
-    for (size_t i = 0; good && !named && i < gm_scheme_count(); i++) {
-        good = !is_entrant(grid, gm_scheme_at(i), lane) || add_scheme(grid, gm_scheme_at(i), message);
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        if (is_entrant(grid, gm_scheme_at(i), lane)) {
+            add_scheme(grid, gm_scheme_at(i));
+        }
     }
-    return good && (!grid->best || add_best(grid, lane, message));
+    if (grid->best) {
+        add_best(grid, lane);
+    }
 }
 
 static int falling(const void *a, const void *b)
@@ -221,7 +219,7 @@ static void add_typed(struct gm_grid_axis *axis, const struct gm_request *reques
     }
 }
 
-static bool choose_steps(struct gm_grid *grid, bool typed, char *message)
+static void choose_steps(struct gm_grid *grid, bool typed)
 {
     enum { MOST_HALVINGS = 63 };
     const struct gm_request *request = &grid->request;
@@ -230,30 +228,27 @@ static bool choose_steps(struct gm_grid *grid, bool typed, char *message)
     const double whole = timing->until - gm_scene_t0(request->scene, timing);
     const double coarsest = work && work->coarsest > 0 ? work->coarsest : 4 * timing->dt;
     const int halvings = work ? work->halvings : 7;
-    if (!gm_axis_open(&grid->steps, typed ? request->count : MOST_HALVINGS, message)) {
-        return false;
-    }
+    grid->steps.values =
+        gm_arena_take(grid->arena, typed ? request->count : MOST_HALVINGS + 1, sizeof *grid->steps.values);
     if (typed) {
         add_typed(&grid->steps, request,
                   grid->ratio ? grid->ratio : gm_scene_parameter(request->scene, "dt"));
         qsort(grid->steps.values, grid->steps.count, sizeof *grid->steps.values, falling);
-        return true;
+        return;
     }
     double steps = fmax(1, ceil(whole / coarsest - 1e-9));
     for (int i = 0; i <= halvings; i++, steps *= 2) {
         gm_axis_add(&grid->steps, whole / steps);
     }
-    return true;
 }
 
 /* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
-static bool choose_resolutions(struct gm_grid *grid, const struct gm_arguments *typed, char *message)
+static void choose_resolutions(struct gm_grid *grid, const struct gm_arguments *typed)
 {
     const struct gm_work *work = grid->request.scene->work;
     const struct gm_parameter *row = grid->parameter;
-    if (!gm_axis_open(&grid->values, row ? grid->request.count + work->resolution_count : 1, message)) {
-        return false;
-    }
+    grid->values.values = gm_arena_take(grid->arena, row ? grid->request.count + work->resolution_count : 1,
+                                        sizeof *grid->values.values);
     grid->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
     if (row && is_typed(typed, row->key)) {
         add_typed(&grid->values, &grid->request, row);
@@ -265,11 +260,11 @@ static bool choose_resolutions(struct gm_grid *grid, const struct gm_arguments *
         grid->parameter = NULL;
         grid->values.count = 1;
     }
-    return true;
 }
 
-static bool choose_measure(struct gm_grid *grid, const struct gm_lane *lane, const char *asked, char *message)
+static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane, const char *asked)
 {
+    char message[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
     const struct gm_work *work = scene->work;
     const bool planned = work && work->measure;
@@ -282,30 +277,31 @@ static bool choose_measure(struct gm_grid *grid, const struct gm_lane *lane, con
                      (planned && strcmp(work->measure, solution_error) == 0) ||
                      (!lane->problem.exact && gm_scene_observable(scene, solution_error) >= 0);
     if (!grid->observed) {
-        return true;
+        return;
     }
     const int found = gm_scene_observable(scene, grid->measure);
     if (found < 0) {
-        return gm_chosen_refuse(scene, grid->measure, message);
+        gm_chosen_refuse(scene, grid->measure, message);
+        gm_arena_refuse(grid->arena, "%s", message);
     }
     /* at the start already a measure can say nothing with these parameters, as a distance from an exact
        solution that there is not; or with this scheme, but then others may say more */
     const struct gm_observable *observable = gm_scene_observable_at(scene, (size_t)found);
     if (observable->why || isfinite(gm_lane_observe(lane, (size_t)found))) {
         grid->measure_title = observable->title;
-        return true;
+        return;
     }
-    if (!asked) {
-        grid->measure = solution_error;
-        grid->observed = false;
-        return true;
+    if (asked) {
+        gm_arena_refuse(grid->arena, "%s says nothing with these parameters", asked);
     }
-    return gm_refuse(message, "%s says nothing with these parameters", asked);
+    grid->measure = solution_error;
+    grid->observed = false;
 }
 
-bool gm_work_lay_out(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                     const char *measure, char *message)
+void gm_work_lay_out(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
+                     const char *measure)
 {
+    char message[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
     const struct gm_work *work = scene->work;
     const struct gm_timing *timing = gm_grid_timing(grid);
@@ -314,26 +310,26 @@ bool gm_work_lay_out(struct gm_grid *grid, const struct gm_arguments *words, con
     grid->errors = work && work->errors ? work->errors : usual_errors;
     grid->ratio = ratio && is_typed(typed, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
     if (!gm_request_ends_together(&grid->request, message)) {
-        return false;
+        gm_arena_refuse(grid->arena, "%s", message);
     }
     if (!is_one_problem(grid, typed)) {
-        return gm_refuse(
-            message, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+        gm_arena_refuse(
+            grid->arena, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
             resolution ? ", " : "", resolution ? resolution : "", ratio ? ", " : "", ratio ? ratio : "");
     }
     note_settings(grid, words);
     if (!(timing->until > gm_scene_t0(scene, timing))) {
-        return gm_refuse(message, "until=%g is the start: there is nothing to measure", timing->until);
+        gm_arena_refuse(grid->arena, "until=%g is the start: there is nothing to measure", timing->until);
     }
-    if (!choose_steps(grid, is_typed(typed, "dt") || grid->ratio, message) ||
-        !choose_resolutions(grid, typed, message)) {
-        return false;
-    }
+    choose_steps(grid, is_typed(typed, "dt") || grid->ratio);
+    choose_resolutions(grid, typed);
     /* one open lane shows which measure has a number and which schemes fit */
-    struct gm_lane *lane = gm_request_open_lane(&grid->request, 0, message);
-    const bool good = lane && choose_measure(grid, lane, measure, message) &&
-                      choose_schemes(grid, lane, is_typed(typed, "scheme"), message);
-    gm_lane_close(lane);
-    return good &&
-           (grid->count > 0 || gm_refuse(message, "no scheme that is compared here fits %s", scene->name));
+    const struct gm_lane *lane =
+        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+    choose_measure(grid, lane, measure);
+    choose_schemes(grid, lane, is_typed(typed, "scheme"));
+    gm_arena_drop(grid->arena, lane);
+    if (grid->count == 0) {
+        gm_arena_refuse(grid->arena, "no scheme that is compared here fits %s", scene->name);
+    }
 }

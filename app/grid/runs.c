@@ -11,6 +11,7 @@
 #include "app/grid/judge.h"
 #include "app/native/engine.h"
 #include "app/words/drive.h"
+#include "core/arena.h"
 
 struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_spec *spec,
                               struct gm_timing *parameters, const struct gm_scheme *scheme, char *message)
@@ -24,6 +25,19 @@ struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_s
     }
     free(parameters);
     return lane;
+}
+
+static void close_lane(void *lane)
+{
+    gm_lane_close(lane);
+}
+
+struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message)
+{
+    if (!lane) {
+        gm_arena_refuse(grid->arena, "%s", message);
+    }
+    return gm_arena_keep(grid->arena, lane, close_lane);
 }
 
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
@@ -312,26 +326,29 @@ static bool has_numbers(const struct gm_grid *grid, char *message)
     return any || gm_refuse(message, "%s", grid->lines[0].reason);
 }
 
+static void prepare(struct gm_arena *arena, void *grid)
+{
+    (void)arena;
+    ((struct gm_grid *)grid)->row->prepare(grid);
+}
+
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
 {
-    struct measuring *measuring = calloc(1, sizeof *measuring);
+    struct measuring measuring = {.grid = grid, .message = message};
+    const bool alone = grid->row->alone;
     grid->listener = listener;
-    bool good = measuring || gm_refuse(message, "not enough memory");
-    good = good && (!grid->row->prepare || grid->row->prepare(grid, message));
-    if (good) {
-        *measuring = (struct measuring){.grid = grid, .message = message};
-        const struct gm_pool pool = {.count = gm_grid_cells(grid),
-                                     .jobs = grid->row->alone ? 1 : grid->jobs,
-                                     .window = grid->row->alone ? 1 : WINDOW,
-                                     .work = try_cell,
-                                     .take = take_cell,
-                                     .stopped = is_stopped,
-                                     .self = measuring};
-        grid->begun = grid->begun > 1 ? grid->begun : 1;
-        gm_listener_hears(listener, grid->lines[0].scheme->name, 0, pool.count);
-        gm_pool_run(&pool);
-        good = !measuring->failed && has_numbers(grid, message);
+    if (grid->row->prepare && !gm_arena_run(grid->arena, prepare, grid)) {
+        return gm_refuse(message, "%s", gm_arena_reason(grid->arena));
     }
-    free(measuring);
-    return good;
+    const struct gm_pool pool = {.count = gm_grid_cells(grid),
+                                 .jobs = alone ? 1 : grid->jobs,
+                                 .window = alone ? 1 : WINDOW,
+                                 .work = try_cell,
+                                 .take = take_cell,
+                                 .stopped = is_stopped,
+                                 .self = &measuring};
+    grid->begun = grid->begun > 1 ? grid->begun : 1;
+    gm_listener_hears(listener, grid->lines[0].scheme->name, 0, pool.count);
+    gm_pool_run(&pool);
+    return !measuring.failed && has_numbers(grid, message);
 }

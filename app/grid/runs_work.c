@@ -7,6 +7,7 @@
 
 #include "app/grid/hooks.h"
 #include "app/grid/judge.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 
@@ -17,9 +18,20 @@ static const double enough_seconds = 0.1, most_seconds = 4;
 
 /* ---- the reference ---- */
 
-/* A run to the end that is not timed, which reports how far it is; false with a sentence if it fails. */
-static bool run_reference(const struct gm_grid *grid, struct gm_lane *lane, char *message)
+/* A run of the trusted scheme to the end that is not timed, which reports how far it is; with another value of a
+   parameter where `row` is not NULL. */
+static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
 {
+    char message[GM_MESSAGE];
+    const struct gm_lane_spec *spec = &grid->request.lanes[0];
+    struct gm_timing *timing = gm_parameters_copy(grid->request.scene, spec->parameters);
+    gm_arena_need(grid->arena, timing);
+    if (row) {
+        gm_parameter_put(row, timing, value);
+    }
+    timing->dt = grid->reference_step;
+    struct gm_lane *lane =
+        gm_grid_keep(grid, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
     lane->unfollowed = !lane->scene->stop;
     for (int percent = 0; percent < 100 && !gm_listener_stops(grid->listener); percent++) {
@@ -30,29 +42,16 @@ static bool run_reference(const struct gm_grid *grid, struct gm_lane *lane, char
         /* the carried rounding errors are worth their price here */
         gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
     }
-    return (lane->run->status == GM_OK && !gm_listener_stops(grid->listener)) ||
-           gm_refuse(message, "the reference, %s, failed: %s", grid->reference,
-                     gm_status_name(lane->run->status));
-}
-
-/* A lane of the trusted scheme at its start, with another value of a parameter where `row` is not NULL. */
-static struct gm_lane *open_reference(const struct gm_grid *grid, const struct gm_parameter *row,
-                                      double value, char *message)
-{
-    const struct gm_lane_spec *spec = &grid->request.lanes[0];
-    struct gm_timing *timing = gm_parameters_copy(grid->request.scene, spec->parameters);
-    if (timing && row) {
-        gm_parameter_put(row, timing, value);
+    if (lane->run->status != GM_OK || gm_listener_stops(grid->listener)) {
+        gm_arena_refuse(grid->arena, "the reference, %s, failed: %s", grid->reference,
+                        gm_status_name(lane->run->status));
     }
-    if (timing) {
-        timing->dt = grid->reference_step;
-    }
-    return gm_grid_start(grid, spec, timing, grid->trusted, message);
+    return lane;
 }
 
 /* The run that errors are distances from, of a scene that measures these: at twice the finest resolution, with half the
    shortest step. */
-static bool run_finer(struct gm_grid *grid, char *message)
+static void run_finer(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;
     const struct gm_parameter *row = gm_scene_parameter(grid->request.scene, work->resolution);
@@ -63,8 +62,7 @@ static bool run_finer(struct gm_grid *grid, char *message)
     grid->reference_step = grid->steps.values[grid->steps.count - 1] / 2;
     snprintf(grid->reference, sizeof grid->reference, "a run of %s with a step of %.3g and %s=%.3g",
              grid->trusted->name, grid->reference_step, row->key, finer);
-    grid->finer = open_reference(grid, row, finer, message);
-    return grid->finer && run_reference(grid, grid->finer, message);
+    grid->finer = run_reference(grid, row, finer);
 }
 
 /* The scheme of the reference run: the plan's, or that of the highest order which fits; NULL: there is none. */
@@ -84,24 +82,21 @@ static const struct gm_scheme *trusted_of(const struct gm_grid *grid, const stru
 
 /* The state that solutions are measured against: the exact one, or that of a trusted run, for all steps of the
    ladder; `lane` is at its start. */
-static bool find_solution(struct gm_grid *grid, const struct gm_lane *lane, char *message)
+static void find_solution(struct gm_grid *grid, const struct gm_lane *lane)
 {
     const struct gm_problem *problem = &lane->problem;
     const size_t count = problem->n * problem->m;
-    grid->solution = malloc(count * sizeof *grid->solution);
-    if (!grid->solution) {
-        return gm_refuse(message, "not enough memory");
-    }
+    grid->solution = gm_arena_take(grid->arena, count, sizeof *grid->solution);
     if (problem->exact) {
         snprintf(grid->reference, sizeof grid->reference, "the exact solution");
         problem->exact->solution(problem, gm_grid_timing(grid)->until, lane->start, grid->solution,
                                  problem->m);
-        return true;
+        return;
     }
     grid->trusted = trusted_of(grid, problem);
     if (!grid->trusted) {
-        return gm_refuse(
-            message,
+        gm_arena_refuse(
+            grid->arena,
             "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
             "make a reference with; --measure KEY compares an observable of the scene instead");
     }
@@ -110,28 +105,26 @@ static bool find_solution(struct gm_grid *grid, const struct gm_lane *lane, char
     grid->reference_step = grid->steps.values[middle] / 4;
     snprintf(grid->reference, sizeof grid->reference, "a run of %s with a step of %.3g", grid->trusted->name,
              grid->reference_step);
-    struct gm_lane *run = open_reference(grid, NULL, 0, message);
-    const bool good = run && run_reference(grid, run, message);
-    if (good) {
-        memcpy(grid->solution, gm_run_state(run->run), count * sizeof *grid->solution);
-    }
-    gm_lane_close(run);
-    return good;
+    const struct gm_lane *reference = run_reference(grid, NULL, 0);
+    memcpy(grid->solution, gm_run_state(reference->run), count * sizeof *grid->solution);
+    gm_arena_drop(grid->arena, reference);
 }
 
-bool gm_work_prepare(struct gm_grid *grid, char *message)
+void gm_work_prepare(struct gm_grid *grid)
 {
+    char message[GM_MESSAGE];
     const struct gm_work *work = grid->request.scene->work;
     if (grid->observed) {
-        return true;
+        return;
     }
     if (work && work->distance) {
-        return run_finer(grid, message);
+        run_finer(grid);
+        return;
     }
-    struct gm_lane *lane = gm_request_open_lane(&grid->request, 0, message);
-    const bool good = lane && find_solution(grid, lane, message);
-    gm_lane_close(lane);
-    return good;
+    const struct gm_lane *lane =
+        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+    find_solution(grid, lane);
+    gm_arena_drop(grid->arena, lane);
 }
 
 /* ---- cells ---- */

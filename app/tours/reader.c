@@ -169,15 +169,9 @@ static void take_text(const struct reader *reader, const struct entry *entry, ch
     *place = entry->text;
 }
 
-static void close_words(void *words)
-{
-    gm_arguments_close(words);
-}
-
 static struct gm_arguments *split(const struct reader *reader, const char *text)
 {
-    struct gm_arguments *words = gm_arena_take(reader->arena, 1, sizeof *words);
-    gm_arena_keep(reader->arena, words, close_words);
+    struct gm_arguments *words = gm_arguments_in(reader->arena);
     gm_arena_need(reader->arena, gm_arguments_split(words, text));
     return words;
 }

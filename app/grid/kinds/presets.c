@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/grid/judge.h"
+#include "core/arena.h"
 
 const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
     [GM_STUDY_WORK] = {.name = "work-precision",
@@ -13,7 +14,6 @@ const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
                        .measure = gm_cells_measure,
                        .draw = gm_work_draw,
                        .write = gm_cells_write,
-                       .close = gm_cells_close,
                        .which = "work-precision of which scene? See geomint list scenes",
                        .schemes = 1,
                        .usual = gm_work_usual,
@@ -33,7 +33,6 @@ const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
                             .measure = gm_cells_measure,
                             .draw = gm_stability_draw,
                             .write = gm_cells_write,
-                            .close = gm_cells_close,
                             .which = "stability of which scene? Or --region SCHEME",
                             .schemes = GM_RUN_SCHEMES,
                             .usual = gm_stability_usual,
@@ -47,7 +46,6 @@ const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
                            .measure = gm_cells_measure,
                            .draw = gm_backward_draw,
                            .write = gm_cells_write,
-                           .close = gm_cells_close,
                            .which = "backward error of which scene?",
                            .schemes = 1,
                            .usual = gm_backward_usual,
@@ -62,7 +60,6 @@ const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
                         .measure = gm_sweep_grid_measure,
                         .draw = gm_sweep_grid_draw,
                         .write = gm_sweep_grid_write,
-                        .close = gm_sweep_grid_close,
                         .pick = gm_sweep_grid_pick},
 };
 
@@ -75,11 +72,32 @@ enum gm_study_kind gm_study_find(const char *name)
     return (enum gm_study_kind)kind;
 }
 
+struct opening {
+    struct gm_grid *grid;
+    const struct gm_arguments *arguments;
+    const char *measure;
+};
+
+static void open(struct gm_arena *arena, void *data)
+{
+    (void)arena;
+    const struct opening *opening = data;
+    opening->grid->row->open(opening->grid, opening->arguments, opening->measure);
+}
+
 bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
                   const char *measure, char *message)
 {
-    *grid = (struct gm_grid){.row = &gm_study_rows[kind]};
-    return grid->row->open(grid, arguments, measure, message);
+    struct opening opening = {grid, arguments, measure};
+    *grid = (struct gm_grid){.row = &gm_study_rows[kind], .arena = gm_arena_open()};
+    if (gm_arena_run(grid->arena, open, &opening)) {
+        return true;
+    }
+    const int refusal = grid->request.refusal;
+    gm_refuse(message, "%s", gm_arena_reason(grid->arena));
+    gm_grid_close(grid);
+    grid->request.refusal = refusal;
+    return false;
 }
 
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
@@ -89,7 +107,8 @@ bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, c
 
 void gm_grid_close(struct gm_grid *grid)
 {
-    grid->row->close(grid);
+    gm_arena_close(grid->arena);
+    *grid = (struct gm_grid){0};
 }
 
 void gm_grid_draw(const void *grid, struct gm_picture *picture)

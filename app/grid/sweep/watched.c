@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/grid/hooks.h"
+#include "core/arena.h"
 #include "render/message.h"
 
 enum { MOST_RUNS = 100000, PATH = 32 };
@@ -18,46 +19,43 @@ static const char *path_of(const struct gm_grid *grid, char path[PATH])
     return path;
 }
 
-/* The words but --measure LIST, which is returned: NULL for none. False: no memory. */
-static bool take_measure(const struct gm_arguments *arguments, struct gm_arguments *others,
-                         const char **measure)
+static void close_sweep(void *data)
 {
-    bool good = true;
-    *measure = NULL;
-    for (int i = 0; good && i < arguments->count; i++) {
-        if (strcmp(arguments->words[i], "--measure") == 0 && i + 1 < arguments->count) {
-            *measure = arguments->words[++i];
-        } else {
-            good = gm_arguments_add(others, arguments->words[i]);
-        }
+    struct gm_grid *grid = data;
+    gm_sweep_chart_close(grid->chart);
+    gm_sweep_close(&grid->sweep);
+    if (grid->table >= 0) {
+        close(grid->table);
     }
-    return good;
 }
 
-bool gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure,
-                        char *message)
+void gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure)
 {
-    struct gm_arguments others = {0};
+    char message[GM_MESSAGE];
     bool unreadable;
+    struct gm_arguments *others = gm_arguments_in(grid->arena);
+    for (int i = 0; i < typed->count; i++) { /* --measure LIST stands among the words */
+        if (strcmp(typed->words[i], "--measure") == 0 && i + 1 < typed->count) {
+            measure = typed->words[++i];
+        } else {
+            gm_arena_need(grid->arena, gm_arguments_add(others, typed->words[i]));
+        }
+    }
     grid->table = -1;
-    bool good = take_measure(typed, &others, &measure) || gm_refuse(message, "not enough memory");
-    good = good && gm_sweep_open(&grid->sweep, &others, measure, &unreadable, message) &&
-           (grid->chart = gm_sweep_chart_open(&grid->sweep, message));
-    gm_arguments_close(&others);
-    if (good && grid->sweep.count > MOST_RUNS) {
-        good = gm_refuse(message, "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
-                         grid->sweep.count, MOST_RUNS);
+    gm_arena_keep(grid->arena, grid, close_sweep);
+    if (!gm_sweep_open(&grid->sweep, others, measure, &unreadable, message) ||
+        !(grid->chart = gm_sweep_chart_open(&grid->sweep, message))) {
+        gm_arena_refuse(grid->arena, "%s", message);
     }
-    if (good) {
-        grid->table = memfd_create("sweep", MFD_CLOEXEC);
-        good = grid->table >= 0 || gm_refuse(message, "no room for a table: %s", strerror(errno));
+    if (grid->sweep.count > MOST_RUNS) {
+        gm_arena_refuse(grid->arena,
+                        "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
+                        grid->sweep.count, MOST_RUNS);
     }
-    if (good) {
-        message[0] = '\0'; /* of a corner of the map in which there is no run */
-    } else {
-        gm_sweep_grid_close(grid);
+    grid->table = memfd_create("sweep", MFD_CLOEXEC);
+    if (grid->table < 0) {
+        gm_arena_refuse(grid->arena, "no room for a table: %s", strerror(errno));
     }
-    return good;
 }
 
 bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
@@ -90,15 +88,6 @@ bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path)
         fclose(table);
     }
     return file && fclose(file) == 0 && good;
-}
-
-void gm_sweep_grid_close(struct gm_grid *grid)
-{
-    gm_sweep_chart_close(grid->chart);
-    gm_sweep_close(&grid->sweep);
-    if (grid->table >= 0) {
-        close(grid->table);
-    }
 }
 
 char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, double y)
