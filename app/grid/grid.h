@@ -127,17 +127,18 @@ struct gm_grid {
 struct gm_study_row {
     const char *name; /* of its command */
     int refusal;      /* the exit status where nothing can be measured */
-    /* Leaves the body of the grid's arena, with a sentence, where it cannot be opened; so do those of gm_cells_open and
-       `prepare`. */
-    void (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure);
-    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
     void (*draw)(const struct gm_grid *grid, struct gm_picture *picture);
-    bool (*write)(const struct gm_grid *grid, const char *path);
     /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL
        where it shows none, and for a kind that has no runs of its own. In any thread, while it measures. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
 
-    /* ---- of gm_cells_open ---- */
+    /* ---- of a kind that has no cells, NULL for the others; `open` leaves the body of the grid's arena, with a
+       sentence, where it cannot ---- */
+    void (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure);
+    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
+    bool (*write)(const struct gm_grid *grid, const char *path);
+
+    /* ---- of a kind with cells, while it is opened, in the body of the grid's arena ---- */
     const char *which; /* what is asked where there is no scene */
     size_t schemes;    /* so many of the scene's preferred ones are taken where none is named */
     /* The words unless overridden. */
@@ -148,7 +149,7 @@ struct gm_study_row {
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
                     const char *measure);
 
-    /* ---- of gm_cells_measure ---- */
+    /* ---- of gm_cells_measure; `prepare` in a body ---- */
     bool
         alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
     /* Finds what runs are compared with; NULL: nothing. */
@@ -166,7 +167,7 @@ struct gm_study_row {
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
                      int number);
 };
-extern const struct gm_study_row gm_study_rows[GM_STUDY_COUNT]; /* that of GM_STUDY_NONE is empty */
+extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: GM_STUDY_NONE */
 
 /* The kind of that name; GM_STUDY_NONE if there is none. */
 enum gm_study_kind gm_study_find(const char *name);

@@ -43,44 +43,15 @@ void gm_grid_take_end(const struct gm_lane *lane, struct gm_grid_cell *cell);
 
 size_t gm_grid_cells(const struct gm_grid *grid);
 
-/* ---- functions of the rows, each as grid.h says of its place ---- */
+/* ---- the kinds ---- */
 
+extern const struct gm_study_row gm_study_work, gm_study_stability, gm_study_backward, gm_study_sweep;
+
+/* What grid.h says of these in a row, of a grid that has cells. */
 void gm_cells_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure);
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 bool gm_cells_write(const struct gm_grid *grid, const char *path);
 
-const char *gm_work_usual(struct gm_grid *grid, const struct gm_scene *scene);
-void gm_work_edit(struct gm_grid *grid, struct gm_arguments *words);
-void gm_work_lay_out(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                     const char *measure);
-void gm_work_prepare(struct gm_grid *grid);
-bool gm_work_is_needless(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
-void gm_work_run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell, char *message);
-void gm_work_put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number);
 void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture);
-
-const char *gm_stability_usual(struct gm_grid *grid, const struct gm_scene *scene);
-void gm_stability_lay_out(struct gm_grid *grid, const struct gm_arguments *words,
-                          const struct gm_arguments *typed, const char *judge);
-void gm_stability_run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell,
-                      char *message);
-void gm_stability_put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
-                      int number);
-void gm_stability_draw(const struct gm_grid *grid, struct gm_picture *picture);
-
-const char *gm_backward_usual(struct gm_grid *grid, const struct gm_scene *scene);
-void gm_backward_lay_out(struct gm_grid *grid, const struct gm_arguments *words,
-                         const struct gm_arguments *typed, const char *measure);
-void gm_backward_run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell,
-                     char *message);
-void gm_backward_put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
-                     int number);
-void gm_backward_draw(const struct gm_grid *grid, struct gm_picture *picture);
-
-void gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure);
-bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
-void gm_sweep_grid_draw(const struct gm_grid *grid, struct gm_picture *picture);
-bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path);
-char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, double y);
 
 #endif

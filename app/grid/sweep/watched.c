@@ -29,7 +29,7 @@ static void close_sweep(void *data)
     }
 }
 
-void gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure)
+static void open_grid(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure)
 {
     char message[GM_MESSAGE];
     bool unreadable;
@@ -58,7 +58,7 @@ void gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, 
     }
 }
 
-bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
+static bool measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
 {
     char path[PATH], unwritten[GM_MESSAGE];
     struct gm_sweep_sum sum;
@@ -70,12 +70,12 @@ bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *liste
     return good;
 }
 
-void gm_sweep_grid_draw(const struct gm_grid *grid, struct gm_picture *picture)
+static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
     gm_sweep_chart_draw(grid->chart, picture);
 }
 
-bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path)
+static bool write_table(const struct gm_grid *grid, const char *path)
 {
     char from[PATH], block[1 << 14];
     FILE *table = fopen(path_of(grid, from), "r"), *file = table ? fopen(path, "w") : NULL;
@@ -90,7 +90,7 @@ bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path)
     return file && fclose(file) == 0 && good;
 }
 
-char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, double y)
+static char *pick(const struct gm_grid *grid, size_t panel, double x, double y)
 {
     static const char command[] = "run ";
     size_t run;
@@ -100,3 +100,11 @@ char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, dou
     }
     return words;
 }
+
+const struct gm_study_row gm_study_sweep = {.name = "sweep",
+                                            .refusal = GM_EXIT_USAGE,
+                                            .open = open_grid,
+                                            .measure = measure,
+                                            .draw = draw,
+                                            .write = write_table,
+                                            .pick = pick};
