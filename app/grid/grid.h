@@ -88,6 +88,8 @@ struct gm_grid {
     struct gm_arena *arena;    /* of all that the others point to */
     struct gm_request request; /* its first lane has the parameters that all share */
     const struct gm_study_row *row;
+    const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
+    const char *asked;                /* ... and the measure or judge, NULL: what the scene says */
     struct gm_grid_line *lines;
     size_t count;                         /* of lines, */
     size_t begun;                         /* of which so many are shown: they are measured or under way */
@@ -134,7 +136,7 @@ struct gm_study_row {
 
     /* ---- of a kind that has no cells, NULL for the others; `open` leaves the body of the grid's arena, with a
        sentence, where it cannot ---- */
-    void (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure);
+    void (*open)(struct gm_grid *grid);
     bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
     bool (*write)(const struct gm_grid *grid, const char *path);
 
@@ -146,8 +148,7 @@ struct gm_study_row {
     /* Changes the words before they are read; NULL: nothing. */
     void (*edit)(struct gm_grid *grid, struct gm_arguments *words);
     /* Fills axes, lines and cells; `words` are all, among them those typed. */
-    void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                    const char *measure);
+    void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
     /* ---- of gm_cells_measure; `prepare` in a body ---- */
     bool

@@ -42,9 +42,10 @@ static void close_request(void *request)
     gm_request_close(request);
 }
 
-void gm_cells_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure)
+void gm_cells_open(struct gm_grid *grid)
 {
     char message[GM_MESSAGE];
+    const struct gm_arguments *typed = grid->typed;
     const struct gm_study_row *row = grid->row;
     if (typed->count == 0) {
         gm_arena_refuse(grid->arena, "%s", row->which);
@@ -63,5 +64,5 @@ void gm_cells_open(struct gm_grid *grid, const struct gm_arguments *typed, const
         gm_arena_refuse(grid->arena, "%s", message);
     }
     gm_arena_keep(grid->arena, &grid->request, close_request);
-    row->lay_out(grid, words, typed, measure);
+    row->lay_out(grid, words);
 }

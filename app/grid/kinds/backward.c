@@ -47,10 +47,9 @@ static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 }
 
 /* A cell for every lane, at the scheme's line by falling dt. */
-static void lay_out(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                    const char *measure)
+static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
 {
-    (void)words, (void)typed, (void)measure;
+    (void)words;
     char message[GM_MESSAGE];
     const struct gm_request *request = &grid->request;
     if (!gm_request_ends_together(request, message)) {

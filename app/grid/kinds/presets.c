@@ -19,26 +19,19 @@ enum gm_study_kind gm_study_find(const char *name)
     return (enum gm_study_kind)kind;
 }
 
-struct opening {
-    struct gm_grid *grid;
-    const struct gm_arguments *arguments;
-    const char *measure;
-};
-
 static void open(struct gm_arena *arena, void *data)
 {
+    struct gm_grid *grid = data;
     (void)arena;
-    const struct opening *opening = data;
-    const struct gm_study_row *row = opening->grid->row;
-    (row->open ? row->open : gm_cells_open)(opening->grid, opening->arguments, opening->measure);
+    (grid->row->open ? grid->row->open : gm_cells_open)(grid);
 }
 
 bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
                   const char *measure, char *message)
 {
-    struct opening opening = {grid, arguments, measure};
-    *grid = (struct gm_grid){.row = gm_study_rows[kind], .arena = gm_arena_open()};
-    if (gm_arena_run(grid->arena, open, &opening)) {
+    *grid = (struct gm_grid){
+        .row = gm_study_rows[kind], .arena = gm_arena_open(), .typed = arguments, .asked = measure};
+    if (gm_arena_run(grid->arena, open, grid)) {
         return true;
     }
     const int refusal = grid->request.refusal;

@@ -27,16 +27,16 @@ static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
     return scene->work ? scene->work->arguments : "";
 }
 
-static bool is_typed(const struct gm_arguments *typed, const char *key)
+static bool is_typed(const struct gm_grid *grid, const char *key)
 {
     char word[64];
     snprintf(word, sizeof word, "%s=", key);
-    return gm_arguments_have(typed, word);
+    return gm_arguments_have(grid->typed, word);
 }
 
 /* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
    those. */
-static bool is_one_problem(const struct gm_grid *grid, const struct gm_arguments *typed)
+static bool is_one_problem(const struct gm_grid *grid)
 {
     const struct gm_request *request = &grid->request;
     const struct gm_scene *scene = request->scene;
@@ -44,7 +44,7 @@ static bool is_one_problem(const struct gm_grid *grid, const struct gm_arguments
         for (size_t k = 0; k < scene->parameter_count; k++) {
             const struct gm_parameter *row = &scene->parameters[k];
             const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == grid->parameter ||
-                                row == grid->ratio || !is_typed(typed, row->key);
+                                row == grid->ratio || !is_typed(grid, row->key);
             const double first = gm_parameter_get(row, request->lanes[0].parameters);
             const double other = gm_parameter_get(row, request->lanes[i].parameters);
             const bool automatic = isnan(first) && isnan(other);
@@ -223,8 +223,9 @@ static void add_typed(struct gm_grid_axis *axis, const struct gm_request *reques
     }
 }
 
-static void choose_steps(struct gm_grid *grid, bool typed)
+static void choose_steps(struct gm_grid *grid)
 {
+    const bool typed = is_typed(grid, "dt") || grid->ratio;
     enum { MOST_HALVINGS = 63 };
     const struct gm_request *request = &grid->request;
     const struct gm_work *work = request->scene->work;
@@ -247,17 +248,17 @@ static void choose_steps(struct gm_grid *grid, bool typed)
 }
 
 /* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
-static void choose_resolutions(struct gm_grid *grid, const struct gm_arguments *typed)
+static void choose_resolutions(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;
     const struct gm_parameter *row = grid->parameter;
     grid->values.values = gm_arena_take(grid->arena, row ? grid->request.count + work->resolution_count : 1,
                                         sizeof *grid->values.values);
     grid->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
-    if (row && is_typed(typed, row->key)) {
+    if (row && is_typed(grid, row->key)) {
         add_typed(&grid->values, &grid->request, row);
     }
-    for (size_t i = 0; row && !is_typed(typed, row->key) && i < work->resolution_count; i++) {
+    for (size_t i = 0; row && !is_typed(grid, row->key) && i < work->resolution_count; i++) {
         gm_axis_add(&grid->values, work->resolutions[i]);
     }
     if (grid->values.count < 2) {
@@ -266,8 +267,9 @@ static void choose_resolutions(struct gm_grid *grid, const struct gm_arguments *
     }
 }
 
-static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane, const char *asked)
+static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
 {
+    const char *asked = grid->asked;
     char message[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
     const struct gm_work *work = scene->work;
@@ -302,8 +304,7 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane, con
     grid->observed = false;
 }
 
-static void lay_out(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                    const char *measure)
+static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
 {
     char message[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
@@ -312,11 +313,11 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words, cons
     const char *resolution = work ? work->resolution : NULL, *ratio = work ? work->ratio : NULL;
     grid->parameter = resolution ? gm_scene_parameter(scene, resolution) : NULL;
     grid->errors = work && work->errors ? work->errors : usual_errors;
-    grid->ratio = ratio && is_typed(typed, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
+    grid->ratio = ratio && is_typed(grid, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
     if (!gm_request_ends_together(&grid->request, message)) {
         gm_arena_refuse(grid->arena, "%s", message);
     }
-    if (!is_one_problem(grid, typed)) {
+    if (!is_one_problem(grid)) {
         gm_arena_refuse(
             grid->arena, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
             resolution ? ", " : "", resolution ? resolution : "", ratio ? ", " : "", ratio ? ratio : "");
@@ -325,13 +326,13 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words, cons
     if (!(timing->until > gm_scene_t0(scene, timing))) {
         gm_arena_refuse(grid->arena, "until=%g is the start: there is nothing to measure", timing->until);
     }
-    choose_steps(grid, is_typed(typed, "dt") || grid->ratio);
-    choose_resolutions(grid, typed);
+    choose_steps(grid);
+    choose_resolutions(grid);
     /* one open lane shows which measure has a number and which schemes fit */
     const struct gm_lane *lane =
         gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
-    choose_measure(grid, lane, measure);
-    choose_schemes(grid, lane, is_typed(typed, "scheme"));
+    choose_measure(grid, lane);
+    choose_schemes(grid, lane, is_typed(grid, "scheme"));
     gm_arena_drop(grid->arena, lane);
     if (grid->count == 0) {
         gm_arena_refuse(grid->arena, "no scheme that is compared here fits %s", scene->name);

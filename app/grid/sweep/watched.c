@@ -29,10 +29,11 @@ static void close_sweep(void *data)
     }
 }
 
-static void open_grid(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure)
+static void open_grid(struct gm_grid *grid)
 {
+    const struct gm_arguments *typed = grid->typed;
+    const char *measure = grid->asked;
     char message[GM_MESSAGE];
-    bool unreadable;
     struct gm_arguments *others = gm_arguments_in(grid->arena);
     for (int i = 0; i < typed->count; i++) { /* --measure LIST stands among the words */
         if (strcmp(typed->words[i], "--measure") == 0 && i + 1 < typed->count) {
@@ -43,7 +44,7 @@ static void open_grid(struct gm_grid *grid, const struct gm_arguments *typed, co
     }
     grid->table = -1;
     gm_arena_keep(grid->arena, grid, close_sweep);
-    if (!gm_sweep_open(&grid->sweep, others, measure, &unreadable, message) ||
+    if (!gm_sweep_open(&grid->sweep, others, measure, message) ||
         !(grid->chart = gm_sweep_chart_open(&grid->sweep, message))) {
         gm_arena_refuse(grid->arena, "%s", message);
     }
