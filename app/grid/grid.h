@@ -89,7 +89,7 @@ struct gm_grid {
     struct gm_request request; /* its first lane has the parameters that all share */
     const struct gm_study_row *row;
     const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
-    const char *asked;                /* ... and the measure or judge, NULL: what the scene says */
+    const char *requested;            /* ... and the measure or judge, NULL: what the scene says */
     struct gm_grid_line *lines;
     size_t count;                         /* of lines, */
     size_t begun;                         /* of which so many are shown: they are measured or under way */

@@ -47,7 +47,7 @@ size_t gm_grid_cells(const struct gm_grid *grid);
 
 extern const struct gm_study_row gm_study_work, gm_study_stability, gm_study_backward, gm_study_sweep;
 
-/* What grid.h says of these in a row, of a grid that has cells. */
+/* The functions of kinds that have cells; grid.h describes them. */
 void gm_cells_open(struct gm_grid *grid);
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 bool gm_cells_write(const struct gm_grid *grid, const char *path);

@@ -53,7 +53,7 @@ struct gm_sweep_row {
 /* Makes a run. In any thread. */
 void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row);
 
-/* What all runs of the share have of something that a request tells of its first lane, judged by some of them. */
+/* The sum over all runs of the share of a number that `of` finds for a request, judged by some of them. */
 double gm_sweep_total(const struct gm_sweep *sweep,
                       double (*of)(const struct gm_request *request, size_t index));
 

@@ -17,7 +17,7 @@ void gm_json_put_text(FILE *stream, const char *text)
             fputs("\\n", stream);
         } else if (code < ' ') {
             fprintf(stream, "\\u%04x", (unsigned)code);
-        } else if (code == 0xFFFD) { /* of bytes that are no letter, too */
+        } else if (code == 0xFFFD) { /* malformed bytes, too */
             fputs("\\ufffd", stream);
         } else {
             fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);

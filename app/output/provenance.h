@@ -45,8 +45,8 @@ bool gm_provenance_of_command(struct gm_provenance *provenance, const char *comm
                               const struct gm_appearance *look, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
-/* Every parameter of every lane, a line each; as an identity of what a run goes on from, which may end later: but for
-   until, and whether it has an effect or not. */
+/* Writes the parameters of every lane that have an effect, a line a lane; as the identity of a run that a checkpoint
+   continues, all of them but until, which may change. */
 void gm_provenance_put_lanes(FILE *stream, const struct gm_request *request, bool identity);
 
 /* The checksum of the running program: what another build made is not ours, whatever its version says. False
@@ -65,7 +65,7 @@ char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
 /* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
 char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count);
 
-/* Adds the steps and, where they are asked for and there are any, the failures. False when memory is short. */
+/* Adds the steps of the lanes and, with `failures`, a line for each lane that has failed. False when memory is short. */
 bool gm_provenance_take_lanes(struct gm_provenance *provenance, const struct gm_lane *const *lanes,
                               size_t count, bool failures);
 

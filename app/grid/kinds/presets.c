@@ -30,7 +30,7 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
                   const char *measure, char *message)
 {
     *grid = (struct gm_grid){
-        .row = gm_study_rows[kind], .arena = gm_arena_open(), .typed = arguments, .asked = measure};
+        .row = gm_study_rows[kind], .arena = gm_arena_open(), .typed = arguments, .requested = measure};
     if (gm_arena_run(grid->arena, open, grid)) {
         return true;
     }

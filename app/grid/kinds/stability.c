@@ -68,7 +68,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     const struct gm_request *request = &grid->request;
     const struct gm_stability *plan = grid->plan = request->scene->stability;
     grid->parameter = gm_scene_parameter(request->scene, plan->parameter);
-    read_judge(grid, grid->asked);
+    read_judge(grid, grid->requested);
     grid->steps = axis_of(grid, plan->steps, plan->step_count);
     grid->values = axis_of(grid, plan->values, plan->value_count);
     grid->lines = gm_arena_take(grid->arena, request->count, sizeof *grid->lines);

@@ -269,13 +269,13 @@ static void choose_resolutions(struct gm_grid *grid)
 
 static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
 {
-    const char *asked = grid->asked;
+    const char *requested = grid->requested;
     char message[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
     const struct gm_work *work = scene->work;
     const bool planned = work && work->measure;
     grid->measure = planned ? work->measure : solution_error;
-    grid->measure = asked ? asked : grid->measure;
+    grid->measure = requested ? requested : grid->measure;
     grid->measure_title = lane->problem.exact ? "largest difference from the true solution"
                                               : "largest difference from a run of short steps";
     grid->measure_title = work && work->distance ? work->distance_title : grid->measure_title;
@@ -297,8 +297,8 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
         grid->measure_title = observable->title;
         return;
     }
-    if (asked) {
-        gm_arena_refuse(grid->arena, "%s says nothing with these parameters", asked);
+    if (requested) {
+        gm_arena_refuse(grid->arena, "%s says nothing with these parameters", requested);
     }
     grid->measure = solution_error;
     grid->observed = false;

@@ -32,7 +32,7 @@ static void close_sweep(void *data)
 static void open_grid(struct gm_grid *grid)
 {
     const struct gm_arguments *typed = grid->typed;
-    const char *measure = grid->asked;
+    const char *measure = grid->requested;
     char message[GM_MESSAGE];
     struct gm_arguments *others = gm_arguments_in(grid->arena);
     for (int i = 0; i < typed->count; i++) { /* --measure LIST stands among the words */
