@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "scenes/common/scene.h"
 
 void gm_arguments_close(struct gm_arguments *arguments)
@@ -15,6 +16,16 @@ void gm_arguments_close(struct gm_arguments *arguments)
     }
     free(arguments->words);
     *arguments = (struct gm_arguments){0};
+}
+
+static void close_list(void *arguments)
+{
+    gm_arguments_close(arguments);
+}
+
+struct gm_arguments *gm_arguments_in(struct gm_arena *arena)
+{
+    return gm_arena_keep(arena, gm_arena_take(arena, 1, sizeof(struct gm_arguments)), close_list);
 }
 
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word)

@@ -7,6 +7,7 @@
 
 /* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
 
+struct gm_arena;
 struct gm_scene;
 
 struct gm_arguments { /* {0} is an empty list */
@@ -14,6 +15,8 @@ struct gm_arguments { /* {0} is an empty list */
     int count;
 };
 void gm_arguments_close(struct gm_arguments *arguments);
+/* An empty list that closes with the arena, in a body of it. */
+struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
 
 /* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
    that belongs to a word. False when memory is short; the list is then to be closed as always. */

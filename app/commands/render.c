@@ -167,7 +167,7 @@ static bool open_lanes(struct work *work, char *message)
 /* The state behind the last frame before the first that is missing, where a checkpoint has one. */
 static bool resume(struct work *work, char *message)
 {
-    const long first = gm_frames_first_missing(&work->frames);
+    const long first = gm_frames_missing(&work->frames, false);
     long frame = -1;
     bool spoilt = false;
     if (first < 0 || !work->checkpoint) {
@@ -199,7 +199,7 @@ static bool make_frames(struct work *work, char *message)
     enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
     const double started = gm_clock_seconds();
     const bool progress = isatty(STDERR_FILENO);
-    const long last = work->movie ? work->schedule.count - 1 : gm_frames_last_missing(&work->frames);
+    const long last = work->movie ? work->schedule.count - 1 : gm_frames_missing(&work->frames, true);
     double due = started + INTERVAL;
     long made = 0, painted = -1;
     work->done = work->frames.found;

@@ -19,7 +19,6 @@
 #include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
-#include "app/output/pause.h"
 #include "app/output/say.h"
 #include "app/words/chosen.h"
 #include "app/words/drive.h"

@@ -78,7 +78,7 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
                      const struct gm_study_printer *printer)
 {
     char message[GM_MESSAGE], name[128];
-    const struct gm_study_row *study = &gm_study_rows[kind];
+    const struct gm_study_row *study = gm_study_rows[kind];
     struct gm_grid grid;
     if (!gm_grid_open(&grid, kind, &options->arguments, options->judge ? options->judge : options->measure,
                       message)) {

@@ -10,6 +10,7 @@
 #include "app/commands/measuring/measuring.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
+#include "app/words/drive.h"
 #include "core/basics.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
@@ -25,11 +26,12 @@ static size_t cores_of(const struct gm_options *options)
 static bool is_confirmed(const struct gm_sweep *sweep, const struct gm_options *options)
 {
     const size_t runs = gm_sweep_share(sweep);
-    if (options->yes || ((double)runs <= many && gm_sweep_steps(sweep) <= gm_many_steps)) {
+    if (options->yes || ((double)runs <= many && gm_sweep_total(sweep, gm_request_steps) <= gm_many_steps)) {
         return true;
     }
     char duration[64];
-    gm_put_duration(gm_sweep_seconds(sweep) / (double)cores_of(options), duration, sizeof duration);
+    gm_put_duration(gm_sweep_total(sweep, gm_drive_seconds) / (double)cores_of(options), duration,
+                    sizeof duration);
     gm_complain("these are %zu run%s, which take about %s with %zu at once; --yes makes them", runs,
                 gm_plural((double)runs), duration, cores_of(options));
     return false;
@@ -202,7 +204,6 @@ int gm_command_sweep(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_sweep sweep;
-    bool unreadable = false;
     if (options->join) {
         return gm_finish(join(options));
     }
@@ -210,8 +211,8 @@ int gm_command_sweep(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     int status = GM_EXIT_USAGE;
-    if (!gm_sweep_open(&sweep, &options->arguments, options->measure, &unreadable, message)) {
-        status = gm_give_up(unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    if (!gm_sweep_open(&sweep, &options->arguments, options->measure, message)) {
+        status = gm_give_up(sweep.unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
     } else {
         sweep.shard = options->shards ? (size_t)options->shard : 1;
         sweep.shards = options->shards ? (size_t)options->shards : 1;

@@ -85,7 +85,7 @@ static void show(struct gm_study *study)
 static void save(struct gm_study *study, enum gm_theme theme)
 {
     char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
-    const char *study_name = gm_study_rows[study->kind].name;
+    const char *study_name = gm_study_rows[study->kind]->name;
     char *command = gm_arguments_join(study_name, &study->arguments);
     struct gm_chart chart = {
         .name = name, .command = command, .print.look = {.width = 1920, .height = 1080, .theme = theme}};
@@ -260,7 +260,7 @@ struct gm_study_look *gm_study_take(struct gm_study *study)
 
 char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y)
 {
-    const struct gm_study_row *row = &gm_study_rows[study->kind];
+    const struct gm_study_row *row = gm_study_rows[study->kind];
     return row->pick ? row->pick(&study->grid, panel, x, y) : NULL;
 }
 

@@ -188,7 +188,7 @@ static int percent(const struct gm_study_look *look)
 void gm_studies_status(const struct gm_studies *studies, char *text, size_t size)
 {
     const struct gm_study_look *look = studies->looks[studies->shown];
-    const char *name = gm_study_rows[studies->shown].name;
+    const char *name = gm_study_rows[studies->shown]->name;
     if (studies->notice[0]) {
         snprintf(text, size, "%s", studies->notice);
     } else if (!look) {
@@ -217,9 +217,9 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
             used +=
                 (size_t)snprintf(text + used, size - used,
                                  keys[i] ? "%s of %.*s is finished: %c shows it" : "%s of %.*s is finished",
-                                 gm_study_rows[i].name, length, words, keys[i]);
+                                 gm_study_rows[i]->name, length, words, keys[i]);
         } else {
-            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%", gm_study_rows[i].name,
+            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%", gm_study_rows[i]->name,
                                      length, words, percent(look));
         }
     }

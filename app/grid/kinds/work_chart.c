@@ -9,6 +9,7 @@
 #include "app/grid/hooks.h"
 #include "app/grid/judge.h"
 #include "core/expression/number.h"
+#include "render/cells/text.h"
 
 enum { NAMED = GM_LANE_COLOURS };
 
@@ -148,15 +149,6 @@ static struct place name_place(const struct gm_panel *panel, const struct drawn 
     return best;
 }
 
-static size_t letters_of(const char *text)
-{
-    size_t letters = 0;
-    for (; *text; text++) {
-        letters += ((unsigned char)*text & 0xc0) != 0x80;
-    }
-    return letters;
-}
-
 static int compare(const void *a, const void *b)
 {
     const double *p = a, *q = b;
@@ -228,7 +220,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
             continue;
         }
         const struct place place =
-            name_place(panel, lines, chosen_count, i, taken, taken_count, letters_of(name));
+            name_place(panel, lines, chosen_count, i, taken, taken_count, (size_t)gm_text_width(name, false));
         taken[taken_count++] = place;
         gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(i), .alpha = 1, .width = 1},
                      panel->x.low * pow(panel->x.high / panel->x.low, place.left),
