@@ -15,7 +15,8 @@ enum {
     GRAPH = 1 << 2,
     LEVEL = 1 << 3,
     WORK = 1 << 4,
-    STABILITY = 1 << 5
+    STABILITY = 1 << 5,
+    ENERGY = 1 << 6
 };
 
 static const struct row {
@@ -36,6 +37,8 @@ static unsigned lines_of(enum gm_system_word word)
     case GM_WORD_INVARIANT:
     case GM_WORD_CASIMIR:
         return INVARIANT;
+    case GM_WORD_HAMILTONIAN:
+        return ENERGY;
     case GM_WORD_GRAPH:
         return GRAPH;
     case GM_WORD_LEVEL:

@@ -438,12 +438,6 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-static const char *number_text(struct gm_system_scene *system_scene, double value)
-{
-    char text[64];
-    return gm_system_kept_text(system_scene, "%s", gm_number_format(value, text, sizeof text));
-}
-
 static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -496,7 +490,7 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
                                     : "a parameter",
             .type = GM_REAL,
             .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = number_text(system_scene, value),
+            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
             .lowest = variable->fixed ? value
                       : ranged        ? variable->low
                                       : -reach,
@@ -538,9 +532,8 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
-    system_scene->rows[DT].standard = number_text(system_scene, dt);
-    system_scene->rows[UNTIL].standard = number_text(system_scene, until);
-    return values && system_scene->rows[DT].standard && system_scene->rows[UNTIL].standard;
+    return values && gm_written_timing(&system_scene->texts, system, dt, until, &system_scene->rows[DT],
+                                       &system_scene->rows[UNTIL]);
 }
 
 /* The ways to look at the state, and those at what the scheme does to the energy. */
@@ -555,6 +548,9 @@ static bool make_shows(struct gm_system_scene *system_scene)
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
     system_scene->rows[SHOW].choices = system_scene->shows;
+    if (system_scene->has_section && gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
+        system_scene->rows[SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+    }
     return true;
 }
 
@@ -656,9 +652,9 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
         .initial = system_scene->initial,
         .words = words,
-        .source = typed ? NULL : system->source,
-        .text = system->source,
-        .mark = gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)),
+        .source = typed || !words ? NULL : system->source,
+        .text = words ? system->source : NULL,
+        .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
         .parameters = system_scene->rows,
         .parameter_count = system_scene->row_count,
         .idle = idle,

@@ -114,7 +114,7 @@ static const char *typeset_name(struct gm_picture *picture, const char *name)
 
 /* ---- the range that is shown ---- */
 
-static const struct gm_seen nothing = {{1, 1, 1}, {0, 0, 0}, 0};
+static const struct gm_seen nothing = {{1, 1, 1}, {0, 0, 0}, 0, false};
 
 static void hold(struct gm_seen *seen, const double *points, size_t count, size_t dimensions)
 {
@@ -186,28 +186,33 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
 
+/* A lane that needs more room than so many times that of the smallest range of its system has left: its panel follows
+   it on a scale of its own, and the others are seen without it. */
+static const double farthest = 2;
+
+static void find_left(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
+{
+    for (size_t i = 0; i < count; i++) {
+        double least = extent(&ranges[i]);
+        for (size_t k = 0; k < count; k++) {
+            const bool seen = ranges[k].high[0] >= ranges[k].low[0];
+            least = seen && is_same(lanes[k], lanes[i]) ? fmin(least, extent(&ranges[k])) : least;
+        }
+        ranges[i].left = extent(&ranges[i]) > fmax(farthest * least, 1e-9);
+    }
+}
+
 /* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
-   but who runs away makes the others at most half as large. */
+   of a lane that has left what it shows itself. */
 static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
                                  const struct gm_seen *ranges)
 {
-    struct gm_seen all = nothing, least = nothing;
-    size_t held = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (is_same(lanes[i], lanes[like])) {
-            const bool better =
-                ranges[i].high[0] >= ranges[i].low[0] && (held == 0 || extent(&ranges[i]) < extent(&least));
+    struct gm_seen all = ranges[like];
+    for (size_t i = 0; i < count && !all.left; i++) {
+        if (!ranges[i].left && is_same(lanes[i], lanes[like])) {
             hold_range(&all, &ranges[i]);
-            least = better ? ranges[i] : least;
-            held++;
         }
     }
-    const double scratch = fmax(0.5 * extent(&least), 1e-9);
-    for (size_t k = 0; k < 3 && held > 1; k++) {
-        all.low[k] = fmax(all.low[k], least.low[k] - scratch);
-        all.high[k] = fmin(all.high[k], least.high[k] + scratch);
-    }
-    all.far = held > 1 ? fmin(all.far, least.far + scratch) : all.far;
     return all;
 }
 
@@ -220,16 +225,24 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
 {
     struct gm_seen *seen = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
+    find_left(lanes, count, ranges);
     for (size_t i = 0; i < count; i++) {
         seen[i] = range_like(lanes, count, i, ranges);
-        hold_range(&all, &seen[i]);
-        least = fmin(least, extent(&seen[i]));
-        most = fmax(most, extent(&seen[i]));
+        if (!seen[i].left) {
+            hold_range(&all, &seen[i]);
+            least = fmin(least, extent(&seen[i]));
+            most = fmax(most, extent(&seen[i]));
+        }
     }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = most > largest_ratio * least ? nothing : all;
+        bool left = true; /* all of the panel */
         for (size_t k = 0; k < count; k++) {
-            if (lanes[k]->shown.panel == lanes[i]->shown.panel) {
+            left = left && (seen[k].left || lanes[k]->shown.panel != lanes[i]->shown.panel);
+        }
+        ranges[i] = left || most > largest_ratio * least ? nothing : all;
+        ranges[i].left = left;
+        for (size_t k = 0; k < count; k++) {
+            if (lanes[k]->shown.panel == lanes[i]->shown.panel && seen[k].left == left) {
                 hold_range(&ranges[i], &seen[k]);
             }
         }
@@ -464,7 +477,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             for (size_t i = 0; i < count; i++) {
                 range = lanes[i] == walk.lane ? ranges[i] : range;
             }
-            panel = gm_walk_panel(picture, &walk, "");
+            panel = gm_walk_panel(picture, &walk, range.left ? "on a scale of its own" : "");
             panel->title = typeset_name(picture, panel->title);
             if (sight->dimensions == 3) {
                 const char *names[3];
