@@ -72,7 +72,7 @@ double gm_kept_differences(const struct gm_kept *kept, const double *start, size
         for (size_t c = 0; c < n; c++) {
             y[c] = start[c] + i * direction[c];
         }
-        const double value = weights[steps][i] * kept->value(kept->data, y);
+        const double value = weights[steps][i] * kept->value(kept->data, y, NULL);
         sum += value;
         size += fabs(value);
     }

@@ -55,7 +55,8 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 /* A quantity that the motion keeps. */
 struct gm_kept {
     const char *name;
-    double (*value)(const void *data, const double *y);
+    /* memory: that of the run which has come to y; NULL: there is none */
+    double (*value)(const void *data, const double *y, const double *memory);
     const void *data;
 };
 

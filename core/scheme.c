@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/theory/coefficients.h"
 
 static const struct {

@@ -125,6 +125,10 @@ struct gm_family {
        of the scheme's own steps, or by the linearised scheme. NULL: the family has no such law. */
     double (*form)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                    const double *y, const double *memory, bool by_differences);
+    /* The energy of a wave as the family's own space and memory have it; NaN: out of memory. NULL: the two levels of
+       the state tell it. */
+    double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 

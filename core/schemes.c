@@ -9,7 +9,7 @@
 #include "core/expression/nearest.h"
 
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/kinds.def"
 #undef GM_KIND
 

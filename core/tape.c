@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 enum {
     LARGEST_BATCH = 256, /* operations of a group: what they need lies in the fastest cache */

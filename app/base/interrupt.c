@@ -3,19 +3,47 @@
 #include "app/base/interrupt.h"
 
 #include <stddef.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "app/base/exit.h"
+#include "render/files/temporary.h"
+
+enum { PATIENCE = 2 }; /* seconds */
 
 volatile sig_atomic_t gm_interrupted;
 static volatile sig_atomic_t ends;
+static struct timespec first_came;
+
+static void cut_off(int number)
+{
+    (void)number;
+    gm_temporary_remove_all();
+    _exit(GM_EXIT_INTERRUPTED);
+}
 
 static void interrupt(int number)
 {
-    (void)number;
-    gm_interrupted = gm_interrupted + 1;
+    const double together = 0.2; /* seconds */
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
     if (ends) {
         _exit(GM_EXIT_INTERRUPTED);
+    }
+    if (gm_interrupted == 0) {
+        first_came = now;
+        alarm(PATIENCE);
+    } else if ((double)(now.tv_sec - first_came.tv_sec) + 1e-9 * (double)(now.tv_nsec - first_came.tv_nsec) >
+               together) {
+        cut_off(number);
+    }
+    gm_interrupted = gm_interrupted + 1;
+}
+
+void gm_interrupts_seen(void)
+{
+    if (gm_interrupted) {
+        alarm(0);
     }
 }
 
@@ -31,6 +59,9 @@ void gm_catch_interrupts(void)
 {
     struct sigaction action = {.sa_handler = interrupt};
     sigemptyset(&action.sa_mask);
+    struct sigaction late = {.sa_handler = cut_off};
+    sigemptyset(&late.sa_mask);
+    sigaction(SIGALRM, &late, NULL);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }

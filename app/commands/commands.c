@@ -9,7 +9,7 @@
 const struct gm_command_row *const gm_commands[] = {
 #define GM_COMMAND(name) &gm_command_##name,
 #include "app/commands/commands.def"
-#include "core/count.h"
+#include "core/basics.h"
 #undef GM_COMMAND
 };
 const size_t gm_command_count = GM_COUNT(gm_commands);

@@ -6,7 +6,7 @@
 
 #include "app/output/say.h"
 #include "app/words/drive.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 const double gm_many_steps = 1e11;
 

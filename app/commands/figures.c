@@ -18,7 +18,7 @@
 #include "app/commands/commands.h"
 #include "app/figures/page.h"
 #include "app/output/folder.h"
-#include "app/output/json.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "core/expression/number.h"
 #include "render/clock.h"
@@ -227,55 +227,44 @@ static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome
 
 static void print_json(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
-    printf("{");
-    gm_json_pair("figure", job->figure->name);
-    printf(",");
-    gm_json_pair("scene", gm_figure_word(job));
-    printf(",");
-    gm_json_pair("arguments", job->arguments);
-    printf(",");
-    gm_json_pair("statement", job->figure->statement);
-    printf(",\"made\":%s,", outcome->progress == GM_MADE ? "true" : "false");
-    gm_json_pair("message", outcome->progress == GM_NOT_MADE ? outcome->message : "");
-    printf(",");
-    gm_json_number_pair("seconds", outcome->seconds);
-    printf(",\"statements\":[");
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "figure", job->figure->name);
+    gm_row_text(&row, "scene", gm_figure_word(job));
+    gm_row_text(&row, "arguments", job->arguments);
+    gm_row_text(&row, "statement", job->figure->statement);
+    gm_row_flag(&row, "made", outcome->progress == GM_MADE);
+    gm_row_text(&row, "message", outcome->progress == GM_NOT_MADE ? outcome->message : "");
+    gm_row_number(&row, "seconds", outcome->seconds, 17);
+    struct gm_row statements = gm_row_open(&row, "statements", ']');
     for (size_t i = 0; i < outcome->verdict_count; i++) {
         const struct gm_statement *statement = &job->published->statements[i];
-        printf("%s{", i ? "," : "");
-        gm_json_pair("says", statement->says);
-        printf(",");
-        gm_json_pair("of", gm_source_name(gm_statement_source(job, i)));
-        printf(",");
-        gm_json_pair("verdict", gm_verdict_word(job, outcome, i));
-        printf(",");
-        gm_json_pair("note", job->shortened ? "" : outcome->verdicts[i].note);
-        printf(",\"found\":[");
-        gm_json_number(outcome->verdicts[i].low);
-        printf(",");
-        gm_json_number(outcome->verdicts[i].high);
-        printf("],\"expected\":[");
-        gm_json_number(statement->low * outcome->verdicts[i].scale);
-        printf(",");
-        gm_json_number(statement->high * outcome->verdicts[i].scale);
-        printf("]}");
+        const double scale = outcome->verdicts[i].scale;
+        struct gm_row said = gm_row_open(&statements, NULL, '}');
+        gm_row_text(&said, "says", statement->says);
+        gm_row_text(&said, "of", gm_source_name(gm_statement_source(job, i)));
+        gm_row_text(&said, "verdict", gm_verdict_word(job, outcome, i));
+        gm_row_text(&said, "note", job->shortened ? "" : outcome->verdicts[i].note);
+        gm_row_list(&said, "found", (const double[]){outcome->verdicts[i].low, outcome->verdicts[i].high}, 2);
+        gm_row_list(&said, "expected", (const double[]){statement->low * scale, statement->high * scale}, 2);
+        gm_row_close(&said);
     }
-    printf("],\"lanes\":[");
+    gm_row_close(&statements);
+    struct gm_row lanes = gm_row_open(&row, "lanes", ']');
     for (size_t i = 0; outcome->progress == GM_MADE && i < outcome->lane_count; i++) {
-        printf("%s{", i ? "," : "");
-        gm_json_pair("lane", outcome->lanes[i].label);
-        printf(",");
-        gm_json_number_pair("t", outcome->lanes[i].t);
-        printf(",");
-        gm_json_pair("message", outcome->lanes[i].failure);
-        printf(",\"observables\":{");
+        struct gm_row lane = gm_row_open(&lanes, NULL, '}');
+        gm_row_text(&lane, "lane", outcome->lanes[i].label);
+        gm_row_number(&lane, "t", outcome->lanes[i].t, 17);
+        gm_row_text(&lane, "message", outcome->lanes[i].failure);
+        struct gm_row observables = gm_row_open(&lane, "observables", '}');
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
-            printf("%s", k ? "," : "");
-            gm_json_number_pair(job->scene->observables[k].key, outcome->lanes[i].observables[k]);
+            gm_row_number(&observables, job->scene->observables[k].key, outcome->lanes[i].observables[k], 17);
         }
-        printf("}}");
+        gm_row_close(&observables);
+        gm_row_close(&lane);
     }
-    printf("]}\n");
+    gm_row_close(&lanes);
+    gm_row_close(&row);
+    putchar('\n');
 }
 
 static void print_text(const struct gm_figure_job *job, const struct gm_outcome *outcome)

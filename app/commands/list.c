@@ -9,6 +9,7 @@
 #include "app/commands/reference/catalogue.h"
 #include "app/commands/reference/system.h"
 #include "app/output/json.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/output/wrapped.h"
@@ -29,16 +30,12 @@ static void list_scenes(const struct gm_options *options)
     for (size_t i = 0; i < gm_scene_count(); i++) {
         const struct gm_scene *scene = gm_scene_at(i);
         if (options->json) {
-            printf("{");
-            gm_json_pair("scene", scene->name);
-            printf(",");
-            gm_json_pair("title", scene->title);
-            printf(",");
-            gm_json_pair("blurb", scene->blurb);
-            printf(",");
-            gm_json_pair("watch", scene->watch);
-            printf(",");
-            gm_json_pair("time_unit", scene->time);
+            struct gm_row row = gm_row_begin(stdout);
+            gm_row_text(&row, "scene", scene->name);
+            gm_row_text(&row, "title", scene->title);
+            gm_row_text(&row, "blurb", scene->blurb);
+            gm_row_text(&row, "watch", scene->watch);
+            gm_row_text(&row, "time_unit", scene->time);
             printf("}\n");
             continue;
         }
@@ -168,14 +165,11 @@ static void list_figures(const struct gm_options *options)
         for (size_t f = 0; f < scene->figure_count; f++) {
             const struct gm_figure *figure = &scene->figures[f];
             if (options->json) {
-                printf("{");
-                gm_json_pair("figure", figure->name);
-                printf(",");
-                gm_json_pair("scene", scene->name);
-                printf(",");
-                gm_json_pair("arguments", figure->arguments);
-                printf(",");
-                gm_json_pair("statement", figure->statement);
+                struct gm_row row = gm_row_begin(stdout);
+                gm_row_text(&row, "figure", figure->name);
+                gm_row_text(&row, "scene", scene->name);
+                gm_row_text(&row, "arguments", figure->arguments);
+                gm_row_text(&row, "statement", figure->statement);
                 printf("}\n");
             } else {
                 gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
@@ -200,18 +194,16 @@ static void print_parameter(const struct gm_parameter *row)
     gm_print_wrapped(text, printf(fits ? " " : "\n") + (fits ? before : -1), KEY + DEFAULT + 4);
 }
 
-static void print_parameter_json(const struct gm_parameter *row)
+static void print_parameter_json(const struct gm_parameter *parameter)
 {
     char range[256];
-    printf("{");
-    gm_json_pair("key", row->key);
-    printf(",");
-    gm_json_pair("default", row->standard);
-    printf(",");
-    gm_json_pair("range", gm_catalogue_range(row, range, sizeof range));
-    printf(",\"live\":%s,", row->live ? "true" : "false");
-    gm_json_pair("help", row->help);
-    printf("}");
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "key", parameter->key);
+    gm_row_text(&row, "default", parameter->standard);
+    gm_row_text(&row, "range", gm_catalogue_range(parameter, range, sizeof range));
+    gm_row_flag(&row, "live", parameter->live);
+    gm_row_text(&row, "help", parameter->help);
+    gm_row_close(&row);
 }
 
 /* What a command takes where nothing is said but the scene, by its name or the path of its file:
@@ -307,18 +299,13 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
 static void print_entry_json(const struct entry *entry, const struct gm_file *file)
 {
     const struct gm_scene *scene = entry->scene;
-    printf("{");
-    gm_json_pair("scene", scene->name);
-    printf(",");
-    gm_json_pair("title", scene->title);
-    printf(",");
-    gm_json_pair("watch", scene->watch);
-    printf(",");
-    gm_json_pair("time_unit", scene->time);
-    printf(",");
-    gm_json_pair("run", entry->run);
-    printf(",");
-    gm_json_pair("render", entry->render);
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "scene", scene->name);
+    gm_row_text(&row, "title", scene->title);
+    gm_row_text(&row, "watch", scene->watch);
+    gm_row_text(&row, "time_unit", scene->time);
+    gm_row_text(&row, "run", entry->run);
+    gm_row_text(&row, "render", entry->render);
     printf(",\"parameters\":[");
     for (size_t i = 0; i < entry->row_count; i++) {
         printf("%s", i ? "," : "");

@@ -7,7 +7,7 @@
 #include "app/commands/reference/catalogue.h"
 #include "app/output/say.h"
 #include "app/words/words.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 
 /* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
@@ -90,7 +90,7 @@ static const struct row rows[] = {
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
-    {"--jobs", WHOLE, GM_SWEEP, AT(jobs), "N", "N runs at once (one a core)"},
+    {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one a core)"},
     {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS",
      "rows of the table with this status, or with a warning, are made anew"},
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
@@ -195,15 +195,12 @@ static bool settle_size(struct gm_options *options, char *message)
 /* The format of pictures, by the name of --output's file or by --format. */
 static bool settle_format(struct gm_options *options, char *message)
 {
-    enum gm_format format;
+    enum gm_format format = options->format;
     if (gm_options_take_stdout(options) && options->json) {
         snprintf(message, GM_MESSAGE, "--output - and --json are both to write to standard output");
         return false;
     }
-    if (!options->output || gm_options_take_stdout(options)) {
-        return true;
-    }
-    if (!gm_format_of(options->output, &format)) {
+    if (options->output && !gm_options_take_stdout(options) && !gm_format_of(options->output, &format)) {
         return refuse(message, "--output", options->output, "is no .png, .svg or .pdf file");
     }
     if (options->format_name && format != options->format) {
@@ -212,7 +209,10 @@ static bool settle_format(struct gm_options *options, char *message)
         return false;
     }
     options->format = format;
-    return true;
+    return format == GM_FORMAT_PNG || !options->painter || strcmp(options->painter, "auto") == 0 ||
+           gm_refuse(message,
+                     "--painter %.40s paints PNG files and movies; an SVG or PDF file is lines and letters",
+                     options->painter);
 }
 
 static bool store(struct gm_options *options, const struct row *row, const char *value, char *message)

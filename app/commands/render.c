@@ -381,6 +381,7 @@ static int paint_all(struct work *work, const char *name)
                     gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
     }
     good = good && resume(work, message) && make_frames(work, message);
+    gm_interrupts_seen();
     const bool closed = close_sinks(work, good, message);
     if (!closed || !good) {
         gm_complain("%s", message);
@@ -491,6 +492,10 @@ static int render(struct gm_request *request, const struct gm_options *options, 
         !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
+        gm_lane_note(work.lanes[0], message);
+        if (message[0]) {
+            gm_complain("%s", message);
+        }
         status = work.schedule.still ? paint_still(&work, name) : paint_all(&work, name);
     }
     close_work(&work);

@@ -24,7 +24,7 @@
 #include "app/output/say.h"
 #include "app/words/chosen.h"
 #include "app/words/drive.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
@@ -452,6 +452,7 @@ static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
         good = good && (!keeps || keep_pace(outcome, &pace, message));
     }
     free(trace);
+    gm_interrupts_seen();
     return good;
 }
 
@@ -810,6 +811,13 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     outcome.values = malloc(2 * observables * sizeof(double));
     int status = GM_EXIT_OK;
     const bool good = outcome.front && outcome.values;
+    char note[GM_MESSAGE] = "";
+    if (outcome.drive.lane && index == 0) {
+        gm_lane_note(outcome.drive.lane, note);
+    }
+    if (note[0]) {
+        gm_complain("%s", note);
+    }
     if (outcome.drive.lane && !good) {
         snprintf(message, sizeof message, "not enough memory");
     }

@@ -9,7 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
-#include "app/output/json.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/tours/movie.h"
 #include "app/tours/tour.h"
@@ -22,12 +22,10 @@ int gm_list_tours(bool json)
     struct gm_tour *tours = gm_tours_read(&count, message);
     for (size_t i = 0; i < count; i++) {
         if (json) {
-            printf("{");
-            gm_json_pair("tour", tours[i].name);
-            printf(",");
-            gm_json_pair("title", tours[i].title);
-            printf(",");
-            gm_json_pair("about", tours[i].about ? tours[i].about : "");
+            struct gm_row row = gm_row_begin(stdout);
+            gm_row_text(&row, "tour", tours[i].name);
+            gm_row_text(&row, "title", tours[i].title);
+            gm_row_text(&row, "about", tours[i].about ? tours[i].about : "");
             printf(",\"steps\":%zu}\n", tours[i].count);
             continue;
         }

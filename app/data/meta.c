@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "app/output/json.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
 {

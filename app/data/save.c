@@ -10,7 +10,7 @@
 
 #include "app/data/bytes.h"
 #include "app/data/format.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
 #include "render/message.h"

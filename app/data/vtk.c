@@ -14,7 +14,7 @@
 
 #include "app/data/format.h"
 #include "app/output/folder.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/message.h"
 
 /* What a group of points is joined to. */

@@ -13,6 +13,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "app/base/interrupt.h"
 #include "app/explorer/events.h"
 #include "app/explorer/terminal/console.h"
 #include "app/output/say.h"
@@ -118,6 +119,7 @@ static void suspend(struct gm_explorer *explorer)
     gm_display_rest(&explorer->display);
     gm_console_stop();
     if (gm_console_leaving()) {
+        gm_interrupts_seen();
         gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
     }
     gm_explorer_resize(explorer);
@@ -185,6 +187,7 @@ static void read_news(struct gm_explorer *explorer)
         gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
     if (gm_console_leaving()) {
+        gm_interrupts_seen();
         gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
     }
     if (gm_console_stopping()) {

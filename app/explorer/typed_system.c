@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "app/explorer/surface/keystroke.h"
-#include "app/grid/kinds/study.h"
+#include "app/grid/grid.h"
 #include "app/words/replacing.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "render/message.h"
 
@@ -139,14 +139,13 @@ static bool check_map(const char *line, struct gm_typed_fault *fault)
 {
     char *text = sweep_words(line);
     struct gm_arguments words = {0};
-    union gm_study_table table;
-    const struct gm_study_row *sweep = &gm_study_rows[GM_STUDY_SWEEP];
+    struct gm_grid grid;
     *fault = (struct gm_typed_fault){.at = -1};
     const bool good = text && gm_arguments_split(&words, text)
-                          ? sweep->open(&table, &words, NULL, fault->sentence)
+                          ? gm_grid_open(&grid, GM_STUDY_SWEEP, &words, NULL, fault->sentence)
                           : gm_refuse(fault->sentence, "There is not enough memory.");
     if (good) {
-        sweep->close(&table);
+        gm_grid_close(&grid);
     }
     gm_arguments_close(&words);
     free(text);

@@ -31,7 +31,7 @@ static size_t place_of(const struct gm_problem *motion, size_t n, size_t compone
     return component < half ? component : n / 2 + component - half;
 }
 
-static double value_of_kept(const void *data, const double *y)
+static double value_of_kept(const void *data, const double *y, const double *memory)
 {
     const struct kept *kept = data;
     double whole[MOST_WITH_TANGENTS] = {0};
@@ -41,7 +41,7 @@ static double value_of_kept(const void *data, const double *y)
         whole[place_of(kept->motion, kept->problem->n, c)] = y[c];
     }
     view.start = view.state = kept->motion ? whole : y;
-    view.memory = NULL; /* which is of another state */
+    view.memory = memory;
     view.observable = kept->row;
     return kept->row->evaluate(&view);
 }
@@ -145,7 +145,7 @@ bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certific
     for (size_t i = 0; good && i < scene->observable_count; i++) {
         const struct gm_observable *row = &scene->observables[i];
         data[i] = (struct kept){lane, &problem, row, motion};
-        if (row->kept && isfinite(value_of_kept(&data[i], start))) {
+        if (row->kept && isfinite(value_of_kept(&data[i], start, NULL))) {
             kept[grids->system.kept_count++] =
                 (struct gm_kept){.name = row->key, .value = value_of_kept, .data = &data[i]};
         }

@@ -80,10 +80,12 @@ struct gm_sweep_sum {
     char warning[GM_MESSAGE];
 };
 
-/* Makes the runs that the table has no row of, `jobs` at once (0: one a core), and appends their rows. False
-   with a sentence if a row could not be written; those before it are there. */
-bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct gm_listener *listener,
-                         struct gm_sweep_sum *sum, char *message);
+struct gm_sweep_chart;
+
+/* Makes the runs that the table has no row of, `jobs` at once (0: one a core), and appends their rows, which a chart
+   takes, too, where it is not NULL. False with a sentence if a row could not be written; those before it are there. */
+bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sweep_chart *chart,
+                         const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message);
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
 
 /* "FILE.csv" of a table; of a share "FILE.I-of-N.csv". malloc'ed, NULL when memory is short. */
@@ -103,19 +105,18 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
 
 /* ---- the picture ---- */
 
-/* What a picture needs of a table: bounded, however many rows. */
-struct gm_sweep_chart;
-/* One key with several numbers makes a graph, two a map. NULL with a sentence where there is another number
-   of them, or the table cannot be read. */
-struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message);
+/* What a picture needs of a table: bounded, however many rows. One key with several numbers makes a graph, two a map.
+   NULL with a sentence where there is another number of them. */
+struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message);
 bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
-/* Takes the rows that have come since. */
-void gm_sweep_chart_read(struct gm_sweep_chart *chart);
+/* Takes the row of a run, or those of a table; false with a sentence where that cannot be read. */
+void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row);
+bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message);
 void gm_sweep_chart_close(struct gm_sweep_chart *chart);
 void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
 
 /* The run that a map shows at (x, y), in the units of its axes; `map` is its number among the panels. False
    where that is no map. */
-bool gm_sweep_pick(const struct gm_sweep *sweep, size_t map, double x, double y, size_t *run);
+bool gm_sweep_pick(const struct gm_sweep_chart *chart, size_t map, double x, double y, size_t *run);
 
 #endif

@@ -16,7 +16,7 @@
 
 #include "app/native/cache.h"
 #include "app/native/compiler.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/kind.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
@@ -48,7 +48,7 @@ static const char *const flags[] = {
     "-fno-builtin-tanh",
     "-fno-builtin-fmod",
     "-D_GNU_SOURCE",
-    "-DGM_PROBLEM=own",
+    "-DGM_PROBLEM=user",
     "-DGM_ISA=native",
 
     "-w",

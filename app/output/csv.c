@@ -3,6 +3,7 @@
 #include "app/output/csv.h"
 
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 void gm_csv_put_quoted(FILE *stream, const char *text)
@@ -34,4 +35,25 @@ const char *gm_csv_cell(const char *row, size_t index)
         index -= !quoted && *row == ',';
     }
     return row;
+}
+
+const char *gm_csv_next(struct gm_csv_lines *lines)
+{
+    const ssize_t length = lines->stream ? getline(&lines->line, &lines->room, lines->stream) : -1;
+    if (length > 0 && lines->line[length - 1] == '\n') {
+        return lines->line;
+    }
+    if (length <= 0 && lines->line) {
+        lines->line[0] = '\0';
+    }
+    return NULL;
+}
+
+void gm_csv_close(struct gm_csv_lines *lines)
+{
+    if (lines->stream) {
+        fclose(lines->stream);
+    }
+    free(lines->line);
+    *lines = (struct gm_csv_lines){0};
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When the frames of a render are, and which of them are a shard's. */
 #include "app/output/schedule.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <math.h>
 

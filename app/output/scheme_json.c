@@ -4,129 +4,113 @@
 
 #include <math.h>
 
-#include "app/output/json.h"
+#include "app/output/row.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
 
 void gm_scheme_put(FILE *stream, const struct gm_scheme *scheme)
 {
-    fprintf(stream, "{");
-    gm_json_put_pair(stream, "scheme", scheme->name);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "title", scheme->title);
-    fprintf(stream, ",\"order\":%d,", scheme->order);
-    gm_json_put_pair(stream, "family", scheme->family->title);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "for", gm_scheme_problems(scheme));
-    fprintf(stream, ",\"claims\":[");
-    const char *comma = "";
+    struct gm_row row = gm_row_begin(stream);
+    gm_row_text(&row, "scheme", scheme->name);
+    gm_row_text(&row, "title", scheme->title);
+    gm_row_count(&row, "order", scheme->order);
+    gm_row_text(&row, "family", scheme->family->title);
+    gm_row_text(&row, "for", gm_scheme_problems(scheme));
+    struct gm_row claims = gm_row_open(&row, "claims", ']');
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (scheme->claims >> bit & 1) {
-            fprintf(stream, "%s\"%s\"", comma, gm_claim_word(bit));
-            comma = ",";
+            gm_row_text(&claims, NULL, gm_claim_word(bit));
         }
     }
-    fprintf(stream, "],");
+    gm_row_close(&claims);
     if (scheme->family->kind == &gm_kind_ode) {
-        gm_json_put_pair(stream, "tangent", gm_tangent_word(scheme));
-        fputc(',', stream);
+        gm_row_text(&row, "tangent", gm_tangent_word(scheme));
     }
-    gm_json_put_pair(stream, "formula", scheme->formula);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "reference", scheme->reference);
-    fprintf(stream, "}");
+    gm_row_text(&row, "formula", scheme->formula);
+    gm_row_text(&row, "reference", scheme->reference);
+    gm_row_close(&row);
 }
 
-/* null where nothing is known */
-static void put_theory(FILE *stream, const struct gm_theory *theory)
+static void put_stability(struct gm_row *theory, const struct gm_theory_stability *stability)
 {
-    if (!theory->known) {
-        fprintf(stream, "null");
-        return;
-    }
-    fprintf(stream, "{\"order\":%d,", theory->order);
-    gm_json_put_number_pair(stream, "digits", theory->digits > 0 ? theory->digits : NAN);
-    fprintf(stream, ",");
-    if (theory->condition[0]) {
-        gm_json_put_pair(stream, "failing_condition", theory->condition);
-    } else {
-        fprintf(stream, "\"failing_condition\":null");
-    }
-    fprintf(stream, ",");
-    gm_json_put_number_pair(stream, "residual", theory->condition[0] ? theory->residual : NAN);
-    fprintf(stream, ",\"symplectic\":%s,\"symmetric\":%s,", theory->symplectic ? "true" : "false",
-            theory->symmetric ? "true" : "false");
-    gm_json_put_number_pair(stream, "error_constant", theory->error_constant);
-    fprintf(stream, ",\"stability\":");
-    const struct gm_theory_stability *stability = &theory->stability;
-    if (!stability->known) {
-        fprintf(stream, "null}");
-        return;
-    }
-    fprintf(stream, "{");
-    gm_json_put_pair(stream, "of", stability->oscillator ? "oscillator" : "y' = lambda y");
-    fprintf(stream, ",");
-    gm_json_put_number_pair(stream, "real", stability->real);
-    fprintf(stream, ",");
-    gm_json_put_number_pair(stream, "imaginary", stability->imaginary);
+    struct gm_row row = gm_row_open(theory, "stability", '}');
+    gm_row_text(&row, "of", stability->oscillator ? "oscillator" : "y' = lambda y");
+    gm_row_number(&row, "real", stability->real, 17);
+    gm_row_number(&row, "imaginary", stability->imaginary, 17);
     if (!stability->oscillator) {
-        fprintf(stream, ",\"a_stable\":%s,\"l_stable\":%s", stability->a_stable ? "true" : "false",
-                stability->l_stable ? "true" : "false");
+        gm_row_flag(&row, "a_stable", stability->a_stable);
+        gm_row_flag(&row, "l_stable", stability->l_stable);
     }
-    fprintf(stream, "}}");
+    gm_row_close(&row);
+}
+
+static void put_theory(struct gm_row *certificate, const struct gm_theory *theory)
+{
+    struct gm_row row = gm_row_open(certificate, "theory", '}');
+    gm_row_count(&row, "order", theory->order);
+    gm_row_number(&row, "digits", theory->digits > 0 ? theory->digits : NAN, 17);
+    gm_row_text(&row, "failing_condition", theory->condition[0] ? theory->condition : NULL);
+    gm_row_number(&row, "residual", theory->condition[0] ? theory->residual : NAN, 17);
+    gm_row_flag(&row, "symplectic", theory->symplectic);
+    gm_row_flag(&row, "symmetric", theory->symmetric);
+    gm_row_number(&row, "error_constant", theory->error_constant, 17);
+    if (theory->stability.known) {
+        put_stability(&row, &theory->stability);
+    } else {
+        gm_row_text(&row, "stability", NULL);
+    }
+    gm_row_close(&row);
 }
 
 void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, const char *system)
 {
     const struct gm_scheme *scheme = certificate->scheme;
-    fprintf(stream, "{");
-    gm_json_put_pair(stream, "scheme", scheme->name);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "family", scheme->family->title);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "for", gm_scheme_problems(scheme));
+    struct gm_row row = gm_row_begin(stream);
+    gm_row_text(&row, "scheme", scheme->name);
+    gm_row_text(&row, "family", scheme->family->title);
+    gm_row_text(&row, "for", gm_scheme_problems(scheme));
     if (system) {
-        fprintf(stream, ",");
-        gm_json_put_pair(stream, "system", system);
+        gm_row_text(&row, "system", system);
     }
-    fprintf(stream, ",\"order\":%d,\"measured_order\":", scheme->order);
-    gm_json_put_number(stream, certificate->order);
-    fprintf(stream, ",");
-    gm_json_put_pair(stream, "order_problem", certificate->order_problem);
-    fprintf(stream, ",\"holds\":%s,\"properties\":{", certificate->holds ? "true" : "false");
-    const char *comma = "";
+    gm_row_count(&row, "order", scheme->order);
+    gm_row_number(&row, "measured_order", certificate->order, 17);
+    gm_row_text(&row, "order_problem", certificate->order_problem);
+    gm_row_flag(&row, "holds", certificate->holds);
+    struct gm_row properties = gm_row_open(&row, "properties", '}');
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->claimed || measure->measured || measure->undecided) {
-            fprintf(stream, "%s\"%s\":{\"claimed\":%s,\"measured\":%s,\"defect\":", comma, gm_claim_word(bit),
-                    measure->claimed ? "true" : "false", measure->measured ? "true" : "false");
+            struct gm_row claim = gm_row_open(&properties, gm_claim_word(bit), '}');
+            gm_row_flag(&claim, "claimed", measure->claimed);
+            gm_row_flag(&claim, "measured", measure->measured);
             /* null: it was not measured, or a step of the measurement failed */
-            gm_json_put_number(stream, measure->measured ? measure->defect : NAN);
-            fprintf(stream, ",\"tolerance\":%g,", measure->tolerance);
-            gm_json_put_pair(stream, "problem", measure->problem);
+            gm_row_number(&claim, "defect", measure->measured ? measure->defect : NAN, 17);
+            fprintf(stream, ",\"tolerance\":%g", measure->tolerance);
+            gm_row_text(&claim, "problem", measure->problem);
             if (measure->reason) {
-                fprintf(stream, ",");
-                gm_json_put_pair(stream, "reason", measure->reason);
+                gm_row_text(&claim, "reason", measure->reason);
             }
-            fprintf(stream, "}");
-            comma = ",";
+            gm_row_close(&claim);
         }
     }
-    fprintf(stream, "},\"theory\":");
-    put_theory(stream, &certificate->theory);
-    fprintf(stream, ",\"measured\":{");
-    gm_json_put_number_pair(stream, "order", certificate->order);
+    gm_row_close(&properties);
+    if (certificate->theory.known) {
+        put_theory(&row, &certificate->theory);
+    } else {
+        gm_row_text(&row, "theory", NULL);
+    }
+    struct gm_row measured = gm_row_open(&row, "measured", '}');
+    gm_row_number(&measured, "order", certificate->order, 17);
     if (certificate->order_reason) {
-        fprintf(stream, ",");
-        gm_json_put_pair(stream, "order_reason", certificate->order_reason);
+        gm_row_text(&measured, "order_reason", certificate->order_reason);
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->measured || (measure->reason && GM_CERTIFIED_ON_SYSTEMS >> bit & 1)) {
-            fprintf(stream, ",");
-            gm_json_put_number_pair(stream, gm_claim_word(bit), measure->measured ? measure->defect : NAN);
+            gm_row_number(&measured, gm_claim_word(bit), measure->measured ? measure->defect : NAN, 17);
         }
     }
-    fprintf(stream, "}}");
+    gm_row_close(&measured);
+    gm_row_close(&row);
 }

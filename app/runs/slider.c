@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Round values for a parameter that keys move. */
 #include "app/runs/slider.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -31,10 +31,10 @@ struct show {
     bool open; /* the session is */
     struct gm_canvas *canvas;
     struct gm_picture *picture;
-    struct gm_sink *sink; /* of a movie; NULL: pictures */
-    unsigned char *rgb;   /* the picture that stands */
-    bool answered;        /* the step's question is, if it has one */
-    const void *table;    /* of a study, that is drawn instead of the scene; NULL: none */
+    struct gm_sink *sink;       /* of a movie; NULL: pictures */
+    unsigned char *rgb;         /* the picture that stands */
+    bool answered;              /* the step's question is, if it has one */
+    const struct gm_grid *grid; /* of a study, that is drawn instead of the scene; NULL: none */
     bool failed;
     char message[GM_MESSAGE];
 };
@@ -85,10 +85,10 @@ static bool paint(struct show *show)
     const struct gm_session *session = &show->session;
     struct gm_paragraph told[PARAGRAPHS];
     gm_picture_clear(show->picture);
-    if (!show->table) {
+    if (!show->grid) {
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
     } else {
-        gm_study_rows[show->step->study].draw(show->table, show->picture);
+        gm_grid_draw(show->grid, show->picture);
     }
     show->picture->told = told;
     show->picture->told_count = tell(show, told);
@@ -204,18 +204,17 @@ static bool has_failed(void *self)
 
 static bool measure(struct show *show)
 {
-    const struct gm_study_row *study = &gm_study_rows[show->step->study];
     const struct gm_listener listener = {.report = grow, .stopped = has_failed, .self = show};
     struct gm_arguments words = {0};
-    union gm_study_table table;
+    struct gm_grid grid;
     bool good = gm_arguments_split(&words, show->step->study_words) || fail(show, "not enough memory");
-    if (good && (good = study->open(&table, &words, NULL, show->message))) {
-        show->table = &table;
-        good = study->measure(&table, &listener, show->message) && paint(show) && write_page(show, "") &&
+    if (good && (good = gm_grid_open(&grid, show->step->study, &words, NULL, show->message))) {
+        show->grid = &grid;
+        good = gm_grid_measure(&grid, &listener, show->message) && paint(show) && write_page(show, "") &&
                put(show, frames_of(show, end_seconds));
-        study->close(&table);
+        gm_grid_close(&grid);
     }
-    show->table = NULL;
+    show->grid = NULL;
     show->failed = show->failed || (!good && !gm_interrupted);
     gm_arguments_close(&words);
     return good;
@@ -288,6 +287,7 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *outp
     }
     /* an interrupted movie is finished with the frames it has */
     char failure[GM_MESSAGE] = "";
+    gm_interrupts_seen();
     const bool made = !show.sink || gm_sink_close(show.sink, good || gm_interrupted, failure);
     if (!made) {
         gm_complain("%s", failure);

@@ -13,7 +13,7 @@
 #include "app/base/files.h"
 #include "app/tours/tour.h"
 #include "app/words/scheme.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
@@ -257,10 +257,10 @@ static bool read_study(struct reader *reader, const struct entry *entry, struct 
         gm_arguments_close(&words);
         return short_of_memory(reader);
     }
-    union gm_study_table table;
-    const bool good = gm_study_rows[step->study].open(&table, &words, NULL, message);
+    struct gm_grid grid;
+    const bool good = gm_grid_open(&grid, step->study, &words, NULL, message);
     if (good) {
-        gm_study_rows[step->study].close(&table);
+        gm_grid_close(&grid);
     }
     gm_arguments_close(&words);
     return good || refuse(reader, entry->line, "%s", message);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a tour tells of its steps. */
 #include "app/tours/tour.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <stdlib.h>
 

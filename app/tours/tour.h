@@ -2,7 +2,7 @@
 #ifndef GM_APP_TOURS_TOUR_H
 #define GM_APP_TOURS_TOUR_H
 
-#include "app/grid/kinds/study.h"
+#include "app/grid/grid.h"
 #include "app/words/request.h"
 
 /* A tour: steps that a class is led through, read from a text file that a teacher can write (docs/tours.md).

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/words/lines.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/reader.h"
 #include "scenes/common/scene.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/base/place.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/reader.h"
 #include "core/model/scope.h"
 #include "render/message.h"

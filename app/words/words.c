@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"

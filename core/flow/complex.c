@@ -5,34 +5,57 @@
                   a third of the triangles around where it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
 #include "core/flow/complex.h"
-#include "core/count.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
+
 /* A dual edge shorter than this part of its edge counts as none: two right angles that face each other leave
    round-off of either sign. */
 static const double shortest_dual = 1e-9;
 
-static bool fail(struct gm_triangulation_fault *fault, enum gm_triangulation_fault_kind kind)
+/* A complex that is being built of triangles. */
+struct building {
+    struct gm_arena *arena; /* of the complex; what is needed to build it comes last, and goes at the end */
+    struct gm_complex *complex;
+    const struct gm_triangles *from;
+    struct gm_triangulation_fault *fault;
+};
+
+_Noreturn static void refuse(struct building *building, enum gm_triangulation_fault_kind kind)
 {
-    fault->kind = kind;
-    return false;
+    building->fault->kind = kind;
+    gm_arena_leave(building->arena);
 }
 
-static long tag_of(const long *tags, int vertex)
+static long tag_of(const struct gm_triangles *from, int vertex)
 {
-    return tags ? tags[vertex] : vertex + 1L;
+    return from->tags ? from->tags[vertex] : vertex + 1L;
 }
 
-static void name_triangle(const struct gm_complex *complex, size_t triangle, const long *tags,
+static void name_triangle(const struct gm_complex *complex, size_t triangle, const struct gm_triangles *from,
                           struct gm_triangulation_fault *fault)
 {
     fault->triangle = (long)triangle + 1;
     for (int k = 0; k < 3; k++) {
-        fault->nodes[k] = tag_of(tags, complex->triangle[3 * triangle + (size_t)k]);
+        fault->nodes[k] = tag_of(from, complex->triangle[3 * triangle + (size_t)k]);
     }
+}
+
+_Noreturn static void refuse_triangle(struct building *building, size_t triangle,
+                                      enum gm_triangulation_fault_kind kind)
+{
+    name_triangle(building->complex, triangle, building->from, building->fault);
+    refuse(building, kind);
+}
+
+_Noreturn static void refuse_vertex(struct building *building, int vertex,
+                                    enum gm_triangulation_fault_kind kind)
+{
+    building->fault->nodes[0] = tag_of(building->from, vertex);
+    refuse(building, kind);
 }
 
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
@@ -65,8 +88,9 @@ static double twice_area(const double p[6])
     return (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
 }
 
-static bool orient(struct gm_complex *complex, const long *tags, struct gm_triangulation_fault *fault)
+static void orient(struct building *building)
 {
+    struct gm_complex *complex = building->complex;
     for (size_t t = 0; t < complex->triangles; t++) {
         double p[6];
         gm_complex_corners(complex, t, p);
@@ -79,8 +103,7 @@ static bool orient(struct gm_complex *complex, const long *tags, struct gm_trian
         const int *v = complex->triangle + 3 * t;
         const bool flat = !(fabs(twice) > 1e-12 * longest * longest) || !isfinite(twice);
         if (flat || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-            name_triangle(complex, t, tags, fault);
-            return fail(fault, GM_TRIANGULATION_DEGENERATE);
+            refuse_triangle(building, t, GM_TRIANGULATION_DEGENERATE);
         }
         if (twice < 0) {
             int *corner = complex->triangle + 3 * t;
@@ -91,7 +114,6 @@ static bool orient(struct gm_complex *complex, const long *tags, struct gm_trian
         complex->area[t] = fabs(twice) / 2;
         complex->total_area += complex->area[t];
     }
-    return true;
 }
 
 /* A side of a triangle on its way to becoming an edge. */
@@ -109,18 +131,13 @@ static int compare_sides(const void *a, const void *b)
 }
 
 /* The sides of all triangles, sorted: those of an edge stand together. */
-static struct side *sort_sides(const struct gm_complex *complex)
+static const struct side *sort_sides(struct building *building)
 {
+    const struct gm_complex *complex = building->complex;
     const size_t count = 3 * complex->triangles;
-    struct side *sides = malloc(count * sizeof *sides);
-    struct side *sorted = malloc(count * sizeof *sorted);
-    size_t *start = calloc(complex->vertices + 1, sizeof *start);
-    if (!sides || !sorted || !start) {
-        free(sides);
-        free(sorted);
-        free(start);
-        return NULL;
-    }
+    struct side *sides = gm_arena_take(building->arena, count, sizeof *sides);
+    struct side *sorted = gm_arena_take(building->arena, count, sizeof *sorted);
+    size_t *start = gm_arena_take(building->arena, complex->vertices + 1, sizeof *start);
     for (size_t i = 0; i < count; i++) {
         const int a = complex->triangle[i], b = complex->triangle[i % 3 == 2 ? i - 2 : i + 1];
         sides[i] = (struct side){a < b ? a : b, a < b ? b : a, (int)i};
@@ -135,14 +152,13 @@ static struct side *sort_sides(const struct gm_complex *complex)
     for (size_t v = 0, from = 0; v < complex->vertices; from = start[v++]) {
         qsort(sorted + from, start[v] - from, sizeof *sorted, compare_sides);
     }
-    free(sides);
-    free(start);
     return sorted;
 }
 
-static bool make_edges(struct gm_complex *complex, const struct side *sides, const long *tags,
-                       struct gm_triangulation_fault *fault)
+static void make_edges(struct building *building)
 {
+    struct gm_complex *complex = building->complex;
+    const struct side *sides = sort_sides(building);
     const size_t count = 3 * complex->triangles;
     size_t edges = 0;
     for (size_t i = 0, end = 0; i < count; i = end, edges++) {
@@ -156,9 +172,8 @@ static bool make_edges(struct gm_complex *complex, const struct side *sides, con
             const bool along = complex->triangle[place] == sides[end].low;
             int *seat = &pair[along ? 0 : 1];
             if (end - i == 2) {
-                fault->nodes[0] = tag_of(tags, sides[i].low);
-                fault->nodes[1] = tag_of(tags, sides[i].high);
-                return fail(fault, GM_TRIANGULATION_EDGE_OF_THREE);
+                building->fault->nodes[1] = tag_of(building->from, sides[i].high);
+                refuse_vertex(building, sides[i].low, GM_TRIANGULATION_EDGE_OF_THREE);
             }
             complex->triangle_edge[place] = (int)edges;
             complex->triangle_sign[place] = along ? 1 : -1;
@@ -169,14 +184,12 @@ static bool make_edges(struct gm_complex *complex, const struct side *sides, con
                 const bool third = end + 1 < count && sides[end + 1].low == sides[i].low &&
                                    sides[end + 1].high == sides[i].high;
                 if (!third) {
-                    name_triangle(complex, (size_t)(place / 3), tags, fault);
-                    return fail(fault, GM_TRIANGULATION_OVERLAP);
+                    refuse_triangle(building, (size_t)(place / 3), GM_TRIANGULATION_OVERLAP);
                 }
             }
         }
     }
     complex->edges = edges;
-    return true;
 }
 
 static void make_rings(struct gm_complex *complex)
@@ -204,20 +217,16 @@ static void make_rings(struct gm_complex *complex)
 }
 
 /* Turns around every vertex: its triangles must be one fan. */
-static bool check_fans(const struct gm_complex *complex, const int *leaves, const long *tags,
-                       struct gm_triangulation_fault *fault)
+static void check_fans(struct building *building, const int *leaves)
 {
-    int *corners = calloc(complex->vertices, sizeof *corners);
-    int *first = malloc(complex->vertices * sizeof *first);
-    bool good = corners && first;
-    if (!good) {
-        fail(fault, GM_TRIANGULATION_MEMORY);
-    }
-    for (size_t i = 0; good && i < 3 * complex->triangles; i++) {
+    const struct gm_complex *complex = building->complex;
+    int *corners = gm_arena_take(building->arena, complex->vertices, sizeof *corners);
+    int *first = gm_arena_take(building->arena, complex->vertices, sizeof *first);
+    for (size_t i = 0; i < 3 * complex->triangles; i++) {
         corners[complex->triangle[i]]++;
         first[complex->triangle[i]] = (int)i;
     }
-    for (size_t v = 0; good && v < complex->vertices; v++) {
+    for (size_t v = 0; v < complex->vertices; v++) {
         /* from the triangle of the boundary edge that leaves v, where there is one, counter-clockwise */
         int place = first[v];
         if (leaves[v] >= 0) {
@@ -244,41 +253,34 @@ static bool check_fans(const struct gm_complex *complex, const int *leaves, cons
             }
         } while (place != begin && met < corners[v]);
         if (met != corners[v]) {
-            fault->nodes[0] = tag_of(tags, (int)v);
-            good = fail(fault, GM_TRIANGULATION_PINCHED);
+            refuse_vertex(building, (int)v, GM_TRIANGULATION_PINCHED);
         }
     }
-    free(corners);
-    free(first);
-    return good;
 }
 
-static bool make_boundary(struct gm_complex *complex, const long *tags, struct gm_triangulation_fault *fault)
+static void make_boundary(struct building *building)
 {
-    int *leaves = malloc(complex->vertices * sizeof *leaves); /* the boundary edge that begins at a vertex */
-    if (!leaves) {
-        return fail(fault, GM_TRIANGULATION_MEMORY);
-    }
+    struct gm_complex *complex = building->complex;
+    /* the boundary edge that begins at a vertex */
+    int *leaves = gm_arena_take(building->arena, complex->vertices, sizeof *leaves);
     for (size_t v = 0; v < complex->vertices; v++) {
         leaves[v] = -1;
     }
-    bool good = true;
-    for (size_t e = 0; good && e < complex->edges; e++) {
+    for (size_t e = 0; e < complex->edges; e++) {
         const int *pair = complex->edge_triangle + 2 * e;
         if (pair[0] >= 0 && pair[1] >= 0) {
             continue;
         }
         const int begin = complex->edge[2 * e + (pair[0] >= 0 ? 0 : 1)];
         if (leaves[begin] >= 0) {
-            fault->nodes[0] = tag_of(tags, begin);
-            good = fail(fault, GM_TRIANGULATION_PINCHED);
+            refuse_vertex(building, begin, GM_TRIANGULATION_PINCHED);
         }
         leaves[begin] = (int)e;
         complex->boundary++;
     }
-    good = good && check_fans(complex, leaves, tags, fault);
+    check_fans(building, leaves);
     size_t count = 0;
-    for (size_t v = 0; good && v < complex->vertices; v++) {
+    for (size_t v = 0; v < complex->vertices; v++) {
         int at = (int)v;
         if (leaves[v] >= 0) {
             complex->loop_start[complex->loops++] = count;
@@ -292,24 +294,15 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
         }
         complex->loop_start[complex->loops] = count;
     }
-    free(leaves);
-    return good;
 }
 
-static bool in_one_piece(const struct gm_complex *complex, const long *tags,
-                         struct gm_triangulation_fault *fault)
+static void check_pieces(struct building *building)
 {
-    int *queue = malloc(complex->triangles * sizeof *queue);
-    bool *met = calloc(complex->triangles, sizeof *met);
-    bool good = queue && met;
-    if (!good) {
-        fail(fault, GM_TRIANGULATION_MEMORY);
-    }
-    size_t count = 0;
-    if (good) {
-        queue[count++] = 0;
-        met[0] = true;
-    }
+    const struct gm_complex *complex = building->complex;
+    int *queue = gm_arena_take(building->arena, complex->triangles, sizeof *queue);
+    bool *met = gm_arena_take(building->arena, complex->triangles, sizeof *met);
+    size_t count = 1;
+    met[0] = true;
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * queue[i] + k];
@@ -320,17 +313,13 @@ static bool in_one_piece(const struct gm_complex *complex, const long *tags,
             }
         }
     }
-    if (good && count != complex->triangles) {
+    if (count != complex->triangles) {
         size_t apart = 0;
         while (met[apart]) {
             apart++;
         }
-        good = fail(fault, GM_TRIANGULATION_PIECES);
-        name_triangle(complex, apart, tags, fault);
+        refuse_triangle(building, apart, GM_TRIANGULATION_PIECES);
     }
-    free(queue);
-    free(met);
-    return good;
 }
 
 static void measure(struct gm_complex *complex)
@@ -387,8 +376,9 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
            180 / M_PI;
 }
 
-static bool check_stars(const struct gm_complex *complex, const long *tags,
-                        struct gm_triangulation_fault *fault)
+/* Whether dual edges and cells are positive; if not, the fault names what is worst. */
+static bool star_is_positive(const struct gm_complex *complex, const struct gm_triangles *from,
+                             struct gm_triangulation_fault *fault)
 {
     double worst = 0;
     for (size_t e = 0; e < complex->edges; e++) {
@@ -397,35 +387,36 @@ static bool check_stars(const struct gm_complex *complex, const long *tags,
             const double angle = t >= 0 ? angle_facing(complex, t, (int)e) : 0;
             if (angle > worst) {
                 worst = angle;
-                name_triangle(complex, (size_t)t, tags, fault);
+                name_triangle(complex, (size_t)t, from, fault);
                 fault->value = angle;
+                fault->kind = GM_TRIANGULATION_NOT_DELAUNAY;
             }
         }
     }
-    if (worst > 0) {
-        return fail(fault, GM_TRIANGULATION_NOT_DELAUNAY);
-    }
-    for (size_t v = 0; v < complex->vertices; v++) {
+    for (size_t v = 0; v < complex->vertices && worst == 0; v++) {
         if (!(complex->star0[v] > 0)) {
-            fault->nodes[0] = tag_of(tags, (int)v);
-            return fail(fault, GM_TRIANGULATION_DUAL_CELL);
+            fault->nodes[0] = tag_of(from, (int)v);
+            fault->kind = GM_TRIANGULATION_DUAL_CELL;
+            return false;
         }
     }
-    return true;
+    return worst == 0;
 }
 
 /* The dual that is asked for. */
-static bool take_star(struct gm_complex *complex, enum gm_star star, const long *tags,
-                      struct gm_triangulation_fault *fault)
+static void take_star(struct building *building)
 {
+    struct gm_complex *complex = building->complex;
+    const enum gm_star star = building->from->star;
     struct gm_triangulation_fault obstacle = {.kind = GM_TRIANGULATION_OK};
     complex->star = GM_STAR_CIRCUMCENTRIC;
-    if ((star == GM_STAR_AUTO || star == GM_STAR_CIRCUMCENTRIC) && check_stars(complex, tags, &obstacle)) {
-        return true;
+    if ((star == GM_STAR_AUTO || star == GM_STAR_CIRCUMCENTRIC) &&
+        star_is_positive(complex, building->from, &obstacle)) {
+        return;
     }
     if (star == GM_STAR_CIRCUMCENTRIC) {
-        *fault = obstacle;
-        return false;
+        *building->fault = obstacle;
+        gm_arena_leave(building->arena);
     }
     complex->star = GM_STAR_BARYCENTRIC;
     memset(complex->star0, 0, complex->vertices * sizeof *complex->star0);
@@ -433,7 +424,6 @@ static bool take_star(struct gm_complex *complex, enum gm_star star, const long 
         complex->weight[k] = 1.0 / 3;
         complex->star0[complex->triangle[k]] += complex->area[k / 3] / 3;
     }
-    return true;
 }
 
 size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge)
@@ -469,97 +459,71 @@ double gm_complex_loop_area(const struct gm_complex *complex, size_t loop)
     return sum;
 }
 
-static bool allocate(struct gm_complex *complex)
+static void allocate(struct gm_complex *complex, struct gm_arena *arena)
 {
     const size_t v = complex->vertices, t = complex->triangles, sides = 3 * t;
-    const struct {
-        void **place;
-        size_t size;
-    } wanted[] = {
-        {(void **)&complex->point, 2 * v * sizeof(double)},
-        {(void **)&complex->triangle, sides * sizeof(int)},
-        {(void **)&complex->triangle_edge, sides * sizeof(int)},
-        {(void **)&complex->triangle_sign, sides},
-        {(void **)&complex->edge, 2 * sides * sizeof(int)},
-        {(void **)&complex->edge_triangle, 2 * sides * sizeof(int)},
-        {(void **)&complex->ring_start, (v + 1) * sizeof(int)},
-        {(void **)&complex->ring_vertex, 2 * sides * sizeof(int)},
-        {(void **)&complex->ring_edge, 2 * sides * sizeof(int)},
-        {(void **)&complex->edge_ring, 2 * sides * sizeof(int)},
-        {(void **)&complex->boundary_edge, sides * sizeof(int)},
-        {(void **)&complex->boundary_vertex, sides * sizeof(int)},
-        {(void **)&complex->loop_start, (sides + 1) * sizeof(size_t)},
-        {(void **)&complex->length, sides * sizeof(double)},
-        {(void **)&complex->area, t * sizeof(double)},
-        {(void **)&complex->weight, sides * sizeof(double)},
-        {(void **)&complex->star0, v * sizeof(double)},
-        {(void **)&complex->star1, sides * sizeof(double)},
-    };
-    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
-        *wanted[i].place = calloc(1, wanted[i].size);
-        if (!*wanted[i].place) {
-            return false;
-        }
-    }
-    return true;
+    complex->point = gm_arena_take(arena, 2 * v, sizeof *complex->point);
+    complex->triangle = gm_arena_take(arena, sides, sizeof *complex->triangle);
+    complex->triangle_edge = gm_arena_take(arena, sides, sizeof *complex->triangle_edge);
+    complex->triangle_sign = gm_arena_take(arena, sides, sizeof *complex->triangle_sign);
+    complex->edge = gm_arena_take(arena, 2 * sides, sizeof *complex->edge);
+    complex->edge_triangle = gm_arena_take(arena, 2 * sides, sizeof *complex->edge_triangle);
+    complex->ring_start = gm_arena_take(arena, v + 1, sizeof *complex->ring_start);
+    complex->ring_vertex = gm_arena_take(arena, 2 * sides, sizeof *complex->ring_vertex);
+    complex->ring_edge = gm_arena_take(arena, 2 * sides, sizeof *complex->ring_edge);
+    complex->edge_ring = gm_arena_take(arena, 2 * sides, sizeof *complex->edge_ring);
+    complex->boundary_edge = gm_arena_take(arena, sides, sizeof *complex->boundary_edge);
+    complex->boundary_vertex = gm_arena_take(arena, sides, sizeof *complex->boundary_vertex);
+    complex->loop_start = gm_arena_take(arena, sides + 1, sizeof *complex->loop_start);
+    complex->length = gm_arena_take(arena, sides, sizeof *complex->length);
+    complex->area = gm_arena_take(arena, t, sizeof *complex->area);
+    complex->weight = gm_arena_take(arena, sides, sizeof *complex->weight);
+    complex->star0 = gm_arena_take(arena, v, sizeof *complex->star0);
+    complex->star1 = gm_arena_take(arena, sides, sizeof *complex->star1);
 }
 
-struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], enum gm_star star, const long *tags,
-                                   struct gm_triangulation_fault *fault)
+static void build(struct gm_arena *arena, void *data)
 {
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
-    if (count == 0) {
-        fail(fault, GM_TRIANGULATION_EMPTY);
+    struct building *building = data;
+    const struct gm_triangles *from = building->from;
+    struct gm_complex *complex = building->complex = gm_arena_take(arena, 1, sizeof *complex);
+    complex->arena = arena;
+    complex->vertices = from->vertices;
+    complex->triangles = from->count;
+    allocate(complex, arena);
+    struct gm_arena_entry *const whole = gm_arena_top(arena);
+    memcpy(complex->point, from->points, 2 * from->vertices * sizeof *from->points);
+    memcpy(complex->triangle, from->corners, 3 * from->count * sizeof *from->corners);
+    memcpy(complex->period, from->period, sizeof complex->period);
+    orient(building);
+    make_edges(building);
+    make_boundary(building);
+    check_pieces(building);
+    make_rings(complex);
+    measure(complex);
+    take_star(building);
+    gm_arena_release(arena, whole);
+}
+
+struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault)
+{
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_EMPTY};
+    if (from->count == 0) {
         return NULL;
     }
-    struct gm_complex *complex = calloc(1, sizeof *complex);
-    if (!complex) {
-        fail(fault, GM_TRIANGULATION_MEMORY);
+    fault->kind = GM_TRIANGULATION_MEMORY; /* unless it is built, or refused for another reason */
+    struct building building = {.arena = gm_arena_open(), .from = from, .fault = fault};
+    if (!gm_arena_run(building.arena, build, &building)) {
+        gm_arena_close(building.arena);
         return NULL;
     }
-    complex->vertices = vertices;
-    complex->triangles = count;
-    bool good = allocate(complex) || fail(fault, GM_TRIANGULATION_MEMORY);
-    struct side *sides = NULL;
-    if (good) {
-        memcpy(complex->point, points, 2 * vertices * sizeof *points);
-        memcpy(complex->triangle, triangles, 3 * count * sizeof *triangles);
-        memcpy(complex->period, period, sizeof complex->period);
-        good = orient(complex, tags, fault);
-    }
-    if (good) {
-        sides = sort_sides(complex);
-        good = sides || fail(fault, GM_TRIANGULATION_MEMORY);
-    }
-    good = good && make_edges(complex, sides, tags, fault) && make_boundary(complex, tags, fault) &&
-           in_one_piece(complex, tags, fault);
-    if (good) {
-        make_rings(complex);
-        measure(complex);
-        good = take_star(complex, star, tags, fault);
-    }
-    free(sides);
-    if (!good) {
-        gm_complex_close(complex);
-        return NULL;
-    }
-    return complex;
+    fault->kind = GM_TRIANGULATION_OK;
+    return building.complex;
 }
 
 void gm_complex_close(struct gm_complex *complex)
 {
-    if (!complex) {
-        return;
+    if (complex) {
+        gm_arena_close(complex->arena);
     }
-    void *const owned[] = {complex->point,         complex->triangle,      complex->triangle_edge,
-                           complex->triangle_sign, complex->edge,          complex->edge_triangle,
-                           complex->ring_start,    complex->ring_vertex,   complex->ring_edge,
-                           complex->edge_ring,     complex->boundary_edge, complex->boundary_vertex,
-                           complex->length,        complex->area,          complex->weight,
-                           complex->star0,         complex->star1,         complex->loop_start};
-    for (size_t i = 0; i < GM_COUNT(owned); i++) {
-        free(owned[i]);
-    }
-    free(complex);
 }

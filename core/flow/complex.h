@@ -59,6 +59,7 @@ enum gm_star {
    counter-clockwise, edges from their lower to their higher vertex. The dual edge of e points from the
    triangle on the right of e to the one on its left. */
 struct gm_complex {
+    struct gm_arena *arena; /* holds the complex and its arrays */
     size_t vertices, edges, triangles;
     double *point;              /* 2 a vertex */
     double period[2];           /* of a torus; 0: none */
@@ -87,15 +88,27 @@ struct gm_complex {
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
     double smallest_angle, largest_angle; /* in degrees */
+    /* Of a file's: x and y in its own coordinates, 0 where they are these; and triangles that were there twice. */
+    struct gm_complex_origin {
+        double axes[2][3];
+        size_t repeated;
+    } origin;
     double total_area, mean_edge;
 };
 
-/* Builds the complex of `triangles` triangles (3 vertices each, any orientation) on `vertices` points, every
-   one of them used; on a torus of these periods if they are positive (triangles take the nearest images).
-   NULL with a fault if it is no such mesh. `tags`: names of the points for the fault, or NULL. */
-struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], enum gm_star star, const long *tags,
-                                   struct gm_triangulation_fault *fault);
+/* Triangles on points, every one of which is used. */
+struct gm_triangles {
+    const double *points; /* 2 a vertex */
+    size_t vertices;
+    const int *corners; /* 3 vertices a triangle, in any orientation */
+    size_t count;
+    double period[2]; /* of a torus, where triangles take the nearest images; 0: none */
+    enum gm_star star;
+    const long *tags; /* names of the points for a fault; NULL: they are numbered from 1 */
+};
+
+/* Builds the complex. NULL with a fault if the triangles are no such mesh. */
+struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault);
 void gm_complex_close(struct gm_complex *complex);
 
 /* The corners of a triangle, next to each other even on a torus: x0 y0 x1 y1 x2 y2. */

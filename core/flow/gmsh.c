@@ -3,7 +3,7 @@
    1309; Gmsh's reference manual, "MSH file format"): by tables of the sections to a complex with names on its
    edges. */
 #include "core/flow/gmsh.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -50,6 +50,7 @@ struct reader {
     struct curve *curves;
     struct gm_triangulation_group *groups;
     size_t node_count, triangle_count, line_count, curve_count, group_count;
+    struct gm_complex_origin origin;
 };
 
 /* The text: words, numbers, counts. All return false with the reader's fault where the text is not what is
@@ -198,7 +199,7 @@ static bool expect_end(struct reader *reader)
 /* The sections, as tables. */
 
 /* types of elements */
-enum { LINE = 1, TRIANGLE = 2, POINT = 15 };
+enum { LINE = 1, TRIANGLE = 2, LINE_OF_3 = 8, TRIANGLE_OF_6 = 9, POINT = 15 };
 
 /* What follows the line's end is binary, if the file is. */
 static void begin_raw(struct reader *reader)
@@ -502,25 +503,36 @@ static bool read_parametric_nodes(struct reader *reader)
     return read_nodes(reader);
 }
 
-static int corners_of(long type)
+static int nodes_of(long type)
 {
-    return type == POINT ? 1 : type == LINE ? 2 : type == TRIANGLE ? 3 : 0;
+    static const struct {
+        long type;
+        int nodes;
+    } known[] = {{POINT, 1}, {LINE, 2}, {TRIANGLE, 3}, {LINE_OF_3, 3}, {TRIANGLE_OF_6, 6}};
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
+        if (known[i].type == type) {
+            return known[i].nodes;
+        }
+    }
+    return 0;
 }
 
-/* The nodes of an element, whose tag and further tags are read. */
+/* The nodes of an element, whose tag and further tags are read: the corners come first, and those on sides that may be
+   curved are passed over. */
 static bool read_corners(struct reader *reader, long type, struct element element)
 {
-    for (int k = 0; k < corners_of(type); k++) {
-        if (!take_tag(reader, &element.nodes[k], "a node's tag")) {
+    for (int k = 0; k < nodes_of(type); k++) {
+        long tag = 0;
+        if (!take_tag(reader, k < 3 ? &element.nodes[k] : &tag, "a node's tag")) {
             return false;
         }
         if (!reader->raw && reader->line != element.line) {
             return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
         }
     }
-    if (type == TRIANGLE) {
+    if (type == TRIANGLE || type == TRIANGLE_OF_6) {
         reader->triangles[reader->triangle_count++] = element;
-    } else if (type == LINE) {
+    } else if (type == LINE || type == LINE_OF_3) {
         reader->lines[reader->line_count++] = element;
     }
     return true;
@@ -534,7 +546,7 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
         !take_count(reader, &count, "a number of elements")) {
         return false;
     }
-    if (corners_of(type) == 0) {
+    if (nodes_of(type) == 0) {
         return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
     }
     if ((size_t)count > total - *done) {
@@ -573,7 +585,7 @@ static bool read_old_elements(struct reader *reader, size_t total, size_t *done)
                              !take_count(reader, &tags, "a number of tags"))) {
             return false;
         }
-        if (corners_of(type) == 0) {
+        if (nodes_of(type) == 0) {
             return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, element.line, type);
         }
         for (long k = 0; k < tags; k++) {
@@ -712,7 +724,8 @@ static void exchange_if_above(long *a, long *b)
     *a = low;
 }
 
-/* Version 2.2 writes a triangle once for each of its physical surfaces: the first stays. */
+/* Version 2.2 writes a triangle once for each of its physical surfaces, and a surface that was meshed twice is there
+   twice in any: the first stays. */
 static bool drop_repeated(struct reader *reader)
 {
     struct corners *all = malloc((reader->triangle_count + 1) * sizeof *all);
@@ -739,6 +752,7 @@ static bool drop_repeated(struct reader *reader)
         reader->triangles[count] = reader->triangles[t];
         count += reader->triangles[t].line >= 0;
     }
+    reader->origin.repeated = reader->old ? 0 : reader->triangle_count - count;
     reader->triangle_count = count;
     return true;
 }
@@ -762,9 +776,9 @@ static void add_normals(const struct reader *reader, double normal[3])
 
 /* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it; seen
    so that triangles turn left. That of x and y where z is the same everywhere. */
-static void choose_axes(const struct reader *reader, double axes[2][3])
+static void choose_axes(struct reader *reader)
 {
-    double normal[3] = {0};
+    double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
     add_normals(reader, normal);
     const double size = hypot(hypot(normal[0], normal[1]), normal[2]);
     int first = 0;
@@ -786,7 +800,7 @@ static void choose_axes(const struct reader *reader, double axes[2][3])
 static bool lay_flat(struct reader *reader)
 {
     const struct node *origin = NULL;
-    double axes[2][3], low[3] = {0}, high[3] = {0}, extent = 0;
+    double(*axes)[3] = reader->origin.axes, low[3] = {0}, high[3] = {0}, extent = 0;
     for (size_t i = 0; i < reader->node_count; i++) {
         const struct node *node = &reader->nodes[i];
         const double at[3] = {node->x, node->y, node->z};
@@ -800,7 +814,7 @@ static bool lay_flat(struct reader *reader)
     if (high[2] - low[2] <= 1e-9 * extent) {
         return true;
     }
-    choose_axes(reader, axes);
+    choose_axes(reader);
     const struct node from = *origin;
     for (size_t i = 0; i < reader->node_count; i++) {
         struct node *node = &reader->nodes[i];
@@ -956,10 +970,9 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
     if (reader->triangle_count == 0) {
         return fail(reader, GM_TRIANGULATION_EMPTY, "");
     }
-    if (reader->old && !drop_repeated(reader)) {
+    if (!drop_repeated(reader)) {
         return false;
     }
-    const double plane[2] = {0, 0};
     double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);
     int *corners = malloc(3 * reader->triangle_count * sizeof *corners);
     mesh->tags = malloc((reader->node_count + 1) * sizeof *mesh->tags);
@@ -970,9 +983,17 @@ static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangu
     }
     good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
     if (good) {
-        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, star,
-                                        mesh->tags, reader->fault);
+        mesh->complex = gm_complex_open(&(struct gm_triangles){.points = points,
+                                                               .vertices = vertices,
+                                                               .corners = corners,
+                                                               .count = reader->triangle_count,
+                                                               .star = star,
+                                                               .tags = mesh->tags},
+                                        reader->fault);
         good = mesh->complex != NULL;
+        if (good) {
+            mesh->complex->origin = reader->origin;
+        }
         if (!good && reader->fault->triangle > 0 && !reader->binary) {
             reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;
         }

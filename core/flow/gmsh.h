@@ -20,9 +20,9 @@ struct gm_triangulation {
     } * group;
 };
 
-/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of the plane with
-   three nodes, and the lines that carry physical groups, are taken; points are passed over; nodes that
-   nothing uses are dropped. False with a fault, and nothing to close, if the text is no such mesh. */
+/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one
+   plane, and the lines that carry physical groups, are taken, those of the second order by their corners; a triangle
+   that is there twice is taken once; points are passed over; nodes that nothing uses are dropped. False with a fault, and nothing to close, if the text is no such mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
 /* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their edges.

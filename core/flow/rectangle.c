@@ -231,9 +231,12 @@ static bool jiggle(struct pattern *pattern, const struct gm_rectangle *r, const 
 struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_triangulation_fault *fault)
 {
     const size_t n = (size_t)r->edges, m = (size_t)r->strips;
-    const double period[2] = {r->torus ? r->width : 0, r->torus ? r->height : 0};
     struct pattern pattern = {.points = malloc(2 * (m + 1) * (n + 1) * sizeof(double)),
                               .triangles = malloc(3 * 2 * n * m * sizeof(int))};
+    struct gm_triangles from = {.points = pattern.points,
+                                .corners = pattern.triangles,
+                                .period = {r->torus ? r->width : 0, r->torus ? r->height : 0},
+                                .star = GM_STAR_CIRCUMCENTRIC};
     struct gm_complex *complex = NULL;
     *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     if (pattern.points && pattern.triangles) {
@@ -242,8 +245,9 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
         } else {
             lay_rectangle(&pattern, r);
         }
-        complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count, period,
-                                  GM_STAR_CIRCUMCENTRIC, NULL, fault);
+        from.vertices = pattern.vertices;
+        from.count = pattern.count;
+        complex = gm_complex_open(&from, fault);
     }
     if (complex && r->irregular > 0) {
         const bool moved = jiggle(&pattern, r, complex);
@@ -251,8 +255,7 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
         complex = NULL;
         *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
         if (moved) {
-            complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count,
-                                      period, GM_STAR_CIRCUMCENTRIC, NULL, fault);
+            complex = gm_complex_open(&from, fault);
         }
     }
     free(pattern.points);

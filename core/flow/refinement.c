@@ -62,8 +62,17 @@ bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
     if (points && tags && corners) {
         place_vertices(coarse, mesh->tags, points, tags);
         divide_triangles(coarse, corners);
-        fine =
-            gm_complex_open(points, finer, corners, 4 * coarse->triangles, coarse->period, star, tags, fault);
+        fine = gm_complex_open(&(struct gm_triangles){.points = points,
+                                                      .vertices = finer,
+                                                      .corners = corners,
+                                                      .count = 4 * coarse->triangles,
+                                                      .period = {coarse->period[0], coarse->period[1]},
+                                                      .star = star,
+                                                      .tags = tags},
+                               fault);
+    }
+    if (fine) {
+        fine->origin = coarse->origin;
     }
     halved.complex = fine;
     halved.edge_group = fine ? calloc(fine->edges, sizeof *halved.edge_group) : NULL;

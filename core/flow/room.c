@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <float.h>
 #include <math.h>

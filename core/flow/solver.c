@@ -9,7 +9,7 @@
        z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - C_IJ w_J - B_IO w_O)
    That is the better, the thinner the layer is that walls make in a step. */
 #include "core/flow/solver.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <math.h>
 #include <stdlib.h>

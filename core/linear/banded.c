@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 
 bool gm_banded_open(struct gm_banded *matrix, size_t n, size_t band)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/larger.h"
+#include "core/basics.h"
 
 enum { DISTANCES = 4 };
 

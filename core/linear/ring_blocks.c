@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 #include "core/linear/eigenvalues.h"
 
 enum { MOST = GM_RING_BLOCKS_MOST };

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 
 GM_CLONES void gm_sines(const double *restrict x, double *restrict sine, size_t count)
 {

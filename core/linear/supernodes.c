@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 
 #define REAL double
 #define STORED double

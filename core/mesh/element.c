@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The element Lagrangian, the constraint and their derivatives, as core/mesh/element.h states them. */
 #include "core/mesh/element.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <math.h>
 #include <stdlib.h>

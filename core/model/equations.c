@@ -9,7 +9,7 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
-#include "core/model/legendre.h"
+#include "core/linear/iteration.h"
 #include "core/model/reader.h"
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
@@ -510,29 +510,33 @@ struct transform {
     double *variables, *values; /* of the graph */
     const gm_node_id *parts;    /* nodes that are evaluated: part_count; NULL: the first so many */
     size_t part_count;
-    const bool *given; /* velocities that need not be found; NULL: none is */
+    const bool *given;    /* velocities that need not be found; NULL: none is */
+    const double *wanted; /* the momenta, or such velocities */
 };
 
-/* gm_legendre_momenta; of a velocity that is given itself */
-static void momenta_at(void *data, const double *v, double *p, struct gm_mass *mass)
+/* p - dL/dv and the mass matrix, of a velocity that is given what it still differs by; gm_linear_equations */
+static bool momenta_at(void *data, const double *v, double *residual, double *matrix, double *scale)
 {
-    struct transform *transform = data;
+    const struct transform *transform = data;
     const struct gm_user_system *system = transform->system;
-    memcpy(transform->variables + system->velocities, v, system->n / 2 * sizeof *v);
+    const size_t half = system->n / 2;
+    memcpy(transform->variables + system->velocities, v, half * sizeof *v);
     gm_formula_evaluate_parts(&system->graph, transform->parts, transform->part_count, transform->variables,
                               transform->values);
-    memset(mass->entries, 0, mass->n * mass->n * sizeof(double));
-    for (size_t i = 0; i < system->n / 2; i++) {
+    memset(matrix, 0, half * half * sizeof *matrix);
+    for (size_t i = 0; i < half; i++) {
         const bool given = transform->given && transform->given[i];
-        p[i] = given ? v[i] : transform->values[system->momenta[i]];
-        mass->entries[i * mass->n + i] = given;
+        residual[i] = transform->wanted[i] - (given ? v[i] : transform->values[system->momenta[i]]);
+        matrix[i * half + i] = given;
     }
     for (size_t i = 0; i < system->mass.count; i++) {
         const struct gm_sparse_entry *entry = &system->mass.entries[i];
         if (!transform->given || !transform->given[entry->row]) {
-            mass->entries[entry->row * mass->n + entry->column] = transform->values[entry->node];
+            matrix[entry->row * half + entry->column] = transform->values[entry->node];
         }
     }
+    *scale += gm_sum_of(v, half);
+    return true;
 }
 
 /* Velocities that were not given follow from the momenta that were. False: out of memory. */
@@ -541,22 +545,32 @@ static bool find_velocities(struct transform transform)
     const struct gm_user_system *system = transform.system;
     const double *variables = transform.variables;
     const size_t half = system->n / 2;
-    double *scratch = malloc(5 * half * sizeof *scratch), *v = transform.variables + system->velocities;
+    double *scratch = malloc((2 * half + gm_newton_scratch(half)) * sizeof *scratch),
+           *v = transform.variables + system->velocities;
     bool *given = malloc(half * sizeof *given);
-    struct gm_mass mass = {0};
-    const bool opened = scratch && given && gm_mass_open(&mass, half);
+    const bool opened = scratch && given;
     if (opened) {
-        transform.given = given;
+        const struct gm_implicit_equations equations = {.size = half,
+                                                        .data = &transform,
+                                                        .linear = momenta_at,
+                                                        .counted = half,
+                                                        .least = 0x1p-52,
+                                                        .roundoff = 0x1p-40,
+                                                        .halved = true};
+        struct gm_progress ignored = {0};
         double *wanted = scratch, *found = scratch + half;
+        transform.given = given;
+        transform.wanted = wanted;
         for (size_t i = 0; i < half; i++) {
             given[i] = !isnan(v[i]);
             wanted[i] = given[i] ? v[i] : variables[half + i];
             found[i] = given[i] ? v[i] : 0;
         }
-        gm_legendre_solve(half, false, momenta_at, &transform, wanted, &mass, scratch + 2 * half, found);
-        memcpy(v, found, half * sizeof *v);
+        const bool solved = gm_newton_solve(&equations, scratch + 2 * half, found, &ignored);
+        for (size_t i = 0; i < half; i++) {
+            v[i] = solved ? found[i] : NAN;
+        }
     }
-    gm_mass_close(&mass);
     free(given);
     free(scratch);
     return opened;
@@ -658,21 +672,36 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
     return variables;
 }
 
+/* Whether momenta determine velocities: no pivot of the mass matrix (half * half, after `half` numbers of room) is small
+   beside its largest entry. */
+static bool is_regular(double *scratch, size_t half)
+{
+    double *mass = scratch + half, largest = 0;
+    for (size_t i = 0; i < half * half; i++) {
+        largest = fmax(largest, fabs(mass[i]));
+    }
+    bool regular = gm_eliminate(half, mass, scratch);
+    for (size_t i = 0; i < half && regular; i++) {
+        const double pivot = fabs(mass[i * half + i]);
+        regular = pivot > 1e-14 * largest && isfinite(pivot);
+    }
+    return regular;
+}
+
 bool gm_equations_check_legendre(const struct gm_user_system *system, double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
-    struct gm_mass mass = {0};
-    double *scratch = malloc(2 * half * sizeof *scratch),
+    double *scratch = malloc((2 + half) * half * sizeof *scratch), unused = 0,
            *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
-    const bool opened = scratch && values && gm_mass_open(&mass, half);
+    const bool opened = scratch && values;
     bool regular = false;
     if (opened) {
-        struct transform transform = {system, start, values, NULL, system->graph.count, NULL};
-        memcpy(scratch, start + system->velocities, half * sizeof *scratch);
-        momenta_at(&transform, scratch, scratch + half, &mass);
-        regular = gm_mass_factor(&mass, 1e-14);
+        double *v = scratch + (1 + half) * half;
+        struct transform transform = {system, start, values, NULL, system->graph.count, NULL, v};
+        memcpy(v, start + system->velocities, half * sizeof *v);
+        momenta_at(&transform, v, scratch, scratch + half, &unused);
+        regular = is_regular(scratch, half);
     }
-    gm_mass_close(&mass);
     free(values);
     free(scratch);
     if (!opened || regular) {

@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -28,6 +29,34 @@ bool gm_temporary_can_replace(const char *path, char *message)
 
 enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
 
+/* The names that are in use; whoever exchanges one has it for itself. */
+enum { HELD = 64 };
+static _Atomic(char *) held[HELD];
+
+/* In the place of a file that is not there: it was renamed, or was never made. */
+static void hold(const char *name)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    char *copy = strdup(name);
+    size_t i = 0;
+    pthread_mutex_lock(&lock);
+    while (i < HELD && held[i] && access(held[i], F_OK) == 0) {
+        i++;
+    }
+    free(i < HELD ? atomic_exchange(&held[i], copy) : copy);
+    pthread_mutex_unlock(&lock);
+}
+
+void gm_temporary_remove_all(void)
+{
+    for (size_t i = 0; i < HELD; i++) {
+        const char *name = atomic_exchange(&held[i], NULL);
+        if (name) {
+            unlink(name);
+        }
+    }
+}
+
 char *gm_temporary_name(const char *path, const char *ending)
 {
     static atomic_uint counter;
@@ -41,6 +70,7 @@ char *gm_temporary_name(const char *path, const char *ending)
         errno = ENOMEM;
         return NULL;
     }
+    hold(temporary);
     return temporary;
 }
 

@@ -26,6 +26,9 @@ int gm_temporary_write(const char *path, const void *bytes, size_t size);
 /* A name in path's folder that no other thread or process uses, ending in `ending`; malloc'ed. */
 char *gm_temporary_name(const char *path, const char *ending);
 
+/* Removes those that this process has now, as the last thing that it does; a signal's handler may. */
+void gm_temporary_remove_all(void);
+
 /* Removes the temporaries of path that processes left which are gone. */
 void gm_temporary_sweep(const char *path);
 

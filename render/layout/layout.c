@@ -145,6 +145,18 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
+/* The bytes of a title before "then" that another title begins with, too: two forks of one scheme differ behind them. */
+static size_t fork_front(const struct group *group, size_t index)
+{
+    const char *title = group->frames[index].panel->title, *then = strstr(title, ", then ");
+    const size_t front = then ? (size_t)(then - title) + 2 : 0;
+    bool shared = false;
+    for (size_t i = 0; front > 0 && i < group->count; i++) {
+        shared = shared || (i != index && strncmp(title, group->frames[i].panel->title, front) == 0);
+    }
+    return shared ? front : 0;
+}
+
 /* The bytes up to a comma and blank with which the titles of all states begin: what the others of them say
    tells them apart. The scheme that another one took over from stays before it. */
 static size_t common_front(const struct group *group)
@@ -274,6 +286,11 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     const size_t skip = titles_too_long(list, group, GM_TEXT_TICK, column) ? common_front(group) : 0;
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_panel *panel = group->frames[i].panel;
+        const char *lines[GM_TITLE_LINES], *title = panel->title + skip;
+        const size_t most = group->title_lines > 1 ? group->title_lines : 1;
+        const bool cut =
+            small_titles && title && fork_front(group, i) > skip &&
+            !gm_lines_are_whole(lines, gm_labels_wrap(list, GM_TEXT_TICK, title, column, most, lines), title);
         const double x = group->area.x + (double)(i % group->columns) * (column + column_gap * scale);
         const double y = group->area.y + (double)(i / group->columns) * (row + row_gap * scale);
         struct gm_box box = {x + border.left, y + border.top, width, height};
@@ -296,7 +313,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
                                        .note_words = note_words(list, group, i, column),
                                        .small_title = small_titles,
                                        .title_lines = group->title_lines,
-                                       .title_skip = skip,
+                                       .title_skip = cut ? fork_front(group, i) : skip,
                                        .title_left = x,
                                        .title_width = column});
     }

@@ -16,7 +16,7 @@ struct chunk {
     unsigned char *bytes;
 };
 
-struct gm_arena {
+struct gm_picture_store {
     struct chunk *chunk; /* the newest; the others are full */
     size_t total;        /* size of all chunks */
     /* What callers get when memory is short: they may write to it, nobody reads it. */
@@ -60,14 +60,14 @@ static void chunks_close(struct chunk *chunk)
 
 static void picture_reset(struct gm_picture *picture)
 {
-    struct gm_arena *arena = picture->arena;
+    struct gm_picture_store *arena = picture->arena;
     *picture = (struct gm_picture){.title = "", .subtitle = "", .clock = "", .caption = "", .arena = arena};
 }
 
 struct gm_picture *gm_picture_open(void)
 {
     struct gm_picture *picture = malloc(sizeof *picture);
-    struct gm_arena *arena = calloc(1, sizeof *arena);
+    struct gm_picture_store *arena = calloc(1, sizeof *arena);
     if (!picture || !arena) {
         free(picture);
         free(arena);
@@ -90,7 +90,7 @@ void gm_picture_close(struct gm_picture *picture)
 
 void gm_picture_clear(struct gm_picture *picture)
 {
-    struct gm_arena *arena = picture->arena;
+    struct gm_picture_store *arena = picture->arena;
     /* Several chunks become one, so that frames of one kind soon need no allocation at all. */
     if (arena->chunk && arena->chunk->next) {
         chunks_close(arena->chunk);
@@ -107,7 +107,7 @@ void gm_picture_clear(struct gm_picture *picture)
 
 void *gm_picture_memory(struct gm_picture *picture, size_t size)
 {
-    struct gm_arena *arena = picture->arena;
+    struct gm_picture_store *arena = picture->arena;
     if (size > SIZE_MAX / 4) {
         return NULL;
     }

@@ -130,7 +130,7 @@ struct gm_picture {
     size_t state_columns;            /* of the grid of states; 0: as many as make them largest */
     bool graphs_below;               /* graphs may stand in a row under the states, if these are larger so */
     struct gm_panel *first, *last;
-    struct gm_arena *arena;
+    struct gm_picture_store *arena;
 };
 
 /* An empty picture; NULL when memory is short. Memory that runs short later makes marks disappear,

@@ -67,15 +67,21 @@ static void look_at_start(struct gm_lane *lane)
     const double most = 1e-8;
     const unsigned long refusals = gm_memory_refusals();
     struct gm_view before = gm_lane_view(lane);
+    struct gm_run *begun = before.memory ? gm_run_open(&lane->problem, lane->scheme, &lane->settings,
+                                                       lane->t0, lane->run->dt, lane->start)
+                                         : NULL;
     before.state = lane->start;
     before.t = lane->t0;
-    before.memory = NULL;
+    before.memory = begun ? gm_run_memory(begun) : NULL;
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         const struct gm_observable *observable = before.observable = &lane->scene->observables[i];
         const double terms = observable->terms ? observable->terms(&before) : 0;
         lane->initials[i] = observable->error ? gm_observe(observable, &before) : 0;
         const bool cancels = terms > 0 && fabs(lane->initials[i]) <= most * terms;
         lane->cancelled[i] = cancels && isfinite(terms) ? terms : 0;
+    }
+    if (begun) {
+        gm_run_close(begun);
     }
     settle(lane, refusals);
 }
@@ -121,6 +127,13 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
     return divisor_of(&lane->scene->observables[observable], &view);
 }
 
+/* The error from which on what is kept is lost: of what a symplectic scheme loses by turns a smaller one, and one more
+   where it is symplectic on two copies of phase space together, which keep nothing of either once they part. */
+static double lost_above(const struct gm_scheme *scheme)
+{
+    return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : GM_LOST_ABOVE;
+}
+
 long gm_lane_lost(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
@@ -136,7 +149,7 @@ long gm_lane_lost(const struct gm_lane *lane)
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
         const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
-        if ((error > GM_LOST_ABOVE || decayed) && error > most) {
+        if ((error > lost_above(lane->scheme) || decayed) && error > most) {
             most = error;
             lost = (long)i;
         }
@@ -155,11 +168,19 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_view view = gm_lane_view(lane);
     const double error = gm_lane_observe(lane, (size_t)lost);
     const double left = gm_observe(observable, &view) / initial_of(observable, &view);
-    if (error <= GM_LOST_ABOVE && left >= 0) {
+    if (error <= lost_above(lane->scheme) && left >= 0) {
         snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
                  observable->key, error, left);
     } else {
         snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
+    }
+}
+
+void gm_lane_note(const struct gm_lane *lane, char *sentence)
+{
+    sentence[0] = '\0';
+    if (lane->scene->note) {
+        lane->scene->note(&lane->problem, lane->parameters, sentence);
     }
 }
 

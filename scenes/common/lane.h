@@ -76,6 +76,8 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 long gm_lane_lost(const struct gm_lane *lane);
 /* One sentence on it; "" where there is none. */
 void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size);
+/* What is to be known of how the lane's files were read, "" or a sentence (GM_MESSAGE). */
+void gm_lane_note(const struct gm_lane *lane, char *sentence);
 
 /* Takes the present state into history and tracks: once after every step that is looked at. */
 void gm_lane_record(struct gm_lane *lane);

@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_FRAME_ROWS_H
 #define GM_SCENES_FRAME_ROWS_H
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/parameter.h"
 
 /* The rows of a scene's tables. A row ends with a text (the help of a parameter, the title of an observable),

@@ -39,7 +39,7 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
-    const double *memory;                   /* the scheme's own; NULL if it has none, and at the start */
+    const double *memory;                   /* the scheme's own; NULL if it has none */
     const struct gm_entries *tracks;        /* the scene's, as recorded so far; NULL while a lane is opened */
     const struct gm_run *run;               /* for what a scheme says of itself */
     size_t member;                          /* that a track with `each` is asked of */
@@ -219,6 +219,8 @@ struct gm_scene {
     void (*chosen)(const struct gm_problem *problem, void *parameters);
     /* Whether the files that the parameters name can be read; a sentence if not. NULL: they name none. */
     bool (*readable)(const void *parameters, char *sentence);
+    /* What is to be known of how the files were read, "" or a sentence; NULL: nothing. */
+    void (*note)(const struct gm_problem *problem, const void *parameters, char *sentence);
     /* Frees what setup made for the problem; NULL if it makes nothing. */
     void (*close)(struct gm_problem *problem);
     /* Writes the canonical state at t0 (n * m). */

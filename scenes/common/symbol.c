@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 
 const char *gm_greek(const char *name, size_t length)
 {

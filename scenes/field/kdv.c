@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/profile.h"
 #include "core/field/problems/dispersive.h"
-#include "core/larger.h"
 #include "scenes/field/local_laws.h"
 #include "scenes/field/moving_frame.h"
 

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/user/form.h"
@@ -384,12 +384,12 @@ static double solution_error(const struct gm_view *view)
 
 static double form_energy(const struct gm_view *view)
 {
-    return gm_form_energy(view->problem, view->scheme, view->state);
+    return gm_form_energy(view->problem, view->scheme, view->memory);
 }
 
 static double form_momentum(const struct gm_view *view)
 {
-    return gm_form_momentum(view->problem, view->scheme, view->state);
+    return gm_form_momentum(view->problem, view->scheme, view->memory);
 }
 
 /* What linear theory says about the state, before a step beyond it blows up. */
@@ -414,26 +414,29 @@ static double crest(const struct gm_view *view)
     return gm_grid1_node(grid, top) + (bend < 0 ? grid->dx * (left - right) / (2 * bend) : 0);
 }
 
-/* The integral of a density of components, by Gauss's rule at the stages of the cells: of one stage, of their means. */
+/* The integral of a density of components, by Gauss's rule at the stages of the cells, which a run remembers; at the
+   nodes of a state that no run has come to. */
 static double integral_of_cells(const struct gm_view *view, const struct gm_tape *density, bool magnitude)
 {
+    static const double left = 0, whole = 1;
     const struct gm_user_system *system = &field_of(view)->system;
     const struct gm_grid1 *grid = &view->problem->line;
     const struct gm_collocation_tableau *tableau = view->scheme->coefficients;
-    const size_t r = tableau->r;
-    double *stages = gm_any_form_stages(view->problem, view->scheme, view->dt, view->state, view->memory);
-    double *values = values_of(view->parameters, NULL), sum = values && stages ? 0 : NAN, value;
-    for (size_t at = 0; values && stages && at < r * grid->points; at++) {
+    const bool stepped = view->memory != NULL;
+    const size_t r = stepped ? tableau->r : 1;
+    const double *stages = stepped ? gm_any_form_stages(view->memory) : view->state;
+    const double *nodes = stepped ? tableau->c : &left, *weights = stepped ? tableau->b : &whole;
+    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, value;
+    for (size_t at = 0; values && at < r * grid->points; at++) {
         const size_t i = at / r, m = at % r;
         for (size_t c = 0; c < system->n; c++) {
             values[c] = stages[(c * r + m) * grid->points + i];
         }
-        values[system->velocities] = gm_grid1_node(grid, i) + tableau->c[m] * grid->dx;
+        values[system->velocities] = gm_grid1_node(grid, i) + nodes[m] * grid->dx;
         gm_tape_values(density, values, &value, 1);
-        sum += tableau->b[m] * (magnitude ? fabs(value) : value);
+        sum += weights[m] * (magnitude ? fabs(value) : value);
     }
     free(values);
-    free(stages);
     return sum * grid->dx;
 }
 

@@ -90,7 +90,7 @@ static double solution_error(const struct gm_view *view)
 
 static double energy(const struct gm_view *view)
 {
-    return gm_wave_own_energy(view->problem, view->scheme, view->state);
+    return gm_wave_own_energy(view->problem, view->scheme, view->state, view->memory);
 }
 
 /* What the terms of the printed equations are at a node, between the level before and one step of leapfrog

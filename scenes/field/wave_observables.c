@@ -19,7 +19,7 @@ double gm_view_energy(const struct gm_view *view)
 
 double gm_view_own_energy(const struct gm_view *view)
 {
-    return seen(view, gm_wave_own_energy(view->problem, view->scheme, view->state));
+    return seen(view, gm_wave_own_energy(view->problem, view->scheme, view->state, view->memory));
 }
 
 double gm_view_momentum(const struct gm_view *view)

@@ -64,7 +64,7 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     case GM_TRIANGULATION_ELEMENT:
         snprintf(
             sentence, GM_MESSAGE,
-            "%.100s%s: elements of type %ld; only triangles with three nodes (type 2) and their sides are read",
+            "%.100s%s: elements of type %ld; only triangles of three or six nodes (types 2 and 9) and their sides are read",
             what, where, n[0]);
         return;
     case GM_TRIANGULATION_THREE_D:
@@ -229,6 +229,26 @@ void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
     struct gm_flows *flows = parameters;
     const bool square = strcmp(flows->mesh, "none") == 0;
     flows->star = square ? flows->star : (int)gm_flow_of(problem)->complex->star;
+}
+
+void gm_flows_note(const struct gm_problem *problem, const void *parameters, char *sentence)
+{
+    (void)parameters;
+    const struct gm_complex_origin *origin = &gm_flow_of(problem)->complex->origin;
+    const double *x = origin->axes[0], *y = origin->axes[1];
+    size_t used = 0;
+    for (int k = 0; k < 3 && used == 0; k++) {
+        if (x[k] != 0) {
+            used = (size_t)snprintf(
+                sentence, GM_MESSAGE,
+                "the mesh lies in a plane of its own: x is its direction (%.3g, %.3g, %.3g), y is (%.3g, %.3g, %.3g)",
+                x[0] + 0., x[1] + 0., x[2] + 0., y[0] + 0., y[1] + 0., y[2] + 0.);
+        }
+    }
+    if (origin->repeated > 0) {
+        snprintf(sentence + used, GM_MESSAGE - used, "%striangles that the mesh has twice count once: %zu",
+                 used > 0 ? "; " : "", origin->repeated);
+    }
 }
 
 long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)

@@ -88,6 +88,8 @@ bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_s
 
 /* Notes the star that was taken where it was left to the mesh. */
 void gm_flows_chosen(const struct gm_problem *problem, void *parameters);
+/* gm_scene.note: the axes of a mesh that lies in another plane than that of x and y, and triangles that are there twice. */
+void gm_flows_note(const struct gm_problem *problem, const void *parameters, char *sentence);
 
 /* Whether the mesh of the parameters, if they name one, can be read; a sentence if not. */
 bool gm_flows_readable(const void *parameters, char *sentence);

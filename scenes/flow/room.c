@@ -279,6 +279,7 @@ const struct gm_scene gm_scene_room = {
     .setup = setup,
     .readable = gm_flows_readable,
     .chosen = gm_flows_chosen,
+    .note = gm_flows_note,
     .close = gm_flows_close,
     .start = gm_flows_start,
     .draw = draw,

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/basics.h"
 #include "core/files/files.h"
-#include "core/larger.h"
 #include "scenes/flow/flows.h"
 
 /* What an observable of a room looks at. */
@@ -687,6 +687,7 @@ const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name,
         .setup = setup,
         .readable = readable,
         .chosen = gm_flows_chosen,
+        .note = gm_flows_note,
         .close = gm_flows_close,
         .start = gm_flows_start,
         .draw = draw,

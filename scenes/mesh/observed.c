@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "core/larger.h"
+#include "core/basics.h"
 #include "scenes/common/lane.h"
 
 enum { PATHS = 255 /* most nodes whose paths are recorded */ };

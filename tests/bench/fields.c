@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/burgers.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"

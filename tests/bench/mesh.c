@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"

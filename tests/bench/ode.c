@@ -10,7 +10,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 
 void gm_hand_kepler_verlet(double *y, double h, long steps)
 {

@@ -15,7 +15,7 @@
 #include "app/native/engine.h"
 #include "app/output/say.h"
 #include "app/words/request.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"

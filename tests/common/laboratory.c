@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs to their end, for what tests measure of them. */
 #include "tests/common/laboratory.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <math.h>
 #include <setjmp.h>

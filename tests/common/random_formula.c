@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas that nobody would write. */
 #include "tests/common/random_formula.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -20,7 +20,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 #include "core/schemes.h"

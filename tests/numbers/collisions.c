@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/problems/dispersive.h"
 #include "core/run.h"
 #include "core/schemes.h"

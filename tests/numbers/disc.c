@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/common/lane.h"
 
 static void expect(const char *what, double value, double expected, double relative)

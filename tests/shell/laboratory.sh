@@ -83,6 +83,13 @@ grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.cs
 grep -q '^stiff,verlet,50,1.95.*,bounded,ok,' "$folder/stiff-stability.csv" || fail "Verlet is not bounded at 1.95"
 grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in the table"
 
+# a map does not depend on how many runs are made at once
+for jobs in 1 2; do
+    "$geomint" stability stiff scheme=verlet,rk4 until=2 --jobs $jobs --size 320x180 --out "$folder/jobs$jobs" \
+        >"$folder/out" 2>"$folder/err" || fail "stability --jobs $jobs: $(cat "$folder/err")"
+done
+cmp -s "$folder/jobs1/stiff-stability.csv" "$folder/jobs2/stiff-stability.csv" || fail 'another number of jobs makes another map'
+
 # bounded and accurate are two questions: RK4 with 40 steps a period and e = 0.5 is the one, not the other
 for judge in bounded accurate=1e-2; do
     "$geomint" stability kepler scheme=rk4 until=8*pi --judge $judge --size 320x180 --out "$folder" >"$folder/out" \

@@ -236,6 +236,40 @@ def taken(session):
         return 0
 
 
+def opens_for_long(what):
+    """A run whose files are open, and whose lane takes long to open, which does not look at signals."""
+    session = Session(what, [geomint, 'run', 'taylor-green', 'columns=512', 'until=100', '--csv', 'rows.csv'])
+    yield session
+    yield lambda: session.ended() or os.path.exists(os.path.join(session.folder, 'rows.csv'))
+    return session
+
+
+def cut_off(session, most):
+    """Ends within so many seconds of a processor."""
+    before = taken(session)
+    yield session.ended
+    if session.status != 130 << 8:
+        session.error = f'its status is {session.status:#x}'
+    elif session.used - before > most:
+        session.error = f'it goes on for {session.used - before:.1f} s'
+    elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
+        session.error = f'it leaves {left}'
+
+
+def interrupted_once(name):
+    session = yield from opens_for_long(f'{name} while a lane opens')
+    session.send(name)
+    yield from cut_off(session, 3)
+
+
+def insisted():
+    session = yield from opens_for_long('two signals while a lane opens')
+    session.send('SIGTERM')
+    yield passed(0.3)
+    session.send('SIGINT')
+    yield from cut_off(session, 1)
+
+
 def interrupted(name, words, under_way=0.5, most=2):
     """A command that would go on for long, and has begun to: it ends within so many seconds of a processor."""
     session = Session(f'{name} in geomint {words}', [geomint, *words.split()])
@@ -244,15 +278,8 @@ def interrupted(name, words, under_way=0.5, most=2):
     if session.ended():
         session.error = f'it ends by itself: {session.seen[-200:]}'
         return
-    before = taken(session)
     session.send(name)
-    yield session.ended
-    if session.status != 130 << 8:
-        session.error = f'its status is {session.status:#x}'
-    elif session.used - before > most:
-        session.error = f'it goes on for {session.used - before:.1f} s'
-    elif left := [file for file in os.listdir(session.folder) if '.tmp' in file]:
-        session.error = f'it leaves {left}'
+    yield from cut_off(session, most)
 
 
 def long_picture(folder):
@@ -372,6 +399,7 @@ def plays(folder):
         for words in LONG:
             yield interrupted(name, words)
         yield interrupted(name, 'render disc --size 12000x12000', 1)
+        yield interrupted_once(name)
         yield interrupted(name, 'again ' + long_picture(folder))
         if shutil.which('ffmpeg'):
             yield interrupted(name, 'tour area --movie area.mp4', most=20)  # with all that ffmpeg took
@@ -380,6 +408,7 @@ def plays(folder):
     yield faulting(0)
     yield faulting(1)
     yield deaf()
+    yield insisted()
     for pause in (0, 0.001, 0.003, 0.01, 0.03):
         yield never_stopped(pause)
     yield stopped()

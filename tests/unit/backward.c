@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/splitting/splitting.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/layout/layout.h"
 #include "render/pixels/canvas.h"
 

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/cells/cells.h"
 
 static struct gm_cells cells_of(int columns, int rows)

@@ -17,7 +17,7 @@
 #include <cmocka.h>
 
 #include "app/words/drive.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/picture/picture.h"
 #include "scenes/common/lane_pack.h"
 #include "tests/common/folder.h"

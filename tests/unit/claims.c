@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/lobatto.h"

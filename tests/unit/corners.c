@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "app/words/request.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 
 enum { STEPS = 4, SECONDS = 120, WORD = 96, MOST_WORDS = 16 };

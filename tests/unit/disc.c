@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "tests/common/lane.h"
 

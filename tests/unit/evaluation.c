@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/expression/reader.h"
 #include "core/tape.h"

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "app/figures/figure.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/common/folder.h"
 
 static const struct gm_figure *find(const char *name, const struct gm_scene **of)

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
@@ -504,8 +504,14 @@ static struct gm_flow *torus(double viscosity)
     for (size_t i = 0; i < 480; i++) {
         triangles[i] = (int)corners[i];
     }
-    struct gm_complex *complex = gm_complex_open(reference("torus_vertices", 160), 80, triangles, 160,
-                                                 (const double[]){1, 1}, GM_STAR_CIRCUMCENTRIC, NULL, &fault);
+    struct gm_complex *complex =
+        gm_complex_open(&(struct gm_triangles){.points = reference("torus_vertices", 160),
+                                               .vertices = 80,
+                                               .corners = triangles,
+                                               .count = 160,
+                                               .period = {1, 1},
+                                               .star = GM_STAR_CIRCUMCENTRIC},
+                        &fault);
     assert_non_null(complex);
     assert_int_equal(complex->boundary, 0);
     assert_int_equal((long)complex->vertices - (long)complex->edges + (long)complex->triangles, 0);

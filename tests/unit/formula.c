@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"

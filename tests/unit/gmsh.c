@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "tests/common/meshes.h"
 
 static struct gm_triangulation_fault fault_of(const char *text, size_t size)
@@ -142,7 +142,7 @@ static void sentences(void **unused)
         {OLD, GM_TRIANGULATION_EMPTY, 0},
         {OLD "$Nodes\n9\n1 0 0 0\n", GM_TRIANGULATION_TRUNCATED, 5},
         {OLD OLD_SQUARE "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n", GM_TRIANGULATION_ELEMENT, 13},
-        {OLD OLD_SQUARE "$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n", GM_TRIANGULATION_ELEMENT, 13},
+        {OLD OLD_SQUARE "$Elements\n1\n1 9 2 1 1 1 2 3 4 5\n$EndElements\n", GM_TRIANGULATION_SYNTAX, 14},
         {OLD OLD_SQUARE "$Elements\n1\n1 2 2 1 1 1 2 7\n$EndElements\n", GM_TRIANGULATION_UNKNOWN_NODE, 13},
         {OLD OLD_SQUARE "$Elements\n2\n1 2 2 1 1 1 2 3\n$EndElements\n", GM_TRIANGULATION_SYNTAX, 14},
         {HEAD, GM_TRIANGULATION_EMPTY, 0},
@@ -249,6 +249,28 @@ static void as_written(void **unused)
     gm_triangulation_close(&mesh);
 }
 
+/* Triangles of the second order are their corners, lines their ends, and what is there twice counts once. */
+static void second_order_and_twice(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {
+        HEAD SQUARE ELEMENTS("1 3 1 3\n2 1 2 3\n1 1 2 3\n2 1 3 4\n3 3 1 2\n"),
+        HEAD "$Nodes\n1 9 1 9\n2 1 0 9\n1\n2\n3\n4\n5\n6\n7\n8\n9\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n.5 -.1 0\n"
+             ".5 .5 0\n0 .5 0\n1 .5 0\n.5 1 0\n$EndNodes\n" ELEMENTS(
+                 "2 3 1 3\n1 1 8 1\n3 1 2 5\n2 1 9 2\n1 1 2 3 5 6 7\n2 2 4 3 8 9 6\n")};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        struct gm_triangulation mesh;
+        struct gm_triangulation_fault fault;
+        if (!gm_triangulation_read(texts[i], strlen(texts[i]), GM_STAR_AUTO, &mesh, &fault)) {
+            fail_msg("text %zu: fault %d in line %ld", i, (int)fault.kind, fault.line);
+        }
+        assert_int_equal(mesh.complex->triangles, 2);
+        assert_int_equal(mesh.complex->vertices, 4);
+        assert_true(fabs(mesh.complex->total_area - (i == 0 ? 1.16 : 1)) < 1e-15);
+        gm_triangulation_close(&mesh);
+    }
+}
+
 /* Halved, a mesh is the same polygon with the same angles, names and vertices. */
 static void halves(void **unused)
 {
@@ -313,9 +335,16 @@ static void boundaries(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(good_files),   cmocka_unit_test(broken_files), cmocka_unit_test(sentences),
-        cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),   cmocka_unit_test(formats),
-        cmocka_unit_test(stars),        cmocka_unit_test(halves),       cmocka_unit_test(as_written),
+        cmocka_unit_test(good_files),
+        cmocka_unit_test(broken_files),
+        cmocka_unit_test(sentences),
+        cmocka_unit_test(cut_anywhere),
+        cmocka_unit_test(boundaries),
+        cmocka_unit_test(formats),
+        cmocka_unit_test(stars),
+        cmocka_unit_test(halves),
+        cmocka_unit_test(second_order_and_twice),
+        cmocka_unit_test(as_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

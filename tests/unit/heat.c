@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/families/heat.h"
 #include "core/run.h"
 #include "core/schemes.h"

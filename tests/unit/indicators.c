@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/run.h"
 #include "core/schemes.h"

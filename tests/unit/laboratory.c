@@ -12,9 +12,8 @@
 
 #include <cmocka.h>
 
-#include "app/grid/stability.h"
-#include "app/grid/work.h"
-#include "core/count.h"
+#include "app/grid/judge.h"
+#include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"
@@ -344,21 +343,21 @@ static void bindings_of_stiff_springs(void **unused)
 static void prices(void **unused)
 {
     (void)unused;
-    struct gm_work_point points[] = {
+    struct gm_grid_cell points[] = {
         {.error = 1e-2, .seconds = 1e-3, .evaluations = 10},
         {.error = 1e-4, .seconds = 4e-3, .evaluations = 40},
         {.error = NAN, .seconds = 8e-3, .evaluations = 80},
         {.error = 1e-8, .seconds = 16e-3, .evaluations = 160},
     };
-    const struct gm_work_line line = {.points = points, .count = 4};
+    const struct gm_grid_line line = {.cells = points, .count = 4};
     assert_true(fabs(gm_work_price(&line, 1e-3, GM_COST_SECONDS) - 2e-3) < 1e-15);
     assert_true(fabs(gm_work_price(&line, 1e-3, GM_COST_EVALUATIONS) - 20) < 1e-11);
     assert_true(gm_work_price(&line, 1e-1, GM_COST_SECONDS) == 1e-3);
     assert_true(gm_work_price(&line, 1e-6, GM_COST_SECONDS) == 16e-3); /* nothing is known in between */
     assert_true(isnan(gm_work_price(&line, 1e-9, GM_COST_SECONDS)));
-    struct gm_work_point better[] = {{.error = 1e-5, .seconds = 3e-3, .evaluations = 100}};
-    struct gm_work_line lines[] = {line, {.points = better, .count = 1}};
-    const struct gm_work_table table = {.lines = lines, .line_count = 2};
+    struct gm_grid_cell better[] = {{.error = 1e-5, .seconds = 3e-3, .evaluations = 100}};
+    struct gm_grid_line lines[] = {line, {.cells = better, .count = 1}};
+    const struct gm_grid table = {.lines = lines, .count = 2, .begun = 2};
     assert_ptr_equal(gm_work_cheapest(&table, 1e-3, GM_COST_SECONDS), &lines[0]);
     assert_ptr_equal(gm_work_cheapest(&table, 1e-5, GM_COST_SECONDS), &lines[1]);
     assert_null(gm_work_cheapest(&table, 1e-12, GM_COST_SECONDS));
@@ -395,19 +394,19 @@ static void a_plan_sets_up_once(void **unused)
     (void)unused;
     char message[GM_MESSAGE];
     char *words[] = {(char[]){"channel"}};
-    struct gm_work_table table;
+    struct gm_grid table;
     flows_opened = 0;
-    assert_true(gm_work_open(&table, &(const struct gm_arguments){words, 1}, NULL, message));
-    assert_true(table.scheme_count > 1);
+    assert_true(gm_grid_open(&table, GM_STUDY_WORK, &(const struct gm_arguments){words, 1}, NULL, message));
+    assert_true(table.count > 1);
     assert_int_equal(flows_opened, 2);
-    gm_work_close(&table);
+    gm_grid_close(&table);
 }
 
 /* Of all pairs of resolution and step those stay that nothing cheaper beats, by each cost. */
 static void best_pairs(void **unused)
 {
     (void)unused;
-    const struct gm_work_point points[] = {
+    const struct gm_grid_cell points[] = {
         {.error = NAN, .seconds = 1e-4, .resolution = 15},
         {.error = 1e-1, .seconds = 2e-3, .resolution = 15},
         {.error = 9.9e-2, .seconds = 3e-3, .resolution = 15},
@@ -415,7 +414,7 @@ static void best_pairs(void **unused)
         {.error = 1e-2, .seconds = 8e-3, .resolution = 31},
         {.error = 1e-3, .seconds = 7e-3, .resolution = 63},
     };
-    struct gm_work_point best[6];
+    struct gm_grid_cell best[6];
     assert_int_equal(gm_work_keep_best(points, 6, GM_COST_SECONDS, best), 2);
     assert_true(best[0].error == 1e-1 && best[1].error == 1e-3);
     assert_int_equal(gm_work_keep_best(points, 6, GM_COST_RESOLUTION, best), 3);
@@ -437,13 +436,13 @@ static void bounded_is_not_accurate(void **unused)
     const struct gm_arguments arguments = {words, 6};
     size_t counts[3] = {0};
     for (size_t i = 0; i < 3; i++) {
-        struct gm_stability_table table;
+        struct gm_grid table;
         char message[GM_MESSAGE], question[GM_TEXT_SIZE];
-        assert_true(gm_stability_open(&table, &arguments, asked[i].judge, message));
-        assert_true(gm_stability_measure(&table, NULL, message));
+        assert_true(gm_grid_open(&table, GM_STUDY_STABILITY, &arguments, asked[i].judge, message));
+        assert_true(gm_grid_measure(&table, NULL, message));
         assert_string_equal(gm_stability_question(&table, question, sizeof question), asked[i].question);
-        for (size_t k = 0; k < table.plan->step_count * table.plan->value_count; k++) {
-            const struct gm_map_cell *cell = &table.maps[0].cells[k];
+        for (size_t k = 0; k < table.lines[0].count; k++) {
+            const struct gm_grid_cell *cell = &table.lines[0].cells[k];
             assert_true(i > 0 || cell->verdict != GM_WRONG);
             if (cell->verdict == GM_BOUNDED) {
                 counts[i]++;
@@ -451,7 +450,7 @@ static void bounded_is_not_accurate(void **unused)
                 assert_string_equal(gm_cell_word(&table, cell), asked[i].word);
             }
         }
-        gm_stability_close(&table);
+        gm_grid_close(&table);
     }
     assert_true(counts[0] > counts[1] && counts[1] > 0 && counts[2] == 0);
 }
@@ -463,27 +462,28 @@ static void verdicts(void **unused)
     (void)unused;
     char *words[] = {(char[]){"stiff"}, (char[]){"scheme=verlet,rk4,midpoint"}, (char[]){"until=20"}};
     const struct gm_arguments arguments = {words, 3};
-    struct gm_stability_table table;
+    struct gm_grid table;
     char message[GM_MESSAGE];
-    assert_true(gm_stability_open(&table, &arguments, NULL, message));
-    assert_true(gm_stability_measure(&table, NULL, message));
+    assert_true(gm_grid_open(&table, GM_STUDY_STABILITY, &arguments, NULL, message));
+    assert_true(gm_grid_measure(&table, NULL, message));
     const struct gm_stability *plan = table.plan;
     for (size_t s = 0; s < plan->step_count; s++) {
         const size_t fifty = s * plan->value_count + 1;
         assert_true(plan->values[1] == 50);
         const double step = plan->steps[s];
-        assert_int_equal(gm_cell_letter(&table.maps[0].cells[fifty]), step < 2 ? '.' : 'B');
-        assert_int_equal(gm_cell_letter(&table.maps[1].cells[fifty]), step > 2.9  ? 'B'
-                                                                      : step >= 1 ? 'L'
-                                                                                  : '.');
-        assert_int_equal(gm_cell_letter(&table.maps[2].cells[fifty]), '.');
+        assert_int_equal(gm_cell_letter(&table.lines[0].cells[fifty]), step < 2 ? '.' : 'B');
+        assert_int_equal(gm_cell_letter(&table.lines[1].cells[fifty]), step > 2.9  ? 'B'
+                                                                       : step >= 1 ? 'L'
+                                                                                   : '.');
+        assert_int_equal(gm_cell_letter(&table.lines[2].cells[fifty]), '.');
     }
-    assert_true(gm_stability_limit(&table, &table.maps[0]) == 1.95);
-    table.maps[0].cells[0].verdict = GM_UNTRIED; /* interrupted: that it is bounded at no step is not known */
-    assert_true(isnan(gm_stability_limit(&table, &table.maps[0])));
-    gm_stability_close(&table);
+    assert_true(gm_stability_limit(&table, &table.lines[0]) == 1.95);
+    table.lines[0].cells[0].tried = false; /* interrupted: that it is bounded at no step is not known */
+    assert_true(isnan(gm_stability_limit(&table, &table.lines[0])));
+    gm_grid_close(&table);
     words[0] = (char[]){"disc"};
-    assert_false(gm_stability_open(&table, &(const struct gm_arguments){words, 1}, NULL, message));
+    assert_false(
+        gm_grid_open(&table, GM_STUDY_STABILITY, &(const struct gm_arguments){words, 1}, NULL, message));
     assert_non_null(strstr(message, "no stability map"));
 }
 

@@ -14,7 +14,7 @@
 
 #include "app/words/request.h"
 #include "app/words/system.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/schemes.h"

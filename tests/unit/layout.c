@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/layout/labels.h"
 #include "render/layout/layout.h"
 #include "tests/common/layout_faults.h"
@@ -465,6 +465,31 @@ static void forks_keep_their_heads(void **state)
     }
 }
 
+/* Two forks of one scheme never have the same name, however little room there is. */
+static void forks_differ(void **state)
+{
+    (void)state;
+    static const char *const titles[] = {"step = 0.05", "step = 0.0025", "Zabusky-Kruskal, then Euler box",
+                                         "Zabusky-Kruskal, then projection", "Zabusky-Kruskal, then Fourier"};
+    for (int wide = 120; wide <= 900; wide += 10) {
+        struct gm_metrics metrics = metrics_of(wide, 300);
+        metrics.self = &metrics;
+        struct gm_picture *picture = picture_of(GM_COUNT(titles), 1, false, false);
+        struct gm_panel *panel = picture->first;
+        for (size_t i = 0; i < GM_COUNT(titles); i++, panel = panel->next) {
+            panel->title = titles[i];
+        }
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        for (size_t i = 0; i < layout->label_count; i++) {
+            const char *text = layout->labels[i].text;
+            for (size_t k = 0; k < i && strstr(text, "…") && !strstr(text, "area"); k++) {
+                assert_string_not_equal(layout->labels[k].text, text);
+            }
+        }
+        gm_picture_close(picture);
+    }
+}
+
 /* The label with a number, and what stands before that. */
 static const char *before(const struct gm_layout *layout, const char *number, size_t *length)
 {
@@ -628,6 +653,7 @@ int main(void)
         cmocka_unit_test(numbers_are_whole),
         cmocka_unit_test(notes_are_shortened_alike),
         cmocka_unit_test(forks_keep_their_heads),
+        cmocka_unit_test(forks_differ),
         cmocka_unit_test(titles_are_told_apart),
         cmocka_unit_test(titles_go_on_below),
         cmocka_unit_test(texts_among_marks_part),

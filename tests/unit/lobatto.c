@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/waves/lobatto.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/wave.h"

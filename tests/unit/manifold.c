@@ -14,7 +14,7 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_elljac.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"

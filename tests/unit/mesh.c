@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
 #include "core/mesh/families/multiplier.h"

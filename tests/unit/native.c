@@ -25,7 +25,7 @@
 #include "app/native/compiler.h"
 #include "app/native/engine.h"
 #include "app/words/request.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/user/problem.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 
 #define GM_PASS_SCALAR

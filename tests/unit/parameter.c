@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/parameter.h"
 
 static void numbers_are_read(void **unused)

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/picture/picture.h"
 
 static const struct gm_style line_style = {GM_LANE + 1, 0.5, 2.4, GM_LONG_DASH};

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "app/words/request.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/flows.h"
 #include "tests/common/layout_faults.h"

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/files/png.h"
 #include "tests/common/folder.h"
 

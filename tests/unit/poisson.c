@@ -14,8 +14,8 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sf_elljac.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/model/equations.h"
@@ -313,14 +313,16 @@ static const char top[] =
     "H: (a^2 + b^2)/(2*I1) + c^2/(2*I3) + w\n"
     "start: a = 0, b = 0, c = 1, u = 0.6, v = 0, w = 0.8\n";
 
-static double vertical(const void *data, const double *y)
+static double vertical(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     (void)data;
     return y[0] * y[3] + y[1] * y[4] + y[2] * y[5];
 }
 
-static double upright(const void *data, const double *y)
+static double upright(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     (void)data;
     return y[3] * y[3] + y[4] * y[4] + y[5] * y[5];
 }
@@ -484,8 +486,8 @@ static void groups_act(void **unused)
                 assert_true(fabs(after - before) < 1e-12);
             }
             if (n == 6) {
-                assert_true(fabs(upright(NULL, end) - upright(NULL, typed.start)) < 1e-12);
-                assert_true(fabs(vertical(NULL, end) - vertical(NULL, typed.start)) < 1e-12);
+                assert_true(fabs(upright(NULL, end, NULL) - upright(NULL, typed.start, NULL)) < 1e-12);
+                assert_true(fabs(vertical(NULL, end, NULL) - vertical(NULL, typed.start, NULL)) < 1e-12);
             }
         }
         untype(&typed);

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"

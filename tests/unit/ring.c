@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
 #include "core/linear/sine.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/boundary.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
@@ -19,8 +19,6 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"
-
-static const double plane[2] = {0, 0};
 
 /* A number in [-1, 1] that is the same everywhere. */
 static double scatter(unsigned i)
@@ -57,8 +55,12 @@ static struct points grid(int columns, int rows, bool around)
 static struct gm_flow *flow_of_points(struct points *points, enum gm_star star)
 {
     struct gm_triangulation_fault fault;
-    struct gm_complex *complex = gm_complex_open(points->at, points->vertices, points->corner,
-                                                 points->triangles, plane, star, NULL, &fault);
+    struct gm_complex *complex = gm_complex_open(&(struct gm_triangles){.points = points->at,
+                                                                        .vertices = points->vertices,
+                                                                        .corners = points->corner,
+                                                                        .count = points->triangles,
+                                                                        .star = star},
+                                                 &fault);
     assert_non_null(complex);
     free(points->at);
     free(points->corner);

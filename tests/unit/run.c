@@ -12,7 +12,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"

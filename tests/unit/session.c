@@ -24,7 +24,7 @@
 #include "app/runs/session.h"
 #include "app/runs/slider.h"
 #include "app/words/drive.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "tests/common/folder.h"
 #include "tests/common/meshes.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
 
@@ -153,9 +153,105 @@ static void rounding_of_stages(void **unused)
     assert_true(gm_rounding_of_stages(2, 2, matrix, y, z) == 2 + 12);
 }
 
+/* x^2 = 2 and y = x / 4: by sweeps of Heron's rule, and by Newton's method. */
+static bool heron(void *data, const double *z, double *next, double *scale)
+{
+    ++*(int *)data;
+    next[0] = (z[0] + 2 / z[0]) / 2;
+    next[1] = z[0] / 4;
+    *scale += fabs(z[0]) + fabs(z[1]);
+    return true;
+}
+
+static bool squares(void *data, const double *z, double *residual, double *matrix, double *scale)
+{
+    ++*(int *)data;
+    residual[0] = 2 - z[0] * z[0];
+    residual[1] = z[0] / 4 - z[1];
+    matrix[0] = 2 * z[0];
+    matrix[1] = 0;
+    matrix[2] = -0.25;
+    matrix[3] = 1;
+    *scale += fabs(z[0]) + fabs(z[1]);
+    return true;
+}
+
+static void equations_are_solved(void **unused)
+{
+    (void)unused;
+    int calls = 0;
+    struct gm_implicit_equations equations = {.size = 2,
+                                              .data = &calls,
+                                              .sweep = heron,
+                                              .counted = 2,
+                                              .least = 0x1p-52,
+                                              .roundoff = 8 * GM_EPSILON};
+    double scratch[10], z[2] = {1, 0};
+    struct gm_progress progress = {0};
+    assert_int_equal(gm_newton_scratch(2), GM_COUNT(scratch));
+    assert_true(gm_sweeps_solve(&equations, scratch, z, &progress));
+    assert_float_equal(z[0], M_SQRT2, 4e-16);
+    assert_float_equal(z[1], M_SQRT2 / 4, 4e-16);
+    assert_int_equal(progress.iterations, calls);
+    assert_int_equal(progress.solves, 0);
+    equations.linear = squares;
+    for (int halved = 0; halved < 2; halved++) {
+        equations.halved = halved;
+        calls = 0;
+        progress = (struct gm_progress){0};
+        z[0] = 1;
+        z[1] = 0;
+        assert_true(gm_newton_solve(&equations, scratch, z, &progress));
+        assert_float_equal(z[0], M_SQRT2, 4e-16);
+        assert_float_equal(z[1], M_SQRT2 / 4, 4e-16);
+        assert_int_equal(progress.iterations, calls);
+        assert_int_equal(progress.solves, calls);
+    }
+}
+
+static void failures_say_why(void **unused)
+{
+    (void)unused;
+    int calls = 0;
+    struct gm_implicit_equations equations = {.size = 2,
+                                              .data = &calls,
+                                              .linear = squares,
+                                              .counted = 2,
+                                              .least = 0x1p-52,
+                                              .roundoff = 8 * GM_EPSILON};
+    struct gm_progress progress = {0};
+    double scratch[10], flat[2] = {0, 0}, nowhere[2] = {NAN, 0};
+    assert_false(gm_newton_solve(&equations, scratch, flat, &progress));
+    assert_int_equal(progress.unsolved.obstacle, GM_SINGULAR);
+    assert_false(gm_newton_solve(&equations, scratch, nowhere, &progress));
+    assert_int_equal(progress.unsolved.obstacle, GM_NOT_FINITE);
+    /* a change that no sweep comes back from */
+    double z[2] = {1e200, 0};
+    equations.sweep = heron;
+    equations.linear = NULL;
+    assert_false(gm_sweeps_solve(&equations, scratch, z, &progress));
+    assert_int_equal(progress.unsolved.obstacle, GM_NOT_FINITE);
+}
+
+static void several_right_sides_are_eliminated(void **unused)
+{
+    (void)unused;
+    double a[] = {0, 2, 4, 1}, r[] = {2, 5, 4, 6};
+    assert_true(gm_eliminate_columns(2, a, 2, r));
+    assert_float_equal(r[0], 1, 0);
+    assert_float_equal(r[1], 1, 0);
+    assert_float_equal(r[2], 1, 0);
+    assert_float_equal(r[3], 2, 0);
+    double flat[] = {1, 2, 2, 4}, right[] = {1, 1};
+    assert_false(gm_eliminate(2, flat, right));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equations_are_solved),
+        cmocka_unit_test(failures_say_why),
+        cmocka_unit_test(several_right_sides_are_eliminated),
         cmocka_unit_test(newton_has_a_floor),
         cmocka_unit_test(newton_knows_the_rounding_of_slopes),
         cmocka_unit_test(sweeps_end_where_the_next_is_negligible),

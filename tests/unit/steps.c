@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/model/facts.h"
 #include "tests/common/reference.h"

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/layout/theme.h"
 
 #define PI 3.14159265358979323846

@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/schemes.h"
 #include "core/theory/polynomial.h"
 #include "core/theory/theory.h"

@@ -14,7 +14,7 @@
 #include "app/words/request.h"
 #include "app/words/system.h"
 #include "app/words/typed.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/run.h"
 
 /* The words with a bar between them. */

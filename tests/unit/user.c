@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/kind.h"
 #include "core/model/equations.h"
 #include "core/ode/problems/problems.h"

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"

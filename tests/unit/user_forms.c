@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dirac.h"
@@ -278,14 +278,41 @@ static void the_constant_of_a_potential_stays(void **unused)
         open_typed(&typed, KDV, POINTS, 40);
         const struct gm_scheme *scheme = gm_scheme_find_for(boxes[s], &typed.problem);
         struct gm_run *run = run_of(&typed.problem, boxes[s], 0.05, typed.y);
-        const double before = gm_form_energy(&typed.problem, scheme, typed.y);
+        const double before = gm_form_energy(&typed.problem, scheme, gm_run_memory(run));
         assert_int_equal(gm_run_advance(run, 200), GM_OK);
-        const double change = fabs(gm_form_energy(&typed.problem, scheme, gm_run_state(run)) / before - 1);
+        const double change = fabs(gm_form_energy(&typed.problem, scheme, gm_run_memory(run)) / before - 1);
         if (!(change < most[s])) {
             fail_msg("%s: %.2e", boxes[s], change);
         }
         gm_run_close(run);
         close_typed(&typed);
+    }
+}
+
+/* Where boxes have their field, what they lose of the energy falls with their order in time, also on few cells. */
+static void energies_fall_with_the_order_of_the_step(void **unused)
+{
+    (void)unused;
+    static const double steps[] = {0.1, 0.05}, orders[] = {2, 2, 4, 6};
+    for (size_t s = 0; s < GM_COUNT(boxes); s++) {
+        double change[2];
+        for (size_t k = 0; k < 2; k++) {
+            struct typed typed;
+            open_typed(&typed, BREATHER, 80, 40);
+            const struct gm_scheme *scheme = gm_scheme_find_for(boxes[s], &typed.problem);
+            struct gm_run *run = run_of(&typed.problem, boxes[s], steps[k], typed.y);
+            const double before = gm_form_energy(&typed.problem, scheme, gm_run_memory(run));
+            change[k] = 0;
+            while (run->t < 6 && gm_run_advance(run, 1) == GM_OK) {
+                const double energy = gm_form_energy(&typed.problem, scheme, gm_run_memory(run));
+                change[k] = fmax(change[k], fabs(energy / before - 1));
+            }
+            assert_int_equal(run->status, GM_OK);
+            gm_run_close(run);
+            close_typed(&typed);
+        }
+        print_message("%s: %.2e, %.2e\n", boxes[s], change[0], change[1]);
+        assert_true(fabs(log2(change[0] / change[1]) - orders[s]) < 0.3);
     }
 }
 
@@ -432,8 +459,9 @@ static void a_start_that_does_not_close_is_refused(void **unused)
 
 /* Of matrices and a function: the order by three grids, the law, the charge that a kept quantity tells of, and potentials
    that are left out. */
-static double mass_of(const void *data, const double *y)
+static double mass_of(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     const struct gm_problem *problem = data;
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
@@ -494,6 +522,7 @@ int main(void)
         cmocka_unit_test(friction_breaks_it),
         cmocka_unit_test(local_laws_err_by_the_second_order),
         cmocka_unit_test(the_constant_of_a_potential_stays),
+        cmocka_unit_test(energies_fall_with_the_order_of_the_step),
         cmocka_unit_test(a_component_without_a_rate_stays_what_the_equations_say),
         cmocka_unit_test(what_alternates_is_left_out),
         cmocka_unit_test(what_is_wrong_is_said),

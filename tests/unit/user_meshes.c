@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/mesh/certify/law.h"
 #include "core/mesh/families/multiplier.h"
 #include "core/mesh/soliton.h"

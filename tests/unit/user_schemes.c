@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
@@ -741,8 +741,9 @@ static void wrong_tenth_digits(void **unused)
 
 /* ---- on one system ---- */
 
-static double first(const void *data, const double *y)
+static double first(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     return (void)data, y[0] * y[0] + y[0];
 }
 

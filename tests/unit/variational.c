@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -63,14 +63,16 @@ static const struct gm_scheme *fitting(const char *name, const struct gm_problem
 
 static const struct gm_settings settings = {.newmark_beta = 0.15};
 
-static double second_momentum(const void *data, const double *y)
+static double second_momentum(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     (void)data;
     return y[3];
 }
 
-static double about_z(const void *data, const double *y)
+static double about_z(const void *data, const double *y, const double *memory)
 {
+    (void)memory;
     (void)data;
     return y[0] * y[4] - y[1] * y[3];
 }
@@ -294,7 +296,8 @@ enum { FEW_STEPS = 5000 };
 static long many_steps = FEW_STEPS;
 
 /* The largest change of a momentum map over many steps. */
-static double lost(const char *text, const char *name, double (*map)(const void *data, const double *y),
+static double lost(const char *text, const char *name,
+                   double (*map)(const void *data, const double *y, const double *memory),
                    const struct gm_settings *with, long steps)
 {
     struct typed typed;
@@ -302,11 +305,11 @@ static double lost(const char *text, const char *name, double (*map)(const void 
     struct gm_run *run =
         gm_run_open(&typed.problem, fitting(name, &typed.problem), with, 0, 0.05, typed.start);
     assert_non_null(run);
-    const double before = map(NULL, typed.start);
+    const double before = map(NULL, typed.start, NULL);
     double largest = 0;
     for (int i = 0; i < 100; i++) {
         assert_int_equal(gm_run_advance(run, steps / 100), GM_OK);
-        largest = fmax(largest, fabs(map(NULL, gm_run_state(run)) - before) / fabs(before));
+        largest = fmax(largest, fabs(map(NULL, gm_run_state(run), NULL) - before) / fabs(before));
     }
     gm_run_close(run);
     untype(&typed);

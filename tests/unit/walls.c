@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"

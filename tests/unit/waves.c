@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/laws/profile.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"

@@ -6,10 +6,10 @@
 #include <stdio.h>
 
 #include "app/commands/reference/theory.h"
+#include "app/grid/chart.h"
 #include "app/output/csv.h"
 #include "app/output/scheme_json.h"
 #include "core/schemes.h"
-#include "scenes/common/graph.h"
 
 void gm_certificate_print(const struct gm_certificate *certificate)
 {
@@ -125,19 +125,15 @@ static void draw_ladder(const struct gm_certificate *certificate, size_t lane, s
 {
     const struct gm_ladder *ladder = &certificate->ladder;
     double points[2 * GM_LADDER];
-    const struct gm_style style = {gm_lane_role(lane), 1, 2.4, gm_lane_dash(lane)};
     for (size_t k = 0; k < ladder->count; k++) {
         points[2 * k] = ladder->dt[k];
         points[2 * k + 1] = ladder->error[k];
     }
-    gm_mark_line(picture, panel, style, points, ladder->count, false);
-    gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, points,
-                   ladder->count);
-    gm_panel_key(picture, panel, style,
-                 isnan(certificate->order)
-                     ? gm_picture_text(picture, "measured on %s", certificate->order_problem)
-                     : gm_picture_text(picture, "measured %.2f on %s", certificate->order,
-                                       certificate->order_problem));
+    gm_chart_line(picture, panel, gm_chart_style(lane), points, ladder->count,
+                  isnan(certificate->order)
+                      ? gm_picture_text(picture, "measured on %s", certificate->order_problem)
+                      : gm_picture_text(picture, "measured %.2f on %s", certificate->order,
+                                        certificate->order_problem));
 }
 
 void gm_orders_draw(const void *data, struct gm_picture *picture)
@@ -153,10 +149,7 @@ void gm_orders_draw(const void *data, struct gm_picture *picture)
                             : gm_picture_text(picture, "error against the time step; by theory %s%d",
                                               theory->at_least ? "at least " : "", theory->order);
     picture->clock = "";
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "");
-    panel->axes = true;
-    panel->x = steps;
-    panel->y = errors;
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, "", &steps, &errors);
     for (size_t i = 0; i < orders->count; i++) {
         const struct gm_certificate *certificate = &orders->certificates[i];
         if (certificate->ladder.count > 0) {

@@ -13,7 +13,7 @@
 #include "app/grid/certified_lane.h"
 #include "app/grid/listener.h"
 #include "app/output/folder.h"
-#include "app/output/json.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
@@ -155,17 +155,15 @@ static int polish(const struct gm_options *options)
         return GM_EXIT_FILE;
     }
     if (options->json) {
-        printf("{");
-        gm_json_pair("scheme", name);
-        printf(",");
-        gm_json_pair("polished", out);
-        printf(",\"order\":%d,\"conditions\":%zu,\"decimals\":%zu,", polish.order, polish.conditions,
-               polish.decimals);
-        gm_json_number_pair("residual_before", polish.before);
-        printf(",");
-        gm_json_number_pair("residual", polish.after);
-        printf(",");
-        gm_json_number_pair("change", polish.change);
+        struct gm_row row = gm_row_begin(stdout);
+        gm_row_text(&row, "scheme", name);
+        gm_row_text(&row, "polished", out);
+        gm_row_count(&row, "order", polish.order);
+        gm_row_count(&row, "conditions", (double)polish.conditions);
+        gm_row_count(&row, "decimals", (double)polish.decimals);
+        gm_row_number(&row, "residual_before", polish.before, 17);
+        gm_row_number(&row, "residual", polish.after, 17);
+        gm_row_number(&row, "change", polish.change, 17);
         printf("}\n");
     } else {
         printf("%zu condition%s of order %d and of what is claimed: the largest residual was %.1e, is %.1e\n"

@@ -10,8 +10,8 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/measuring/charted.h"
-#include "app/output/csv.h"
-#include "app/output/json.h"
+#include "app/grid/chart.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"
 #include "core/memory.h"
@@ -75,14 +75,12 @@ static void measure_line(struct region *region)
 
 static void draw_plane(const struct region *region, struct gm_picture *picture)
 {
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, region->scheme->title);
-    panel->axes = true;
+    const struct gm_axis x = {
+        .label = "Re z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
+    const struct gm_axis y = {
+        .label = "Im z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_STATE, region->scheme->title, &x, &y);
     panel->equal = true;
-    panel->title_role = GM_INK;
-    panel->x =
-        (struct gm_axis){.label = "Re z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
-    panel->y =
-        (struct gm_axis){.label = "Im z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
     panel->colour_bar = true;
     panel->colour_bar_label = "growth a step, log₁₀";
     double *values = gm_picture_memory(picture, (size_t)SIDE * SIDE * sizeof *values);
@@ -125,12 +123,10 @@ static void draw_plane(const struct region *region, struct gm_picture *picture)
 
 static void draw_line(const struct region *region, struct gm_picture *picture)
 {
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, region->scheme->title);
-    panel->axes = true;
-    panel->title_role = GM_INK;
+    const struct gm_axis x = {.label = "h ω", .scale = GM_LINEAR, .low = 0, .high = region->reach};
+    const struct gm_axis y = {.label = "growth a step", .scale = GM_LINEAR, .low = 0, .high = 4};
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, region->scheme->title, &x, &y);
     panel->note = gm_picture_text(picture, "stable up to h ω = %.4g", region->limit);
-    panel->x = (struct gm_axis){.label = "h ω", .scale = GM_LINEAR, .low = 0, .high = region->reach};
-    panel->y = (struct gm_axis){.label = "growth a step", .scale = GM_LINEAR, .low = 0, .high = 4};
     double points[2 * LINE];
     for (int known = 0; known < 2; known++) {
         for (size_t i = 0; i < LINE; i++) {
@@ -169,17 +165,13 @@ static bool write_csv(const void *data, const char *path)
     const bool plane = region->test == GM_TEST_PLANE;
     fprintf(csv, "scheme,re,im,growth,growth_known\n");
     for (size_t i = 0; i < (plane ? (size_t)SIDE * SIDE : LINE); i++) {
-        const double re = plane ? place(region, i % SIDE) : 0;
-        const double im = plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1);
-        gm_csv_put_text(csv, region->scheme->name);
-        fprintf(csv, ",%.9g,%.9g", re, im);
-        for (int known = 0; known < 2; known++) {
-            const double growth = known ? region->known[i] : region->measured[i];
-            fputc(',', csv);
-            if (isfinite(growth)) {
-                fprintf(csv, "%.9g", growth);
-            }
-        }
+        struct gm_row row = {.stream = csv, .form = GM_ROW_CSV};
+        gm_row_text(&row, "scheme", region->scheme->name);
+        gm_row_number(&row, "re", plane ? place(region, i % SIDE) : 0, 9);
+        gm_row_number(&row, "im", plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
+                      9);
+        gm_row_number(&row, "growth", isfinite(region->measured[i]) ? region->measured[i] : NAN, 9);
+        gm_row_number(&row, "growth_known", isfinite(region->known[i]) ? region->known[i] : NAN, 9);
         fputc('\n', csv);
     }
     const bool failed = ferror(csv) != 0;
@@ -189,23 +181,17 @@ static bool write_csv(const void *data, const char *path)
 static void print_json(const struct region *region, double left, double up, double part, double apart)
 {
     const bool plane = region->test == GM_TEST_PLANE;
-    printf("{");
-    gm_json_pair("scheme", region->scheme->name);
-    printf(",");
-    gm_json_pair("test", plane ? "y' = z y" : "q'' = -w^2 q");
-    printf(",");
-    gm_json_number_pair("reach", region->reach);
-    printf(",");
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "scheme", region->scheme->name);
+    gm_row_text(&row, "test", plane ? "y' = z y" : "q'' = -w^2 q");
+    gm_row_number(&row, "reach", region->reach, 17);
     if (plane) {
-        gm_json_number_pair("real_limit", left);
-        printf(",");
-        gm_json_number_pair("imaginary_limit", up);
-        printf(",");
-        gm_json_number_pair("stable_part", part);
-        printf(",");
-        gm_json_number_pair("difference", apart);
+        gm_row_number(&row, "real_limit", left, 17);
+        gm_row_number(&row, "imaginary_limit", up, 17);
+        gm_row_number(&row, "stable_part", part, 17);
+        gm_row_number(&row, "difference", apart, 17);
     } else {
-        gm_json_number_pair("limit", region->limit);
+        gm_row_number(&row, "limit", region->limit, 17);
     }
     printf("}\n");
 }

@@ -6,96 +6,57 @@
 #include "app/commands/commands.h"
 #include "app/commands/measuring/region.h"
 #include "app/commands/measuring/studied.h"
-#include "app/output/json.h"
+#include "app/grid/judge.h"
 #include "app/output/say.h"
+#include "core/expression/number.h"
 
-static void print_table(const union gm_study_table *all)
+static void print_table(const struct gm_grid *grid)
 {
-    const struct gm_stability_table *table = &all->stability;
-    const struct gm_stability *plan = table->plan;
-    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    const struct gm_stability *plan = grid->plan;
+    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char letters[128], question[GM_TEXT_SIZE];
-    gm_stability_letters(table, letters, sizeof letters);
-    printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", table->request.scene->name,
-           gm_stability_question(table, question, sizeof question), timing->until, gm_stability_judge(table),
+    gm_stability_letters(grid, letters, sizeof letters);
+    printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", grid->request.scene->name,
+           gm_stability_question(grid, question, sizeof question), timing->until, gm_stability_judge(grid),
            letters[0] ? ", " : "", letters);
     if (plan->told) {
         printf("%s: %.4g here\n", plan->told, 1 / plan->unit(timing));
     }
-    for (size_t i = 0; i < table->count; i++) {
-        const struct gm_stability_map *map = &table->maps[i];
-        printf("\n%-20s %s\n%12s", map->scheme->name, plan->parameter, plan->label);
-        for (size_t v = 0; v < plan->value_count; v++) {
-            printf(" %7.4g", plan->values[v]);
+    for (size_t i = 0; i < grid->count; i++) {
+        const struct gm_grid_line *line = &grid->lines[i];
+        printf("\n%-20s %s\n%12s", line->scheme->name, plan->parameter, plan->label);
+        for (size_t v = 0; v < grid->values.count; v++) {
+            printf(" %7.4g", grid->values.values[v]);
         }
         printf("\n");
-        for (size_t s = plan->step_count; s-- > 0;) {
-            printf("%12.4g", plan->steps[s]);
-            for (size_t v = 0; v < plan->value_count; v++) {
-                printf(" %7c", gm_cell_letter(&map->cells[s * plan->value_count + v]));
+        for (size_t s = grid->steps.count; s-- > 0;) {
+            printf("%12.4g", grid->steps.values[s]);
+            for (size_t v = 0; v < grid->values.count; v++) {
+                printf(" %7c", gm_cell_letter(&line->cells[s * grid->values.count + v]));
             }
             printf("\n");
         }
-        const double limit = gm_stability_limit(table, map);
+        const double limit = gm_stability_limit(grid, line);
         if (isnan(limit)) {
-            printf("  how far it is %s is open: not every step was tried\n", gm_stability_judge(table));
+            printf("  how far it is %s is open: not every step was tried\n", gm_stability_judge(grid));
         } else if (limit > 0) {
-            printf("  %s for all values up to %.4g\n", gm_stability_judge(table), limit);
+            printf("  %s for all values up to %.4g\n", gm_stability_judge(grid), limit);
         } else {
-            printf("  at no step %s for all values\n", gm_stability_judge(table));
+            printf("  at no step %s for all values\n", gm_stability_judge(grid));
         }
     }
 }
 
-static void print_json(const union gm_study_table *all)
+static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    const struct gm_stability_table *table = &all->stability;
-    const struct gm_stability *plan = table->plan;
-    const struct gm_timing *timing = table->request.lanes[0].parameters;
-    for (size_t i = 0; i < table->count; i++) {
-        const struct gm_stability_map *map = &table->maps[i];
-        const char *comma = "";
-        printf("{");
-        gm_json_pair("scene", table->request.scene->name);
-        printf(",");
-        gm_json_pair("scheme", map->scheme->name);
-        printf(",");
-        gm_json_pair("parameter", plan->parameter);
-        printf(",");
-        gm_json_pair("unit", plan->label);
-        printf(",");
-        gm_json_number_pair("until", timing->until);
-        printf(",");
-        gm_json_pair("judge", gm_stability_judge(table));
-        printf(",");
-        gm_json_number_pair("accuracy", table->accuracy);
-        printf(",");
-        const double limit = gm_stability_limit(table, map);
-        gm_json_number_pair("limit", limit > 0 ? limit : NAN);
-        printf(",\"cells\":[");
-        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
-            const struct gm_map_cell *cell = &map->cells[k];
-            if (cell->verdict == GM_UNTRIED) {
-                continue;
-            }
-            printf("%s{", comma);
-            gm_json_number_pair(plan->parameter, plan->values[k % plan->value_count]);
-            printf(",");
-            gm_json_number_pair("step", plan->steps[k / plan->value_count]);
-            printf(",");
-            gm_json_number_pair("dt", cell->dt);
-            printf(",\"verdict\":\"%s\",\"status\":\"%s\",", gm_cell_word(table, cell),
-                   gm_status_name(cell->status));
-            gm_json_number_pair("t", cell->t);
-            printf(",");
-            gm_json_number_pair("ratio", cell->ratio);
-            printf(",");
-            gm_json_number_pair("error", cell->error);
-            printf("}");
-            comma = ",";
-        }
-        printf("]}\n");
-    }
+    const struct gm_timing *timing = grid->request.lanes[0].parameters;
+    const double limit = gm_stability_limit(grid, line);
+    gm_row_text(row, "parameter", grid->parameter->key);
+    gm_row_text(row, "unit", grid->plan->label);
+    gm_row_number(row, "until", timing->until, 17);
+    gm_row_text(row, "judge", gm_stability_judge(grid));
+    gm_row_number(row, "accuracy", grid->accuracy, 17);
+    gm_row_number(row, "limit", limit > 0 ? limit : NAN, 17);
 }
 
 static int command_stability(const struct gm_options *options)
@@ -107,7 +68,8 @@ static int command_stability(const struct gm_options *options)
     if (options->region) {
         return gm_region(options);
     }
-    return gm_command_study(options, GM_STUDY_STABILITY, print_table, print_json);
+    return gm_command_study(options, GM_STUDY_STABILITY,
+                            &(const struct gm_study_printer){print_table, "cells", put_front, NULL});
 }
 
 const struct gm_command_row gm_command_stability = {

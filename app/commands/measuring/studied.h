@@ -3,12 +3,20 @@
 #define GM_APP_COMMANDS_MEASURING_STUDIED_H
 
 #include "app/commands/options.h"
-#include "app/grid/kinds/study.h"
+#include "app/grid/grid.h"
+
+/* How a study prints: as text, and of a line as JSON the members before and behind its runs, which are called `cells`. */
+struct gm_study_printer {
+    void (*print)(const struct gm_grid *grid);
+    const char *cells;
+    void (*put_front)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
+    void (*put_end)(struct gm_row *row, const struct gm_grid *grid,
+                    const struct gm_grid_line *line); /* NULL */
+};
 
 /* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
    exit status. */
 int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
-                     void (*print)(const union gm_study_table *table),
-                     void (*print_json)(const union gm_study_table *table));
+                     const struct gm_study_printer *printer);
 
 #endif

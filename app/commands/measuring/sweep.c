@@ -11,7 +11,7 @@
 #include "app/commands/measuring/charted.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 
@@ -126,7 +126,7 @@ static int paint(const struct gm_sweep *sweep, const struct gm_options *options,
     told.measure = sweep->measure;
     int status = GM_EXIT_FILE;
     if (gm_arguments_split(&told.arguments, sweep->arguments) &&
-        (chart = gm_sweep_chart_open(sweep, path, message))) {
+        (chart = gm_sweep_chart_open(sweep, message)) && gm_sweep_chart_read(chart, path, message)) {
         snprintf(name, sizeof name, "%.80s-sweep", sweep->scene->name);
         status = gm_command_chart(&told, "sweep", name, chart, draw, NULL);
     } else {
@@ -151,7 +151,7 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     }
     struct gm_sweep_sum sum;
     gm_catch_interrupts();
-    bool good = gm_sweep_table_fill(table, cores_of(options), &gm_terminal_listener, &sum, message);
+    bool good = gm_sweep_table_fill(table, cores_of(options), NULL, &gm_terminal_listener, &sum, message);
     gm_terminal_listener_clear();
     const int status = sum.unheard ? GM_EXIT_PIPE : GM_EXIT_FILE;
     if (good) {

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint work-precision: error against run time and evaluations. */
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "app/commands/commands.h"
 #include "app/commands/measuring/studied.h"
-#include "app/output/json.h"
+#include "app/grid/judge.h"
 
 static void print_cell(double value)
 {
@@ -17,114 +16,80 @@ static void print_cell(double value)
     }
 }
 
-static void print_table(const union gm_study_table *all)
+static void print_table(const struct gm_grid *grid)
 {
-    const struct gm_work_table *table = &all->work;
-    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char sentence[512];
-    printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
-    printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
-    const enum gm_work_cost second = gm_work_second_cost(table);
+    printf("%s, %s at t = %.6g", grid->request.scene->name, grid->measure, timing->until);
+    printf(grid->reference[0] ? " against %s\n" : "\n", grid->reference);
     char heading[64];
     snprintf(heading, sizeof heading, "%s for an error of",
-             table->resolution ? table->resolution->key : "evaluations");
+             grid->parameter ? grid->parameter->key : "evaluations");
     printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
     for (int cost = 0; cost < 2; cost++) {
         for (size_t i = 0; i < 3; i++) {
-            printf(" %11.0e", table->errors[i]);
+            printf(" %11.0e", grid->errors[i]);
         }
     }
     printf(" %9s\n", "error");
-    for (size_t i = 0; i < table->line_count; i++) {
-        const struct gm_work_line *line = &table->lines[i];
+    for (size_t i = 0; i < grid->begun; i++) {
+        const struct gm_grid_line *line = &grid->lines[i];
         double least = INFINITY;
         printf("%-26s", line->scheme->name);
         for (size_t k = 0; k < 3; k++) {
-            print_cell(1e3 * gm_work_price(line, table->errors[k], GM_COST_SECONDS));
+            print_cell(1e3 * gm_work_price(line, grid->errors[k], GM_COST_SECONDS));
         }
         for (size_t k = 0; k < 3; k++) {
-            const double price = gm_work_price(line, table->errors[k], second);
-            print_cell(second == GM_COST_RESOLUTION ? gm_work_resolution(table, price) : price);
+            print_cell(gm_work_second_price(grid, line, grid->errors[k]));
         }
+        enum gm_status last = GM_OK;
         for (size_t k = 0; k < line->count; k++) {
-            least = fmin(least, line->points[k].error);
+            least = fmin(least, line->cells[k].error);
+            last = line->cells[k].tried ? line->cells[k].status : last;
         }
         if (isfinite(least)) {
             printf(" %9.1e\n", least);
         } else {
-            const enum gm_status last = line->count > 0 ? line->points[line->count - 1].status : GM_OK;
             printf(" %9s\n", last == GM_OK ? "-" : gm_status_name(last));
         }
         if (line->reason[0]) {
             printf("  none: %s\n", line->reason);
         }
     }
-    printf("%s\n", gm_work_sentence(table, sentence, sizeof sentence));
+    printf("%s\n", gm_work_sentence(grid, sentence, sizeof sentence));
 }
 
-static void print_json_point(const struct gm_work_table *table, const struct gm_work_point *point)
+static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    printf("{");
-    if (table->resolution) {
-        gm_json_number_pair(table->resolution->key, gm_work_resolution(table, point->resolution));
-        printf(",");
+    const struct gm_timing *timing = grid->request.lanes[0].parameters;
+    (void)line;
+    gm_row_text(row, "measure", grid->measure);
+    gm_row_text(row, "against", grid->reference);
+    gm_row_number(row, "until", timing->until, 17);
+}
+
+static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    struct gm_row prices = gm_row_open(row, "prices", ']');
+    for (size_t k = 0; k < 3; k++) {
+        const double error = grid->errors[k];
+        struct gm_row price = gm_row_open(&prices, NULL, '}');
+        gm_row_number(&price, "error", error, 17);
+        gm_row_number(&price, "seconds", gm_work_price(line, error, GM_COST_SECONDS), 17);
+        gm_row_number(&price, grid->parameter ? grid->parameter->key : "evaluations",
+                      gm_work_second_price(grid, line, error), 17);
+        gm_row_close(&price);
     }
-    gm_json_number_pair("dt", point->dt);
-    printf(",\"steps\":%" PRId64 ",", point->steps);
-    gm_json_number_pair("t", point->t);
-    printf(",\"status\":\"%s\",", gm_status_name(point->status));
-    gm_json_number_pair("error", point->error);
-    printf(",");
-    gm_json_number_pair("seconds", point->seconds);
-    printf(",\"evaluations\":%.0f,\"solves\":%.0f}", point->evaluations, point->solves);
-}
-
-static void print_json(const union gm_study_table *all)
-{
-    const struct gm_work_table *table = &all->work;
-    const struct gm_timing *timing = table->request.lanes[0].parameters;
-    const enum gm_work_cost second = gm_work_second_cost(table);
-    for (size_t i = 0; i < table->line_count; i++) {
-        const struct gm_work_line *line = &table->lines[i];
-        printf("{");
-        gm_json_pair("scene", table->request.scene->name);
-        printf(",");
-        gm_json_pair("scheme", line->scheme->name);
-        printf(",\"order\":%d,", line->scheme->order);
-        gm_json_pair("measure", table->measure);
-        printf(",");
-        gm_json_pair("against", table->reference);
-        printf(",");
-        gm_json_number_pair("until", timing->until);
-        printf(",\"points\":[");
-        for (size_t k = 0; k < line->count; k++) {
-            printf("%s", k ? "," : "");
-            print_json_point(table, &line->points[k]);
-        }
-        printf("],\"prices\":[");
-        for (size_t k = 0; k < 3; k++) {
-            const double error = table->errors[k], price = gm_work_price(line, error, second);
-            printf("%s{", k ? "," : "");
-            gm_json_number_pair("error", error);
-            printf(",");
-            gm_json_number_pair("seconds", gm_work_price(line, error, GM_COST_SECONDS));
-            printf(",");
-            gm_json_number_pair(table->resolution ? table->resolution->key : "evaluations",
-                                second == GM_COST_RESOLUTION ? gm_work_resolution(table, price) : price);
-            printf("}");
-        }
-        printf("]");
-        if (line->reason[0]) {
-            printf(",");
-            gm_json_pair("reason", line->reason);
-        }
-        printf("}\n");
+    gm_row_close(&prices);
+    if (line->reason[0]) {
+        gm_row_text(row, "reason", line->reason);
     }
 }
 
 static int command_work_precision(const struct gm_options *options)
 {
-    return gm_command_study(options, GM_STUDY_WORK, print_table, print_json);
+    return gm_command_study(options, GM_STUDY_WORK,
+                            &(const struct gm_study_printer){print_table, "points", put_front, put_end});
 }
 
 const struct gm_command_row gm_command_work_precision = {

@@ -12,7 +12,7 @@
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
 #include "app/words/system.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/expression/number.h"
 #include "core/expression/tidied.h"

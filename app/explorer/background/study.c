@@ -13,7 +13,7 @@
 
 #include "app/base/arguments.h"
 #include "app/explorer/background/job.h"
-#include "app/grid/kinds/study.h"
+#include "app/grid/grid.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
 #include "render/clock.h"
@@ -39,7 +39,7 @@ struct gm_study {
 
     /* the thread's own */
     struct gm_arguments arguments; /* the words, cut up */
-    union gm_study_table table;
+    struct gm_grid grid;
     struct gm_study_look now; /* all but the picture */
     double looked;            /* when the last look was handed over */
     unsigned long told;       /* number of its message */
@@ -76,7 +76,7 @@ static void show(struct gm_study *study)
     *look = study->now;
     look->picture = picture;
     gm_picture_clear(picture);
-    gm_study_rows[study->kind].draw(&study->table, picture);
+    gm_grid_draw(&study->grid, picture);
     study->looked = gm_clock_seconds();
     study->told = study->now.message_number;
     const uint64_t one = 1;
@@ -91,14 +91,14 @@ static void show(struct gm_study *study)
 static void save(struct gm_study *study, enum gm_theme theme)
 {
     char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
-    const struct gm_study_row *row = &gm_study_rows[study->kind];
-    char *command = gm_arguments_join(row->name, &study->arguments);
+    const char *study_name = gm_study_rows[study->kind].name;
+    char *command = gm_arguments_join(study_name, &study->arguments);
     struct gm_chart chart = {
         .name = name, .command = command, .print.look = {.width = 1920, .height = 1080, .theme = theme}};
-    snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], row->name);
+    snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], study_name);
     gm_folder_free_file(kind, ".png", name, sizeof name);
     name[strlen(name) - strlen(".png")] = '\0';
-    const bool good = command && gm_chart_write(&chart, &study->table, row->draw, row->write, message);
+    const bool good = command && gm_chart_write(&chart, &study->grid, gm_grid_draw, gm_grid_write, message);
     free(command);
     if (good) {
         snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);
@@ -148,7 +148,7 @@ static void measure(struct gm_study *study)
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* of this thread alone */
-    const bool good = gm_study_rows[study->kind].measure(&study->table, &listener, message);
+    const bool good = gm_grid_measure(&study->grid, &listener, message);
     study->now.finished = true;
     if (is_stopped(study)) {
         say(study, "Stopped; what is finished stays.");
@@ -174,20 +174,20 @@ static void work(void *self)
     }
 }
 
-static void close_table(void *self)
+static void close_grid(void *self)
 {
     struct gm_study *study = self;
-    gm_study_rows[study->kind].close(&study->table);
+    gm_grid_close(&study->grid);
 }
 
 /* ---- orders ---- */
 
-static bool open_table(struct gm_study *study, char *message)
+static bool open_grid(struct gm_study *study, char *message)
 {
     if (!gm_arguments_split(&study->arguments, study->words)) {
         return gm_refuse(message, "There is not enough memory.");
     }
-    return gm_study_rows[study->kind].open(&study->table, &study->arguments, NULL, message);
+    return gm_grid_open(&study->grid, study->kind, &study->arguments, NULL, message);
 }
 
 static void free_study(struct gm_study *study)
@@ -217,13 +217,13 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
         free_study(study);
         return NULL;
     }
-    if (!open_table(study, message)) {
+    if (!open_grid(study, message)) {
         free_study(study);
         return NULL;
     }
     pthread_mutex_init(&study->lock, NULL);
-    if (!gm_job_open(&study->job, work, close_table, study, -1, message)) {
-        close_table(study);
+    if (!gm_job_open(&study->job, work, close_grid, study, -1, message)) {
+        close_grid(study);
         pthread_mutex_destroy(&study->lock);
         free_study(study);
         return NULL;
@@ -271,7 +271,7 @@ struct gm_study_look *gm_study_take(struct gm_study *study)
 char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y)
 {
     const struct gm_study_row *row = &gm_study_rows[study->kind];
-    return row->pick ? row->pick(&study->table, panel, x, y) : NULL;
+    return row->pick ? row->pick(&study->grid, panel, x, y) : NULL;
 }
 
 void gm_study_stop(struct gm_study *study)

@@ -12,7 +12,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/clock.h"
 
 /* ---- one answer ---- */

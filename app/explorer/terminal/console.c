@@ -52,6 +52,7 @@ static struct sigaction handled_before[NSIG];
 static bool handled;
 
 enum { ROOM = 1000, HOLD = 3000 }; /* milliseconds for a terminal, or its thread, that is busy */
+enum { PATIENCE = 2 };             /* seconds for the loop to see that somebody leaves */
 
 static void give_back_at_once(void)
 {
@@ -90,15 +91,21 @@ static void on_crash(int number)
 }
 
 /* The first leaves. A terminal's end says so several times, itself and through the shell: that is no reason
-   to give up what is being finished, but whoever asks for the third time is not held up by anything. */
+   to give up what is being finished, but whoever asks for the third time is not held up by anything, nor by what does
+   not look at the news for seconds, as the opening of a fine mesh. */
 static void on_leave(int number)
 {
     const bool asks = number == SIGINT || number == SIGTERM || number == SIGQUIT;
-    if (asks && gm_interrupted > 1) {
+    const bool late = number == SIGALRM && gm_interrupted > 0;
+    if (late || (asks && gm_interrupted > 1)) {
+        number = late ? leaving : number;
         give_back_at_once();
         signal(number, SIG_DFL);
         raise(number);
         return;
+    }
+    if (asks && gm_interrupted == 0) {
+        alarm(PATIENCE);
     }
     gm_interrupted = gm_interrupted + asks;
     leaving = leaving ? leaving : number;

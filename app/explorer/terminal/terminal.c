@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "app/output/say.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"

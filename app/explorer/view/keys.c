@@ -6,7 +6,7 @@
 
 #include "app/explorer/view/chooser.h"
 #include "app/explorer/view/prompt.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 static enum gm_key_result order(const struct gm_keystroke *press, enum gm_order_kind kind, int amount)
 {

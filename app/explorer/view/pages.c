@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/explorer/view/keys.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 enum { PAGE = 10 }; /* lines */
 

@@ -7,7 +7,7 @@
 
 #include "app/explorer/view/pages.h"
 #include "app/explorer/view/typed_system.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "render/cells/text.h"
 
 enum {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "app/explorer/worker/orders.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {

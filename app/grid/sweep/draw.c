@@ -7,12 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/edges.h"
+#include "app/grid/chart.h"
 #include "app/grid/sweep.h"
 #include "app/output/csv.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
-#include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 
 enum {
@@ -34,8 +33,6 @@ struct gm_sweep_chart {
     size_t shown;              /* observables: the first of the sweep's */
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
     size_t failed;             /* runs, which are left out */
-    FILE *table;               /* behind the rows that were read */
-    size_t rows;               /* of them */
     size_t status;             /* the number of its cell in a row */
 };
 
@@ -130,7 +127,7 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
     return &chart->cells[(observable * chart->lines + line) * chart->bins[0] * chart->bins[1]];
 }
 
-static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
+void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
     enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
     if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
@@ -150,52 +147,44 @@ static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
     }
 }
 
-struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message)
+struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message)
 {
     struct gm_sweep_chart *chart = calloc(1, sizeof *chart);
     char *head = gm_sweep_head(sweep);
-    if (!chart || !head || !plan(chart, sweep, message)) {
-        free(head);
-        free(chart);
-        return NULL;
-    }
-    for (const char *at = strstr(head, ",status,"); at > head; at--) {
+    bool good = (chart && head) || gm_refuse(message, "not enough memory");
+    good = good && plan(chart, sweep, message);
+    for (const char *at = good ? strstr(head, ",status,") : head; at > head; at--) {
         chart->status += *at == ',';
     }
     free(head);
-    chart->cells =
-        calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);
-    chart->table = fopen(path, "r");
-    if (!chart->cells || !chart->table) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be read: %s", path, strerror(errno));
-        gm_sweep_chart_close(chart);
-        return NULL;
+    if (good) {
+        chart->cells =
+            calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);
+        good = chart->cells || gm_refuse(message, "not enough memory");
     }
-    gm_sweep_chart_read(chart);
-    return chart;
+    if (!good) {
+        gm_sweep_chart_close(chart);
+    }
+    return good ? chart : NULL;
 }
 
-void gm_sweep_chart_read(struct gm_sweep_chart *chart)
+bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message)
 {
-    char *line = NULL;
-    size_t capacity = 0;
-    clearerr(chart->table);
-    while (getline(&line, &capacity, chart->table) > 0) {
-        const bool head = chart->rows == 0;
-        if (!head && chart->rows <= chart->sweep->count) {
-            take_row(chart, chart->rows - 1, line);
-        }
-        chart->rows++;
+    struct gm_csv_lines table = {.stream = fopen(path, "r")};
+    if (!table.stream) {
+        return gm_refuse(message, "%.360s could not be read: %s", path, strerror(errno));
     }
-    free(line);
+    gm_csv_next(&table);
+    for (size_t run = 0; run < chart->sweep->count && gm_csv_next(&table); run++) {
+        gm_sweep_chart_take(chart, run, table.line);
+    }
+    gm_csv_close(&table);
+    return true;
 }
 
 void gm_sweep_chart_close(struct gm_sweep_chart *chart)
 {
     if (chart) {
-        if (chart->table) {
-            fclose(chart->table);
-        }
         free(chart->cells);
         free(chart);
     }
@@ -335,20 +324,19 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
     const struct extent extent = extent_of(chart, observable);
     double *points = gm_picture_memory(picture, 3 * count * sizeof *points), *values = points + 2 * count;
     size_t *order = gm_picture_memory(picture, count * sizeof *order);
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title_of(chart, observable, picture));
     if (!points || !order) {
         return;
     }
-    panel->axes = true;
-    panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){.label = key_label(chart, 0, picture),
-                                .scale = is_logarithmic(chart, 0) ? GM_LOG : GM_LINEAR,
-                                .low = 1,
-                                .high = 0};
-    panel->y = (struct gm_axis){.label = "",
-                                .scale = extent.logarithmic ? GM_LOG : GM_LINEAR,
-                                .low = extent.low,
-                                .high = extent.high};
+    const struct gm_axis x = {.label = key_label(chart, 0, picture),
+                              .scale = is_logarithmic(chart, 0) ? GM_LOG : GM_LINEAR,
+                              .low = 1,
+                              .high = 0},
+                         y = {.label = "",
+                              .scale = extent.logarithmic ? GM_LOG : GM_LINEAR,
+                              .low = extent.low,
+                              .high = extent.high};
+    struct gm_panel *panel =
+        gm_chart_panel(picture, GM_PLACE_GRAPH, title_of(chart, observable, picture), &x, &y);
     order_bins(chart, 0, order, values);
     for (size_t i = 0; i < count; i++) {
         points[2 * i] = values[i];
@@ -395,7 +383,6 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
 {
     const size_t across = chart->bins[0], up = chart->bins[1], all = across * up;
     const struct extent extent = extent_of(chart, observable);
-    const bool logarithmic[] = {is_logarithmic(chart, 0), is_logarithmic(chart, 1)};
     const char *title = title_of(chart, observable, picture);
     double values[MAP_BINS], edges[2][MAP_BINS + 1];
     size_t order[2][MAP_BINS];
@@ -421,16 +408,8 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     for (size_t axis = 0; axis < 2; axis++) {
         struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;
         order_bins(chart, axis, order[axis], values);
-        gm_edges_of(values, chart->bins[axis], logarithmic[axis], edges[axis]);
-        *shown = (struct gm_axis){.label = key_label(chart, axis, picture),
-                                  .scale = logarithmic[axis] ? GM_LOG : GM_LINEAR,
-                                  .low = 1,
-                                  .high = 0,
-                                  .least_tick = values[0],
-                                  .largest_tick = values[chart->bins[axis] - 1]};
-        for (size_t i = 0; i <= chart->bins[axis]; i++) {
-            gm_range_add(&shown->low, &shown->high, edges[axis][i]);
-        }
+        *shown = gm_chart_edges(key_label(chart, axis, picture), values, chart->bins[axis],
+                                is_logarithmic(chart, axis), edges[axis]);
     }
     const struct bin *bins = bins_of(chart, observable, line);
     const bool good = cells.points && cells.values && cells.triangles;
@@ -474,19 +453,18 @@ static size_t nearest_choice(const struct gm_sweep_chart *chart, size_t axis, do
     return nearest;
 }
 
-bool gm_sweep_pick(const struct gm_sweep *sweep, size_t map, double x, double y, size_t *run)
+bool gm_sweep_pick(const struct gm_sweep_chart *chart, size_t map, double x, double y, size_t *run)
 {
-    struct gm_sweep_chart chart;
-    char message[GM_MESSAGE];
-    if (!plan(&chart, sweep, message) || chart.key_count != 2 || map >= chart.shown * chart.lines) {
+    const struct gm_sweep *sweep = chart->sweep;
+    if (chart->key_count != 2 || map >= chart->shown * chart->lines) {
         return false;
     }
-    const size_t chosen[] = {nearest_choice(&chart, 0, x), nearest_choice(&chart, 1, y)};
-    size_t line = map % chart.lines, each = 1;
+    const size_t chosen[] = {nearest_choice(chart, 0, x), nearest_choice(chart, 1, y)};
+    size_t line = map % chart->lines, each = 1;
     *run = 0;
     for (size_t i = sweep->words.count; i-- > 0;) { /* the last list changes fastest */
         const struct gm_word *word = &sweep->words.list[i];
-        size_t choice = i == chart.keys[0] ? chosen[0] : chosen[1];
+        size_t choice = i == chart->keys[0] ? chosen[0] : chosen[1];
         if (!is_axis(sweep, word)) {
             choice = line % word->count;
             line /= word->count;

@@ -9,8 +9,10 @@
 #include <unistd.h>
 
 #include "app/grid/sweep.h"
+#include "app/output/csv.h"
 #include "app/output/folder.h"
-#include "core/memory.h"
+#include "render/files/regular_file.h"
+#include "render/files/temporary.h"
 
 static char *note_path(const char *path)
 {
@@ -30,124 +32,62 @@ static char *note_text(const struct gm_sweep *sweep)
                : text;
 }
 
-/* The lines of a note behind their words; malloc'ed, to be freed in any case. */
-struct note {
-    char *sweep, *measure;
-    size_t shares;
-};
-
-static void free_note(struct note *note)
-{
-    free(note->sweep);
-    free(note->measure);
-}
-
-static bool read_note(const char *path, struct note *note)
-{
-    char *line = NULL;
-    size_t capacity = 0, version = 0;
-    FILE *stream = fopen(path, "r");
-    *note = (struct note){0};
-    while (stream && getline(&line, &capacity, stream) > 0) {
-        line[strcspn(line, "\n")] = '\0';
-        char *colon = strstr(line, ": ");
-        if (!colon) {
-            break;
-        }
-        *colon = '\0';
-        if (strcmp(line, "sweep") == 0 && !note->sweep) {
-            note->sweep = strdup(colon + 2);
-        } else if (strcmp(line, "measure") == 0 && !note->measure) {
-            note->measure = strdup(colon + 2);
-        } else if (strcmp(line, "shares") == 0) {
-            note->shares = strtoul(colon + 2, NULL, 10);
-        } else if (strcmp(line, "geomint") == 0) {
-            version = strtoul(colon + 2, NULL, 10);
-        }
-    }
-    if (stream) {
-        fclose(stream);
-    }
-    free(line);
-    return version == 1 && note->sweep && note->measure && note->shares > 0;
-}
-
-/* Whether the file holds just this text. */
-static bool holds(const char *path, const char *text)
-{
-    FILE *stream = fopen(path, "r");
-    bool same = stream != NULL;
-    for (; same && *text; text++) {
-        same = fgetc(stream) == (unsigned char)*text;
-    }
-    same = same && fgetc(stream) == EOF;
-    if (stream) {
-        fclose(stream);
-    }
-    return same;
-}
-
-/* Written aside under a name of this process and linked: of all that try at once one has made it, whole. */
-static bool put_note(const char *path, const char *text, char *message)
-{
-    char *aside = NULL;
-    if (asprintf(&aside, "%s.%ld", path, (long)getpid()) < 0) {
-        return gm_refuse(message, "%.360s could not be written: not enough memory", path);
-    }
-    FILE *stream = fopen(aside, "w");
-    bool good = stream && fputs(text, stream) >= 0;
-    if (stream) {
-        good = fclose(stream) == 0 && good;
-    }
-    good = good && (link(aside, path) == 0 || errno == EEXIST);
-    if (!good) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path, strerror(errno));
-    }
-    unlink(aside);
-    free(aside);
-    return good;
-}
+enum { LONGEST_NOTE = 1 << 20 };
 
 bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message)
 {
-    char *note = note_path(path), *text = note_text(sweep);
+    size_t size;
+    char reason[GM_REGULAR_REASON], *note = note_path(path), *text = note_text(sweep);
     bool good = note && text;
     if (!good) {
         gm_refuse(message, "%.360s could not be opened: not enough memory", path);
     } else if (!gm_folder_make_for(path, message)) {
         good = false;
-    } else if (!holds(note, text)) {
-        good = access(note, F_OK) != 0 && put_note(note, text, message);
-        if (!good && access(note, F_OK) == 0) {
-            gm_refuse(message, "%.360s tells of another sweep; its tables are left as they are", note);
-        }
-        good = good && (holds(note, text) || gm_refuse(message, "%.360s tells of another sweep", note));
+    } else if (access(note, F_OK) != 0) {
+        const int error = gm_temporary_write(note, text, strlen(text));
+        good = error == 0 || gm_refuse(message, "%.360s could not be written: %s", note, strerror(error));
+    } else {
+        char *before = gm_regular_read(note, LONGEST_NOTE, &size, reason);
+        good = (before && strcmp(before, text) == 0) ||
+               gm_refuse(message, "%.360s tells of another sweep; its tables are left as they are", note);
+        free(before);
     }
     free(note);
     free(text);
     return good;
 }
 
+/* What stands behind a word that begins a line; NULL: nothing does. */
+static char *find(char *note, const char *word)
+{
+    char *at = note ? strstr(note, word) : NULL;
+    return at ? at + strlen(word) : NULL;
+}
+
 bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message)
 {
     bool unreadable = false;
-    struct note note = {0};
     struct gm_arguments arguments = {0};
-    char *name = note_path(path);
+    size_t size;
+    char reason[GM_REGULAR_REASON] = "not enough memory", *name = note_path(path);
+    char *note = name ? gm_regular_read(name, LONGEST_NOTE, &size, reason) : NULL;
+    char *words = find(note, "\nsweep: "), *measure = find(note, "\nmeasure: "),
+         *shares = find(note, "\nshares: ");
     *sweep = (struct gm_sweep){0};
-    bool good = name && read_note(name, &note);
+    bool good =
+        words && measure && shares && strncmp(note, "geomint: 1\n", 11) == 0 && strtoul(shares, NULL, 10) > 0;
     if (!good) {
-        snprintf(message, GM_MESSAGE,
-                 "%.300s.sweep, which tells what the shares are of, could not be read%s%s", path,
-                 errno ? ": " : "", errno ? strerror(errno) : "");
-    } else if (!gm_arguments_split(&arguments, note.sweep)) {
-        good = gm_refuse(message, "%.360s could not be read: not enough memory", name);
+        gm_refuse(message, "%.300s.sweep, which tells what the shares are of, could not be read%s%s", path,
+                  note ? "" : ": ", note ? "" : reason);
     } else {
-        good = gm_sweep_open(sweep, &arguments, note.measure[0] ? note.measure : NULL, &unreadable, message);
-        sweep->shards = note.shares;
+        words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
+        good = (gm_arguments_split(&arguments, words) ||
+                gm_refuse(message, "%.360s could not be read: not enough memory", name)) &&
+               gm_sweep_open(sweep, &arguments, measure[0] ? measure : NULL, &unreadable, message);
+        sweep->shards = strtoul(shares, NULL, 10);
     }
     gm_arguments_close(&arguments);
-    free_note(&note);
+    free(note);
     free(name);
     return good;
 }
@@ -167,99 +107,72 @@ static void allow_files(void)
 /* Opens the share behind its head. A share that is not there has no rows; one that is being written, or that
    is of another sweep, is refused. */
 static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard, const char *head,
-                       FILE **share, char *message)
+                       struct gm_csv_lines *share, char *message)
 {
-    char *name = gm_sweep_share_path(path, shard, sweep->shards), *line = NULL;
-    size_t capacity = 0;
-    bool good = name != NULL;
-    *share = name ? fopen(name, "r") : NULL;
-    if (!name) {
-        gm_refuse(message, "%.360s could not be joined: not enough memory", path);
-    } else if (!*share && errno != ENOENT) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be read: %s", name, strerror(errno));
-        good = false;
-    } else if (*share && flock(fileno(*share), LOCK_SH | LOCK_NB) != 0) {
+    char *name = gm_sweep_share_path(path, shard, sweep->shards);
+    bool good = name || gm_refuse(message, "%.360s could not be joined: not enough memory", path);
+    share->stream = name ? fopen(name, "r") : NULL;
+    if (name && !share->stream && errno != ENOENT) {
+        good = gm_refuse(message, "%.360s could not be read: %s", name, strerror(errno));
+    } else if (share->stream && flock(fileno(share->stream), LOCK_SH | LOCK_NB) != 0) {
         good = gm_refuse(message, "%.360s is being written by another process", name);
-    } else if (*share) {
-        good = getline(&line, &capacity, *share) <= 0 || strcmp(line, head) == 0 ||
+    } else if (share->stream) {
+        gm_csv_next(share);
+        good = !share->line || !share->line[0] || strcmp(share->line, head) == 0 ||
                gm_refuse(message, "%.360s is not a share of this sweep: its columns are others", name);
     }
-    free(line);
     free(name);
     return good;
 }
 
-/* The next row of a share, which has to be that of the run; NULL where the share has ended. */
-static const char *next_row(const struct gm_sweep *sweep, size_t run, FILE **share, char **line,
-                            size_t *capacity, bool *good)
-{
-    const ssize_t length = *share ? getline(line, capacity, *share) : 0;
-    if (length <= 0 || (*line)[length - 1] != '\n') { /* a torn row is none */
-        if (*share) {
-            fclose(*share);
-        }
-        *share = NULL;
-        return NULL;
-    }
-    char *front = gm_sweep_front(sweep, run);
-    *good = front && strncmp(*line, front, strlen(front)) == 0;
-    free(front);
-    return *good ? *line : NULL;
-}
-
 /* The shares' rows in turn. */
-static bool merge(const struct gm_sweep *sweep, FILE **shares, FILE *table,
+static bool merge(const struct gm_sweep *sweep, struct gm_csv_lines *shares, FILE *table,
                   void (*missing)(size_t run, const char *words), size_t *missing_count, char *message)
 {
-    char *line = NULL;
-    size_t capacity = 0;
-    bool good = true;
-    for (size_t run = 0; run < sweep->count && good; run++) {
-        const size_t shard = run % sweep->shards;
-        const char *row = next_row(sweep, run, &shares[shard], &line, &capacity, &good);
+    enum { NAMED = 10 };
+    for (size_t run = 0; run < sweep->count; run++) {
+        struct gm_csv_lines *share = &shares[run % sweep->shards];
+        const char *row = gm_csv_next(share); /* a torn row is none */
+        char *front = row ? gm_sweep_front(sweep, run) : NULL;
+        const bool good = !row || (front && strncmp(row, front, strlen(front)) == 0);
+        free(front);
+        if (!good) {
+            return gm_refuse(message, "share %zu has a row that is not that of run %zu",
+                             run % sweep->shards + 1, run);
+        }
         if (row) {
             fputs(row, table);
-        } else if (good) {
-            enum { TOLD = 10 };
-            char *words = *missing_count < TOLD ? gm_sweep_words(sweep, run) : NULL;
+        } else {
+            gm_csv_close(share);
+            char *words = (*missing_count)++ < NAMED ? gm_sweep_words(sweep, run) : NULL;
             if (words) {
                 missing(run, words);
             }
             free(words);
-            (*missing_count)++;
-        } else {
-            snprintf(message, GM_MESSAGE, "share %zu has a row that is not that of run %zu", shard + 1, run);
         }
     }
-    free(line);
-    return good;
+    return true;
 }
 
 /* Takes the table's place if that is one of this sweep, or none. */
 static bool replace(const char *part, const char *path, const char *head, char *message)
 {
-    char *line = NULL;
-    size_t capacity = 0;
-    FILE *before = fopen(path, "r");
-    const bool other = before && getline(&line, &capacity, before) > 0 && strcmp(line, head) != 0;
-    if (before) {
-        fclose(before);
-    }
-    free(line);
+    struct gm_csv_lines before = {.stream = fopen(path, "r")};
+    gm_csv_next(&before);
+    const bool other = before.line && before.line[0] && strcmp(before.line, head) != 0;
+    gm_csv_close(&before);
     if (other) {
         return gm_refuse(message, "%.360s is the table of another sweep; it is left as it is", path);
     }
-    if (rename(part, path) != 0) {
-        return gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
-    }
-    return true;
+    return rename(part, path) == 0 ||
+           gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
 }
 
 bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
                    void (*missing)(size_t run, const char *words), size_t *missing_count, char *message)
 {
     char *head = gm_sweep_head(sweep), *part = NULL;
-    FILE **shares = calloc(sweep->shards, sizeof *shares);
+    struct gm_csv_lines *shares = calloc(sweep->shards, sizeof *shares);
     *missing_count = 0;
     allow_files();
     bool good = head && shares && asprintf(&part, "%s.part", path) >= 0;
@@ -275,21 +188,17 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
         good = merge(sweep, shares, table, missing, missing_count, message);
         const bool failed = ferror(table) != 0;
         if ((fclose(table) != 0 || failed) && good) {
-            snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", part, strerror(errno));
-            good = false;
+            good = gm_refuse(message, "%.360s could not be written: %s", part, strerror(errno));
         }
         good = good && replace(part, path, head, message);
         if (!good) {
             unlink(part);
         }
     } else if (good) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", part, strerror(errno));
-        good = false;
+        good = gm_refuse(message, "%.360s could not be written: %s", part, strerror(errno));
     }
     for (size_t i = 0; shares && i < sweep->shards; i++) {
-        if (shares[i]) {
-            fclose(shares[i]);
-        }
+        gm_csv_close(&shares[i]);
     }
     free(shares);
     free(head);

@@ -91,25 +91,37 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
     return good;
 }
 
-char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
+/* A text about a run; malloc'ed, NULL when memory is short. */
+static char *text_of(const struct gm_sweep *sweep, size_t run,
+                     bool (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
 {
-    struct gm_arguments arguments;
     char *text = NULL;
     size_t size = 0;
-    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? open_memstream(&text, &size) : NULL;
-    if (stream) {
-        fputs("run", stream);
-        for (int i = 0; i < arguments.count; i++) {
-            putc(' ', stream);
-            gm_arguments_put_shell(stream, arguments.words[i]);
-        }
-        if (fclose(stream) != 0) {
-            free(text);
-            text = NULL;
-        }
+    FILE *stream = open_memstream(&text, &size);
+    const bool good = stream && put(sweep, run, stream);
+    if (stream && (fclose(stream) != 0 || !good)) {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
+static bool put_words(const struct gm_sweep *sweep, size_t run, FILE *stream)
+{
+    struct gm_arguments arguments;
+    const bool good = words_of(sweep, run, NULL, NULL, &arguments);
+    fputs("run", stream);
+    for (int i = 0; i < arguments.count; i++) {
+        putc(' ', stream);
+        gm_arguments_put_shell(stream, arguments.words[i]);
     }
     gm_arguments_close(&arguments);
-    return text;
+    return good;
+}
+
+char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
+{
+    return text_of(sweep, run, put_words);
 }
 
 /* ---- reading ---- */
@@ -124,17 +136,26 @@ static size_t middle_of(const struct gm_sweep *sweep)
     return sweep->words.zip ? sweep->count / 2 : run;
 }
 
+/* Asks for a run as `geomint run` would; the request is to be closed in any case. False with a sentence. */
+static bool ask(const struct gm_sweep *sweep, size_t run, const char *key, const char *instead,
+                struct gm_request *request, char *message)
+{
+    struct gm_arguments arguments;
+    *request = (struct gm_request){0};
+    const bool good =
+        (words_of(sweep, run, key, instead, &arguments) || gm_refuse(message, "not enough memory")) &&
+        gm_request_parse_for(request, sweep->scene, arguments.count, arguments.words, 1, message);
+    gm_arguments_close(&arguments);
+    return good;
+}
+
 static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value,
                     bool *unreadable, char *message)
 {
-    struct gm_arguments arguments;
-    struct gm_request request = {0};
-    const bool told = words_of(sweep, run, key, value, &arguments) || gm_refuse(message, "not enough memory");
-    const bool good =
-        told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message);
+    struct gm_request request;
+    const bool good = ask(sweep, run, key, value, &request, message);
     *unreadable = request.refusal == GM_EXIT_FILE;
     gm_request_close(&request);
-    gm_arguments_close(&arguments);
     return good;
 }
 
@@ -250,14 +271,9 @@ size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
 
 /* ---- rows ---- */
 
-char *gm_sweep_head(const struct gm_sweep *sweep)
+static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
+    (void)run;
     fputs("scene,scheme", stream);
     for (size_t i = 0; i < sweep->words.count; i++) {
         if (is_column(&sweep->words.list[i])) {
@@ -271,10 +287,15 @@ char *gm_sweep_head(const struct gm_sweep *sweep)
         fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
     }
     fputc('\n', stream);
-    return fclose(stream) == 0 ? text : NULL;
+    return true;
 }
 
-static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
+char *gm_sweep_head(const struct gm_sweep *sweep)
+{
+    return text_of(sweep, 0, put_head);
+}
+
+static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
     char text[GM_TEXT_SIZE];
     fprintf(stream, "%s,", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
@@ -296,18 +317,12 @@ static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
             }
         }
     }
+    return true;
 }
 
 char *gm_sweep_front(const struct gm_sweep *sweep, size_t run)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    put_front(sweep, run, stream);
-    return fclose(stream) == 0 ? text : NULL;
+    return text_of(sweep, run, put_front);
 }
 
 /* The cells behind the front, of a run that has ended or could not begin (no lane). */
@@ -390,20 +405,16 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
 
 void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row)
 {
-    struct gm_arguments arguments;
-    struct gm_request request = {0};
+    struct gm_request request;
     const unsigned long refusals = gm_memory_refusals();
     *row = (struct gm_sweep_row){0};
-    const bool told = words_of(sweep, run, NULL, NULL, &arguments);
-    const bool asked = told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words,
-                                                    1, row->sentence);
+    const bool asked = ask(sweep, run, NULL, NULL, &request, row->sentence);
     const bool lost = gm_memory_refusals() != refusals;
     if (asked || lost) {
         row->sentence[0] = '\0';
     }
     make_row(sweep, run, &request, asked ? NULL : lost ? gm_status_name(GM_OUT_OF_MEMORY) : "refused", row);
     gm_request_close(&request);
-    gm_arguments_close(&arguments);
 }
 
 /* ---- how long it takes ---- */
@@ -417,15 +428,10 @@ static double sum_of(const struct gm_sweep *sweep,
     double sum = 0;
     for (size_t i = 0; i < SAMPLES && runs > 0; i++) {
         char message[GM_MESSAGE];
-        struct gm_arguments arguments;
-        struct gm_request request = {0};
+        struct gm_request request;
         const size_t run = gm_sweep_run(sweep, (runs - 1) / (SAMPLES - 1) * i);
-        if (words_of(sweep, run, NULL, NULL, &arguments) &&
-            gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message)) {
-            sum += of(&request, 0);
-        }
+        sum += ask(sweep, run, NULL, NULL, &request, message) ? of(&request, 0) : 0;
         gm_request_close(&request);
-        gm_arguments_close(&arguments);
     }
     return sum / SAMPLES * (double)runs;
 }

@@ -20,16 +20,17 @@
 
 struct gm_sweep_table {
     const struct gm_sweep *sweep;
-    char *path;   /* NULL: standard output */
-    int fd;       /* where rows go */
-    bool unheard; /* nobody reads what goes there */
-    off_t size;   /* of the whole rows there */
-    size_t there; /* rows: of the first runs of the share */
-    /* where rows are made anew: they go to PATH.part, in their order with those that are kept, which are read
-       from `old` */
+    char *path;              /* NULL: standard output */
+    int fd;                  /* where rows go */
+    bool unheard;            /* nobody reads what goes there */
+    off_t size;              /* of the whole rows there */
+    size_t there;            /* rows: of the first runs of the share */
+    struct gm_csv_lines old; /* of the table as it was found; its stream has the lock as well */
+    /* Where rows are made anew: they go to PATH.part, in their order with those that are kept. */
     char *part;
-    FILE *old;
-    unsigned char *again; /* a bit for each row that is there: whether it is made anew */
+    size_t *again; /* the numbers of these rows */
+    size_t again_count;
+    size_t copied; /* rows of `old` that are in the other file, or were made anew */
 };
 
 static bool refuse_writing(char *message, const char *path)
@@ -115,44 +116,52 @@ static bool refuse_row(const struct gm_sweep_table *table, const char *line, siz
     return false;
 }
 
-/* What is there, line by line: how many rows of the sweep, and where the last one ends. False with a sentence
-   if a line is none. */
-static bool read_rows(struct gm_sweep_table *table, FILE *stream, const char *head, const char *retry,
-                      char *message)
+/* The head, or where the table is empty or its head torn, nothing; false with a sentence if it is another one. */
+static bool read_head(struct gm_sweep_table *table, const char *head, char *message)
 {
-    const size_t commas = commas_of(head), runs = gm_sweep_share(table->sweep);
-    char *line = NULL;
-    size_t capacity = 0;
-    ssize_t length = getline(&line, &capacity, stream);
-    bool good = length <= 0 || strcmp(line, head) == 0;
-    const bool torn = length > 0 && line[length - 1] != '\n' && strncmp(line, head, (size_t)length) == 0;
-    if (!good && !torn) {
-        gm_refuse(message, "%.360s is not a table of this sweep: %s; it is left as it is", table->path,
-                  is_older_head(line, head) ? "it has no column warning, so another geomint made it"
-                                            : "its columns are others");
+    const char *line = gm_csv_next(&table->old), *torn = table->old.line ? table->old.line : "";
+    if (line && strcmp(line, head) == 0) {
+        table->size = (off_t)strlen(head);
+        return true;
     }
-    table->size = good && length > 0 ? length : 0;
-    while (good && (length = getline(&line, &capacity, stream)) > 0 && line[length - 1] == '\n') {
-        const size_t run = gm_sweep_run(table->sweep, table->there);
-        if (table->there == runs || !is_row_of(table->sweep, run, line, commas)) {
-            refuse_row(table, line, commas, message);
-            good = false;
-        } else {
-            if (retry && has_status(table->sweep, run, line, retry)) {
-                table->again[table->there / 8] |= (unsigned char)(1u << table->there % 8);
-                table->old = stream;
-            }
-            table->size += length;
-            table->there++;
-        }
-    }
-    free(line);
-    return good || torn;
+    return (!line && strncmp(torn, head, strlen(torn)) == 0) ||
+           gm_refuse(message, "%.360s is not a table of this sweep: %s; it is left as it is", table->path,
+                     is_older_head(torn, head) ? "it has no column warning, so another geomint made it"
+                                               : "its columns are others");
 }
 
-static bool is_made_anew(const struct gm_sweep_table *table, size_t k)
+/* Notes that a row is made anew. */
+static bool add_again(struct gm_sweep_table *table, size_t k, char *message)
 {
-    return table->again && (table->again[k / 8] >> k % 8 & 1);
+    if ((table->again_count & (table->again_count - 1)) == 0) { /* room for twice as many */
+        const size_t most = table->again_count ? 2 * table->again_count : 1;
+        size_t *again = realloc(table->again, most * sizeof *again);
+        if (!again) {
+            return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
+        }
+        table->again = again;
+    }
+    table->again[table->again_count++] = k;
+    return true;
+}
+
+/* What is there, line by line: how many rows of the sweep, and where the last one ends. False with a sentence
+   if a line is none. */
+static bool read_rows(struct gm_sweep_table *table, const char *head, const char *retry, char *message)
+{
+    const size_t commas = commas_of(head), runs = gm_sweep_share(table->sweep);
+    bool good = read_head(table, head, message);
+    for (const char *line; good && (line = gm_csv_next(&table->old));) {
+        const size_t run = gm_sweep_run(table->sweep, table->there);
+        if (table->there == runs || !is_row_of(table->sweep, run, line, commas)) {
+            return refuse_row(table, line, commas, message);
+        }
+        good =
+            !retry || !has_status(table->sweep, run, line, retry) || add_again(table, table->there, message);
+        table->size += (off_t)strlen(line);
+        table->there++;
+    }
+    return good;
 }
 
 /* A row, or the head, whole or not at all. */
@@ -189,15 +198,11 @@ static bool begin_anew(struct gm_sweep_table *table, const char *head, char *mes
     if (part < 0) {
         return refuse_writing(message, table->part);
     }
-    close(table->fd); /* the stream has the lock as well */
+    close(table->fd);
     table->fd = part;
     table->size = 0;
-    char *line = NULL;
-    size_t capacity = 0;
-    rewind(table->old);
-    const bool good = getline(&line, &capacity, table->old) > 0 && append(table, head, message);
-    free(line);
-    return good;
+    rewind(table->old.stream);
+    return gm_csv_next(&table->old) && append(table, head, message);
 }
 
 /* The file, locked, read and made ready for the next row. */
@@ -217,35 +222,29 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
     if (flock(table->fd, LOCK_EX | LOCK_NB) != 0) {
         return gm_refuse(message, "%.360s is being written by another process", table->path);
     }
-    const size_t rows = (size_t)found.st_size / (commas_of(head) + 1);
-    table->again = retry ? calloc(rows / 8 + 1, 1) : NULL;
     const int copy = dup(table->fd);
-    FILE *stream = copy >= 0 ? fdopen(copy, "r") : NULL;
-    const bool memory = stream && (table->again || !retry);
-    if (!memory) {
-        gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
+    table->old.stream = copy >= 0 ? fdopen(copy, "r") : NULL;
+    if (!table->old.stream) {
+        if (copy >= 0) {
+            close(copy);
+        }
+        return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
     }
-    bool good = memory && read_rows(table, stream, head, retry, message);
-    if (good && table->old) {
-        return begin_anew(table, head, message); /* which keeps the stream, and the lock with it */
+    if (!read_rows(table, head, retry, message)) {
+        return false;
     }
-    table->old = NULL; /* rows that are not of this sweep are made anew no more than others */
-    if (stream) {
-        fclose(stream);
-    } else if (copy >= 0) {
-        close(copy);
+    if (table->again_count > 0) {
+        return begin_anew(table, head, message);
     }
-    if (good && table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
-        good = refuse_writing(message, table->path);
+    if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
+        return refuse_writing(message, table->path);
     }
-    return good && (table->size > 0 || append(table, head, message));
+    return table->size > 0 || append(table, head, message);
 }
 
 static void free_table(struct gm_sweep_table *table)
 {
-    if (table->old) {
-        fclose(table->old);
-    }
+    gm_csv_close(&table->old);
     if (table->path && table->fd >= 0) {
         close(table->fd);
     }
@@ -293,25 +292,26 @@ enum { WINDOW = 1024 };
 
 struct filling {
     struct gm_sweep_table *table;
+    struct gm_sweep_chart *chart;
     const struct gm_listener *listener;
     struct gm_sweep_sum *sum;
     char *message;
-    size_t first; /* piece 0 of the pool is this run of the share */
     bool failed;
-    double told;
-    char *kept; /* the line of the row that is kept */
-    size_t capacity;
+    double heard; /* when */
     struct gm_sweep_row slots[WINDOW];
 };
+
+/* The row that piece `index` of the pool is: those made anew come before those that are not there. */
+static size_t row_of(const struct gm_sweep_table *table, size_t index)
+{
+    return index < table->again_count ? table->again[index] : table->there + index - table->again_count;
+}
 
 static void make(void *self, size_t index, size_t slot)
 {
     struct filling *filling = self;
     const struct gm_sweep_table *table = filling->table;
-    const size_t k = filling->first + index;
-    if (k >= table->there || is_made_anew(table, k)) {
-        gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, k), &filling->slots[slot]);
-    }
+    gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, row_of(table, index)), &filling->slots[slot]);
 }
 
 static bool fills_no_more(void *self)
@@ -322,20 +322,25 @@ static bool fills_no_more(void *self)
 static void hear(struct filling *filling, size_t k)
 {
     const double often = 0.1, now = gm_clock_seconds();
-    if (now - filling->told > often) {
-        filling->told = now;
+    if (now - filling->heard > often) {
+        filling->heard = now;
         gm_listener_hears(filling->listener, "runs", k + 1, gm_sweep_share(filling->table->sweep));
     }
 }
 
-static bool keep_old(struct filling *filling)
+/* Copies the rows before `k` that are there, and passes over that one. */
+static bool copy_old(struct gm_sweep_table *table, size_t k, char *message)
 {
-    struct gm_sweep_table *table = filling->table;
-    if (getline(&filling->kept, &filling->capacity, table->old) <= 0) {
-        gm_refuse(filling->message, "%.360s could not be read again", table->path);
-        return false;
+    while (table->part && table->copied < table->there && table->copied <= k) {
+        const char *line = gm_csv_next(&table->old);
+        if (!line) {
+            return gm_refuse(message, "%.360s could not be read again", table->path);
+        }
+        if (table->copied++ < k && !append(table, line, message)) {
+            return false;
+        }
     }
-    return append(table, filling->kept, filling->message);
+    return true;
 }
 
 static void count_row(struct gm_sweep_sum *sum, size_t run, const struct gm_sweep_row *row)
@@ -355,37 +360,27 @@ static bool take(void *self, size_t index, size_t slot)
 {
     struct filling *filling = self;
     struct gm_sweep_table *table = filling->table;
-    const size_t k = filling->first + index;
+    const size_t k = row_of(table, index);
     hear(filling, k);
-    const bool anew = is_made_anew(table, k);
-    if (k < table->there && !anew) {
-        filling->failed = !keep_old(filling);
-        return !filling->failed;
-    }
     struct gm_sweep_row *row = &filling->slots[slot];
     if (!row->text) {
-        if (!gm_interrupted) {
-            filling->failed = true;
-            gm_refuse(filling->message, "a row could not be made: not enough memory");
-        }
-        return false;
+        filling->failed = !gm_interrupted;
+        return gm_refuse(filling->message, "a row could not be made: not enough memory");
     }
-    if (anew && getline(&filling->kept, &filling->capacity, table->old) <= 0) {
-        filling->failed = true;
-        return gm_refuse(filling->message, "%.360s could not be read again", table->path);
-    }
-    const bool good = append(table, row->text, filling->message);
-    if (good) {
+    filling->failed = !copy_old(table, k, filling->message) || !append(table, row->text, filling->message);
+    if (!filling->failed) {
         count_row(filling->sum, gm_sweep_run(table->sweep, k), row);
+    }
+    if (!filling->failed && filling->chart) {
+        gm_sweep_chart_take(filling->chart, gm_sweep_run(table->sweep, k), row->text);
     }
     free(row->text);
     row->text = NULL;
-    filling->failed = !good;
-    return good;
+    return !filling->failed;
 }
 
-bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct gm_listener *listener,
-                         struct gm_sweep_sum *sum, char *message)
+bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sweep_chart *chart,
+                         const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message)
 {
     struct filling *filling = calloc(1, sizeof *filling);
     char *head = table->path ? NULL : gm_sweep_head(table->sweep);
@@ -397,30 +392,29 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct
                          table->path ? table->path : "standard output");
     }
     filling->table = table;
+    filling->chart = chart;
     filling->listener = listener;
     filling->sum = sum;
     filling->message = message;
-    filling->first = table->part ? 0 : table->there;
-    const struct gm_pool pool = {.count = gm_sweep_share(table->sweep) - filling->first,
+    const struct gm_pool pool = {.count = table->again_count + gm_sweep_share(table->sweep) - table->there,
                                  .jobs = jobs,
                                  .window = WINDOW,
                                  .work = make,
                                  .take = take,
                                  .stopped = fills_no_more,
                                  .self = filling};
-    /* where that was interrupted, rows that are there stay, behind those that were made */
     filling->failed = head && !append(table, head, message);
-    const size_t taken = filling->failed ? 0 : gm_pool_run(&pool);
-    free(head);
-    for (size_t k = filling->first + taken; k < table->there && !filling->failed; k++) {
-        filling->failed = !keep_old(filling);
+    if (!filling->failed) {
+        gm_pool_run(&pool);
     }
+    free(head);
+    /* where that was interrupted, rows that are there stay, behind those that were made */
+    filling->failed = filling->failed || !copy_old(table, SIZE_MAX, message);
     sum->unheard = table->unheard;
     const bool good = !filling->failed;
     for (size_t i = 0; i < WINDOW; i++) {
         free(filling->slots[i].text);
     }
-    free(filling->kept);
     free(filling);
     if (table->part && !good) {
         unlink(table->part);

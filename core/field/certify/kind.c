@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/field/certify/quantities.h"
 #include "core/field/certify/runs.h"
 #include "core/field/families/burgers.h"
@@ -21,7 +21,6 @@
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/larger.h"
 #include "core/run.h"
 
 static unsigned facets(const struct gm_problem *problem)
@@ -72,24 +71,27 @@ static double error_at(struct gm_field_subject *subject, double t,
     return largest;
 }
 
-static double wave_energy(const void *problem, const double *y)
+static double wave_energy(const void *problem, const double *y, const double *memory)
 {
+    (void)memory;
     return gm_wave_energy(problem, y);
 }
 
-static double kdv_mass(const void *problem, const double *y)
+static double kdv_mass(const void *problem, const double *y, const double *memory)
 {
+    (void)memory;
     return gm_kdv_mass(problem, y);
 }
 
-static double nls_charge(const void *problem, const double *y)
+static double nls_charge(const void *problem, const double *y, const double *memory)
 {
+    (void)memory;
     return gm_nls_node_charge(problem, y);
 }
 
 static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
                       struct gm_field_subject *subject, const double *y,
-                      double (*quantity)(const void *problem, const double *y))
+                      double (*quantity)(const void *problem, const double *y, const double *memory))
 {
     const struct gm_kept kept = {.value = quantity, .data = &subject->problem};
     gm_field_note_kept(certificate, claim, subject, y, &kept, subject->problem.name);
@@ -477,10 +479,11 @@ static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_
 }
 
 /* The energy of a form, which is of a scheme's own kind. */
-static double form_energy(const void *subject, const double *y)
+static double form_energy(const void *subject, const double *y, const double *memory)
 {
     const struct gm_field_subject *of = subject;
-    return gm_form_energy(&of->problem, of->scheme, y);
+    (void)y; /* the memory holds the stages that lead to it */
+    return gm_form_energy(&of->problem, of->scheme, memory);
 }
 
 /* Why no step of this length can tell of a claim; NULL: steps can. */

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/field/multisymplectic.h"
-#include "core/larger.h"
 
 static const struct gm_settings no_settings;
 
@@ -140,10 +140,12 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
     double change = INFINITY;
     if (gm_field_begin(subject, y)) {
         gm_run_advance(subject->run, 1);
-        const double before = kept->value(kept->data, gm_run_state(subject->run));
+        const double before =
+            kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
         if (gm_run_advance(subject->run, GM_FIELD_STEPS - 1) == GM_OK) {
-            change =
-                fabs(kept->value(kept->data, gm_run_state(subject->run)) - before) / fmax(1, fabs(before));
+            const double after =
+                kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
+            change = fabs(after - before) / fmax(1, fabs(before));
         }
         gm_run_close(subject->run);
     }

@@ -29,8 +29,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/linear/settled.h"
 

@@ -21,9 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
-#include "core/larger.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
    and the last of v hold the boundary values of the new level already. */

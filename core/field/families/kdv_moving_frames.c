@@ -27,11 +27,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/problems/moving_frames.h"
-#include "core/larger.h"
 #include "core/linear/ring.h"
 #include "core/linear/settled.h"
 

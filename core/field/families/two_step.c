@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {

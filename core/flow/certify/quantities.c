@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/run.h"
 

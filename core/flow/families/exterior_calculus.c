@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/flow/families/families.h"
 #include "core/flow/second_thread.h"
 #include "core/flow/solver.h"

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/mesh/certify/law.h"
 #include "core/mesh/certify/quantities.h"
 #include "core/mesh/certify/subject.h"

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/run.h"
 
 size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantities)

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/families/multiplier.h"
 #include "core/mesh/moving_mesh.h"

@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/families/multiplier.h"

@@ -11,7 +11,7 @@
 
 #include <gsl/gsl_integration.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "core/tape.h"
 

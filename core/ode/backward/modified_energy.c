@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/ode/ode.h"

@@ -364,7 +364,7 @@ double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *sch
 {
     double end[MOST];
     return go_on(subject, scheme, end)
-               ? change_of(kept->value(kept->data, subject->start), kept->value(kept->data, end))
+               ? change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, end, NULL))
                : NAN;
 }
 
@@ -374,7 +374,7 @@ double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *k
     for (size_t c = 0; c < subject->problem.n; c++) {
         near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * sin((double)(3 * c + 1));
     }
-    return change_of(kept->value(kept->data, subject->start), kept->value(kept->data, near));
+    return change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, near, NULL));
 }
 
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/certify.h"
-#include "core/count.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"
@@ -212,8 +212,8 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
         quadratic = quadratic && gm_kept_differences(kept, subject->start, n, 3, all) < none;
         bilinear = bilinear && gm_kept_differences(kept, subject->start, n, 2, q) < none &&
                    gm_kept_differences(kept, subject->start, n, 2, p) < none;
-        of_momenta =
-            of_momenta && fabs(kept->value(kept->data, q)) <= none * fabs(kept->value(kept->data, all));
+        of_momenta = of_momenta && fabs(kept->value(kept->data, q, NULL)) <=
+                                       none * fabs(kept->value(kept->data, all, NULL));
     }
     const unsigned map = bilinear && of_momenta && 2 * half == n ? GM_KEEPS_MOMENTUM_MAPS : 0;
     return !varies      ? 0
@@ -243,7 +243,7 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
             for (size_t c = 0; c < n; c++) {
                 side[c] = y[c] + (end ? step : -step) * rate[c];
             }
-            value[end] = kept->value(kept->data, side);
+            value[end] = kept->value(kept->data, side, NULL);
         }
         good = fabs(value[1] - value[0]) <= 1e-10 * (fabs(value[0]) + fabs(value[1]));
         for (size_t c = 0; c < n; c++) {
@@ -264,9 +264,9 @@ static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *k
     for (size_t c = 0; matrix && c < n; c++) {
         const double h = 1e-5 * subject->scale;
         y[c] = subject->start[c] + h;
-        const double above = kept->value(kept->data, y);
+        const double above = kept->value(kept->data, y, NULL);
         y[c] = subject->start[c] - h;
-        slope[c] = (above - kept->value(kept->data, y)) / (2 * h);
+        slope[c] = (above - kept->value(kept->data, y, NULL)) / (2 * h);
         y[c] = subject->start[c];
     }
     if (matrix) {

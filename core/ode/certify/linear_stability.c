@@ -4,6 +4,7 @@
        R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
 #include "core/ode/certify/linear_stability.h"
+#include "core/linear/complex_matrix.h"
 
 #include <complex.h>
 #include <math.h>
@@ -91,44 +92,21 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
     return NAN;
 }
 
-/* R(z) of one tableau: Gaussian elimination of (1 - z A) k = 1. */
+/* R(z) = 1 + z b k of one tableau, (1 - z A) k = 1. */
 static double complex stability_function(int stages, const double *a, size_t row, const double *b,
                                          double complex z)
 {
-    double complex matrix[STAGES][STAGES], k[STAGES];
+    double complex matrix[STAGES * STAGES], k[STAGES], sum = 1;
     for (int i = 0; i < stages; i++) {
         k[i] = 1;
         for (int j = 0; j < stages; j++) {
-            matrix[i][j] = (i == j ? 1 : 0) - z * a[(size_t)i * row + (size_t)j];
+            matrix[i * stages + j] = (i == j ? 1 : 0) - z * a[(size_t)i * row + (size_t)j];
         }
     }
-    for (int p = 0; p < stages; p++) {
-        int pivot = p;
-        for (int i = p + 1; i < stages; i++) {
-            pivot = cabs(matrix[i][p]) > cabs(matrix[pivot][p]) ? i : pivot;
-        }
-        for (int j = 0; j < stages; j++) {
-            const double complex swap = matrix[p][j];
-            matrix[p][j] = matrix[pivot][j];
-            matrix[pivot][j] = swap;
-        }
-        const double complex swap = k[p];
-        k[p] = k[pivot];
-        k[pivot] = swap;
-        for (int i = p + 1; i < stages; i++) {
-            const double complex factor = matrix[i][p] / matrix[p][p];
-            for (int j = p; j < stages; j++) {
-                matrix[i][j] -= factor * matrix[p][j];
-            }
-            k[i] -= factor * k[p];
-        }
+    if (!gm_complex_eliminate((size_t)stages, matrix, k)) {
+        return INFINITY; /* a pole */
     }
-    double complex sum = 1;
     for (int i = stages - 1; i >= 0; i--) {
-        for (int j = i + 1; j < stages; j++) {
-            k[i] -= matrix[i][j] * k[j];
-        }
-        k[i] /= matrix[i][i];
         sum += z * b[i] * k[i];
     }
     return sum;

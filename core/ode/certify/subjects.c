@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"

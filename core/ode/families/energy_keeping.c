@@ -14,13 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
-enum { NODES = 8, PICARD_ITERATIONS = 100, NEWTON_ITERATIONS = 60 };
+enum { NODES = 8 };
 
 static const struct {
     double node, weight;
@@ -35,8 +35,8 @@ static const struct {
     {0.9801449282487681158418, 0.05061426814518812957627},
 };
 
-/* Scratch arrays of n doubles, then the matrix. */
-enum { D, AT, F, MEAN, RIGHT, VECTORS };
+/* Scratch arrays of n doubles, then what the solvers work in. */
+enum { D, AT, F, VECTORS };
 
 /* mean := the discrete f between y and y + d. Returns the level of its round-off, times |d| / |f|. */
 typedef double mean_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
@@ -97,108 +97,91 @@ static double gradient_field(const struct gm_problem *problem, const double *y, 
     return fabs(weight * before) / sqrt(square);
 }
 
-/* r := h mean - d, whose zero is wanted; returns |r| and the level of round-off */
-static double defect(const struct gm_task *task, const struct method *method, struct gm_members *members,
-                     double h, double *r, double *roundoff, struct gm_progress *progress)
+/* One step, or one of those that it is made of. */
+struct substep {
+    const struct gm_task *task;
+    const struct gm_members *members;
+    double h;
+    struct gm_progress *progress;
+};
+
+/* next := h mean, for gm_sweeps_solve */
+static bool sweep(void *data, const double *d, double *next, double *scale)
 {
+    const struct substep *substep = data;
+    const struct gm_members *members = substep->members;
+    const struct method *method = substep->task->scheme->coefficients;
     const size_t n = members->n;
-    double *d = members->scratch + D * n, *mean = members->scratch + MEAN * n;
-    const double noise = method->mean(task->problem, members->y, d, mean, members->scratch + AT * n,
-                                      members->scratch + F * n, progress);
-    double size = fabs(h) * noise, change = 0;
+    const double noise = method->mean(substep->task->problem, members->y, d, next, members->scratch + AT * n,
+                                      members->scratch + F * n, substep->progress);
+    *scale += fabs(substep->h) * noise;
     for (size_t c = 0; c < n; c++) {
-        r[c] = h * mean[c] - d[c];
-        change += fabs(r[c]);
-        size += fabs(members->y[c]) + fabs(d[c]);
+        next[c] *= substep->h;
+        *scale += fabs(members->y[c]) + fabs(d[c]);
     }
-    *roundoff = 16 * GM_EPSILON * size;
-    progress->iterations++;
-    return change;
+    return true;
 }
 
-static bool by_newton(const struct gm_task *task, const struct method *method, struct gm_members *members,
-                      double h, struct gm_progress *progress)
+/* With the matrix of the midpoint rule. */
+static bool linear(void *data, const double *d, double *residual, double *matrix, double *scale)
 {
+    const struct substep *substep = data;
+    const struct gm_members *members = substep->members;
     const size_t n = members->n;
-    double *d = members->scratch + D * n, *at = members->scratch + AT * n, *r = members->scratch + RIGHT * n;
-    double *matrix = members->scratch + VECTORS * n;
-    double previous = INFINITY, roundoff;
+    double *at = members->scratch + AT * n;
+    sweep(data, d, residual, scale);
+    *scale *= 2;
+    for (size_t c = 0; c < n; c++) {
+        residual[c] -= d[c];
+        at[c] = members->y[c] + 0.5 * d[c];
+    }
+    if (!gm_jacobian(substep->task->problem, at, matrix)) {
+        return false;
+    }
+    for (size_t i = 0; i < n * n; i++) {
+        matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * substep->h * matrix[i];
+    }
+    return true;
+}
+
+static bool solve(struct substep *substep, double *d)
+{
+    const struct gm_problem *problem = substep->task->problem;
+    const struct gm_members *members = substep->members;
+    const size_t n = members->n;
+    const bool newton = gm_matrix_size(problem) > 0;
+    const struct gm_implicit_equations equations = {.size = n,
+                                                    .counted = n,
+                                                    .data = substep,
+                                                    .sweep = sweep,
+                                                    .linear = newton ? linear : NULL,
+                                                    .y = members->y,
+                                                    .n = n,
+                                                    .roundoff = 16 * GM_EPSILON};
+    double *scratch = members->scratch + VECTORS * n;
+    if (!gm_ode_of(problem)->stiff) {
+        gm_field(problem, members->y, d, 1);
+        substep->progress->evaluations++;
+        for (size_t c = 0; c < n; c++) {
+            d[c] *= substep->h;
+        }
+        if (gm_sweeps_solve(&equations, scratch, d, substep->progress)) {
+            return true;
+        }
+    }
     memset(d, 0, n * sizeof *d);
-    for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
-        if (!isfinite(defect(task, method, members, h, r, &roundoff, progress))) {
-            return false;
-        }
-        for (size_t c = 0; c < n; c++) {
-            at[c] = members->y[c] + 0.5 * d[c];
-        }
-        if (!gm_jacobian(task->problem, at, matrix)) {
-            return false;
-        }
-        for (size_t i = 0; i < n * n; i++) {
-            matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * h * matrix[i];
-        }
-        progress->solves++;
-        const double scale = roundoff / (8 * GM_EPSILON);
-        const double rounding =
-            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(n, n, matrix, members->y, d) : 0;
-        if (!gm_eliminate(n, matrix, r)) {
-            progress->unsolved.obstacle = gm_obstacle_of(n * n, matrix);
-            return false;
-        }
-        double change = 0;
-        for (size_t c = 0; c < n; c++) {
-            d[c] += r[c];
-            change += fabs(r[c]);
-        }
-        if (gm_newton_is_settled(n, change, scale, rounding, &previous)) {
-            return true;
-        }
-        progress->unsolved = gm_unsolved_by(change, roundoff / (16 * GM_EPSILON));
-    }
-    return false;
-}
-
-static bool by_fixed_point(const struct gm_task *task, const struct method *method,
-                           struct gm_members *members, double h, struct gm_progress *progress)
-{
-    const size_t n = members->n;
-    double *d = members->scratch + D * n, *r = members->scratch + RIGHT * n;
-    double previous = INFINITY, before_previous = INFINITY, roundoff;
-    const bool newton = gm_matrix_size(task->problem) > 0;
-    gm_field(task->problem, members->y, d, 1);
-    progress->evaluations++;
-    for (size_t c = 0; c < n; c++) {
-        d[c] *= h;
-    }
-    for (int iteration = 0; iteration < PICARD_ITERATIONS; iteration++) {
-        const double change = defect(task, method, members, h, r, &roundoff, progress), before = previous;
-        progress->unsolved = gm_unsolved_by(change, roundoff / (16 * GM_EPSILON));
-        if (!(change < 1e100)) {
-            return false;
-        }
-        for (size_t c = 0; c < n; c++) {
-            d[c] += r[c];
-        }
-        if (gm_is_settled(change, roundoff, &previous)) {
-            return true;
-        }
-        if (newton && !GM_SWEEPS_CONTRACT(change, before_previous, roundoff)) {
-            return false;
-        }
-        before_previous = before;
-    }
-    return false;
+    return newton && gm_newton_solve(&equations, scratch, d, substep->progress);
 }
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
     const struct method *method = task->scheme->coefficients;
-    const double *d = members->scratch + D * members->n;
-    for (int substep = 0; substep < method->composition->steps; substep++) {
-        const double h = task->dt * gm_composition_fraction(method->composition, substep);
-        if ((gm_ode_of(task->problem)->stiff || !by_fixed_point(task, method, members, h, progress)) &&
-            !by_newton(task, method, members, h, progress)) {
+    double *d = members->scratch + D * members->n;
+    for (int i = 0; i < method->composition->steps; i++) {
+        struct substep substep = {task, members, task->dt * gm_composition_fraction(method->composition, i),
+                                  progress};
+        if (!solve(&substep, d)) {
             return GM_NO_CONVERGENCE;
         }
         for (size_t c = 0; c < members->n; c++) {
@@ -216,7 +199,9 @@ static struct gm_progress loop(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    return gm_members_open(problem, 0, VECTORS * problem->n + gm_matrix_size(problem));
+    const size_t n = problem->n;
+    return gm_members_open(problem, 0,
+                           VECTORS * n + (gm_matrix_size(problem) > 0 ? gm_newton_scratch(n) : n));
 }
 
 static const struct method avf2 = {average_field, &gm_composition_none};

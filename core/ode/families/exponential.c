@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/complex_matrix.h"
 #include "core/linear/modes.h"
 #include "core/ode/families/families.h"

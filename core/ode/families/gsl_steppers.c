@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"

@@ -6,7 +6,7 @@
    R.I. McLachlan, B. Owren & G.R.W. Quispel, J. Phys. A 46 (2013) 025201. */
 #include <stdlib.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"

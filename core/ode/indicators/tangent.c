@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/coefficients.h"
@@ -34,8 +34,8 @@ struct gm_tangent {
     double *y, *dy;        /* n each: the sums over the stages that are done */
     double *base, *d_base; /* stages * n each: of a block, what the stages before it give */
     double *at;            /* stages * n: the states of its stages */
-    double *jacobians, *matrix; /* of its stages, n * n each; of all its equations */
-    double *right;
+    double *jacobians;     /* of its stages, n * n each */
+    double *scratch;       /* of Newton's method for them */
     double *kicked,
         *kick; /* n each: where the Jacobian of the last stage was taken, if that was a kick, and its k */
     double *before, *plus, *minus, *slope; /* n + memory each */
@@ -153,8 +153,7 @@ static bool open_stages(struct gm_tangent *tangent, const struct gm_coefficients
         {&tangent->d_base, largest * n},
         {&tangent->at, largest * n},
         {&tangent->jacobians, largest * n * n},
-        {&tangent->right, largest * n},
-        {&tangent->matrix, largest * n * largest * n},
+        {&tangent->scratch, gm_newton_scratch(largest * n)},
     };
     for (size_t i = 0; i < GM_COUNT(rooms); i++) {
         *rooms[i].place = doubles(rooms[i].count);
@@ -206,11 +205,11 @@ void gm_tangent_close(struct gm_tangent *tangent)
     if (!tangent) {
         return;
     }
-    double *const rooms[] = {tangent->a[0],   tangent->a[1],   tangent->b[0],   tangent->b[1],
-                             tangent->k,      tangent->w,      tangent->y,      tangent->dy,
-                             tangent->base,   tangent->d_base, tangent->at,     tangent->jacobians,
-                             tangent->matrix, tangent->right,  tangent->before, tangent->plus,
-                             tangent->minus,  tangent->slope,  tangent->kicked, tangent->kick};
+    double *const rooms[] = {tangent->a[0],    tangent->a[1],   tangent->b[0], tangent->b[1],
+                             tangent->k,       tangent->w,      tangent->y,    tangent->dy,
+                             tangent->base,    tangent->d_base, tangent->at,   tangent->jacobians,
+                             tangent->scratch, tangent->before, tangent->plus, tangent->minus,
+                             tangent->slope,   tangent->kicked, tangent->kick};
     for (size_t i = 0; i < GM_COUNT(rooms); i++) {
         free(rooms[i]);
     }
@@ -370,79 +369,63 @@ static void add_slopes(const struct gm_tangent *tangent, double *const weights[G
     }
 }
 
-/* right := base + h sum_j a_ij k_j - Y_i over the block; returns its 1-norm, and that of the Y_i. */
-static double residual(const struct gm_tangent *tangent, size_t first, size_t count, double *size)
-{
-    const size_t n = tangent->n, s = tangent->stages;
-    double sum = 0;
-    *size = 0;
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < n; c++) {
-            const double *weights = tangent->a[tangent->side[c]] + (first + i) * s + first;
-            double slope = 0;
-            for (size_t j = 0; j < count; j++) {
-                slope += weights[j] * tangent->k[(first + j) * n + c];
-            }
-            const double state = tangent->at[i * n + c];
-            tangent->right[i * n + c] = tangent->base[i * n + c] + tangent->run->dt * slope - state;
-            sum += fabs(tangent->right[i * n + c]);
-            *size += fabs(state) + fabs(tangent->run->dt * slope);
-        }
-    }
-    return sum;
-}
+/* Some stages that depend on each other. */
+struct block {
+    const struct gm_tangent *tangent;
+    size_t first, count;
+};
 
-/* matrix := 1 - h a_ij f'(Y_j) */
-static void fill_matrix(const struct gm_tangent *tangent, size_t first, size_t count)
+/* base + h sum_j a_ij k_j - Y_i, and 1 - h a_ij f'(Y_j); gm_linear_equations */
+static bool linear(void *data, const double *states, double *residual, double *matrix, double *scale)
 {
-    const size_t n = tangent->n, s = tangent->stages;
-    for (size_t i = 0; i < count; i++) {
-        for (size_t row = 0; row < n; row++) {
-            double *to = tangent->matrix + (i * n + row) * count * n;
-            for (size_t j = 0; j < count; j++) {
-                const double weight =
-                    tangent->run->dt * tangent->a[tangent->side[row]][(first + i) * s + first + j];
-                for (size_t c = 0; c < n; c++) {
-                    to[j * n + c] = (i == j && row == c) - weight * tangent->jacobians[(j * n + row) * n + c];
-                }
+    const struct block *block = data;
+    const struct gm_tangent *tangent = block->tangent;
+    const size_t n = tangent->n, s = tangent->stages, first = block->first, count = block->count;
+    const double h = tangent->run->dt;
+    for (size_t j = 0; j < count; j++) {
+        evaluate(tangent, states + j * n, tangent->k + (first + j) * n, tangent->jacobians + j * n * n);
+    }
+    for (size_t r = 0; r < count * n; r++) {
+        const size_t c = r % n;
+        const double *weights = tangent->a[tangent->side[c]] + (first + r / n) * s + first;
+        double slope = 0;
+        for (size_t j = 0; j < count; j++) {
+            slope += weights[j] * tangent->k[(first + j) * n + c];
+            for (size_t k = 0; k < n; k++) {
+                matrix[r * count * n + j * n + k] =
+                    (r == j * n + k) - h * weights[j] * tangent->jacobians[(j * n + c) * n + k];
             }
         }
+        residual[r] = tangent->base[r] + h * slope - states[r];
+        *scale += fabs(states[r]) + fabs(h * slope);
     }
+    return true;
 }
 
-/* The stages of a block, and their derivatives; false where Newton's method does not find them. */
+/* The stages of a block, and their derivatives; false where Newton's method does not find them. A change that is as
+   small leaves an error of its square. */
 static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t count)
 {
-    enum { ITERATIONS = 30 };
     const size_t n = tangent->n, all = count * n;
+    double *right = tangent->scratch, *matrix = right + all, unused = 0;
+    struct block block = {tangent, first, count};
+    struct gm_progress ignored = {0};
+    const struct gm_implicit_equations equations = {
+        .size = all, .data = &block, .linear = linear, .counted = all, .least = 0x1p-40, .roundoff = 0x1p-40};
     tangent->kicked[0] = NAN; /* the Jacobian there is overwritten */
     memcpy(tangent->at, tangent->base, all * sizeof(double));
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        for (size_t j = 0; j < count; j++) {
-            evaluate(tangent, tangent->at + j * n, tangent->k + (first + j) * n,
-                     tangent->jacobians + j * n * n);
-        }
-        double size;
-        const double error = residual(tangent, first, count, &size);
-        const bool solved = error <= 8 * DBL_EPSILON * size;
-        fill_matrix(tangent, first, count);
-        if (solved) {
-            memcpy(tangent->right, tangent->d_base, all * sizeof(double));
-        }
-        if (!isfinite(error) || !gm_eliminate(all, tangent->matrix, tangent->right)) {
-            return false;
-        }
-        for (size_t i = 0; i < all && !solved; i++) {
-            tangent->at[i] += tangent->right[i];
-        }
-        for (size_t j = 0; j < count && solved; j++) {
-            multiply(tangent, tangent->jacobians + j * n * n, tangent->right + j * n, first + j);
-        }
-        if (solved) {
-            return true;
-        }
+    if (!gm_newton_solve(&equations, tangent->scratch, tangent->at, &ignored)) {
+        return false;
     }
-    return false;
+    linear(&block, tangent->at, right, matrix, &unused);
+    memcpy(right, tangent->d_base, all * sizeof(double));
+    if (!gm_eliminate(all, matrix, right)) {
+        return false;
+    }
+    for (size_t j = 0; j < count; j++) {
+        multiply(tangent, tangent->jacobians + j * n * n, right + j * n, first + j);
+    }
+    return true;
 }
 
 /* What the stages before the block give to its stage i. */

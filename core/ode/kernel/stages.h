@@ -1,83 +1,99 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What Newton's method for the stages of a Runge-Kutta method needs. The loops over kernels include this too, so all
+/* The stages of a Runge-Kutta method as equations for Newton's method. The loops over kernels include this too, so all
    of it is inline. */
 #ifndef GM_CORE_ODE_KERNEL_STAGES_H
 #define GM_CORE_ODE_KERNEL_STAGES_H
 
-#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "core/status.h"
+#include "core/linear/iteration.h"
 
 enum { GM_TABLEAU_STAGES = 16 };
 
-/* Solves a x = r, a an n * n matrix by rows, by Gaussian elimination with partial pivoting. a is destroyed, x
-   overwrites r. False if a is singular. */
-static inline bool gm_eliminate(size_t n, double *a, double *r)
+/* The stages Y_i = y + z_i, z_i = h sum_j a_ij f(Y_j), of `count` with n components each. */
+struct gm_stages {
+    size_t count, n;
+    double h;
+    const double *y;
+    const double (*a)[GM_TABLEAU_STAGES], *b;
+    const double (*c)[GM_TABLEAU_STAGES], *d; /* of components from n / 2 on, in place of a and b */
+    /* f at the state of stage j, and its Jacobian by rows unless that is NULL; false where there is none */
+    bool (*slope)(void *data, size_t j, const double *state, double *f, double *jacobian);
+    void *data;
+    double *f, *state, *jacobian; /* scratch: count * n, n and n * n */
+    struct gm_progress *progress;
+};
+
+/* gm_implicit_equations.sweep; data is a gm_stages */
+static inline bool gm_stages_sweep(void *data, const double *z, double *next, double *scale)
 {
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++) {
-            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
+    const struct gm_stages *stages = data;
+    const size_t n = stages->n;
+    for (size_t j = 0; j < stages->count; j++) {
+        for (size_t c = 0; c < n; c++) {
+            stages->state[c] = stages->y[c] + z[j * n + c];
+            *scale += fabs(stages->y[c]) + fabs(z[j * n + c]);
         }
-        if (!(fabs(a[pivot * n + k]) > 0)) {
+        if (!stages->slope(stages->data, j, stages->state, stages->f + j * n, NULL)) {
             return false;
         }
-        if (pivot != k) {
-            for (size_t j = k; j < n; j++) {
-                const double swap = a[k * n + j];
-                a[k * n + j] = a[pivot * n + j];
-                a[pivot * n + j] = swap;
-            }
-            const double swap = r[k];
-            r[k] = r[pivot];
-            r[pivot] = swap;
-        }
-        for (size_t i = k + 1; i < n; i++) {
-            const double factor = a[i * n + k] / a[k * n + k];
-            for (size_t j = k + 1; j < n; j++) {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            r[i] -= factor * r[k];
-        }
     }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++) {
-            r[k] -= a[k * n + j] * r[j];
+    stages->progress->evaluations += stages->count;
+    for (size_t i = 0; i < stages->count; i++) {
+        for (size_t c = 0; c < n; c++) {
+            const double *row = c < n / 2 ? stages->a[i] : stages->c[i];
+            double sum = 0;
+            for (size_t j = 0; j < stages->count; j++) {
+                sum += stages->h * row[j] * stages->f[j * n + c];
+            }
+            next[i * n + c] = sum;
         }
-        r[k] /= a[k * n + k];
     }
     return true;
 }
 
-/* Why a matrix of so many entries was not eliminated. */
-static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matrix)
+/* gm_implicit_equations.linear; data is a gm_stages */
+static inline __attribute__((always_inline)) bool
+gm_stages_linear(void *data, const double *z, double *residual, double *matrix, double *scale)
 {
-    double sum = 0;
-    for (size_t i = 0; i < entries; i++) {
-        sum += fabs(matrix[i]);
-    }
-    return isfinite(sum) ? GM_SINGULAR : GM_NOT_FINITE;
-}
-
-/* The sum of |h a_ij J_cd Y_jd|, the terms of h f that rounding acts on, from the matrix I - h a_ij J(Y_j) and the
-   stages Y_j = y + z_j, of n components each. */
-static inline double gm_rounding_of_stages(size_t size, size_t n, const double *matrix, const double *y,
-                                           const double *z)
-{
-    double sum = 0;
-    for (size_t j = 0; j < size; j += n) {
-        for (size_t c = j; c < j + n; c++) {
-            double terms = 0;
-            for (size_t i = 0; i < size; i++) {
-                terms += fabs((i == c) - matrix[i * size + c]);
+    const struct gm_stages *stages = data;
+    const size_t n = stages->n, count = stages->count, size = count * n;
+    const double h = stages->h, (*const sides[])[GM_TABLEAU_STAGES] = {stages->a, stages->c};
+    double *restrict state = stages->state;
+    for (size_t j = 0; j < count; j++) {
+        for (size_t c = 0; c < n; c++) {
+            state[c] = stages->y[c] + z[j * n + c];
+            *scale += fabs(stages->y[c]) + fabs(z[j * n + c]);
+        }
+        if (!stages->slope(stages->data, j, state, stages->f + j * n, stages->jacobian)) {
+            return false;
+        }
+        for (size_t i = 0; i < count; i++) {
+            for (size_t r = 0; r < n; r++) {
+                const double factor = h * sides[r >= n / 2][i][j];
+                const double *restrict row = stages->jacobian + r * n;
+                double *restrict to = matrix + (i * n + r) * size + j * n;
+                for (size_t c = 0; c < n; c++) {
+                    to[c] = -(factor * row[c]);
+                }
+                to[r] += i == j ? 1 : 0;
             }
-            sum += terms * fabs(y[c - j] + z[c]);
         }
     }
-    return sum;
+    stages->progress->evaluations += stages->count;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < n; c++) {
+            const double *row = sides[c >= n / 2][i];
+            double sum = -z[i * n + c];
+            for (size_t j = 0; j < count; j++) {
+                sum += h * row[j] * stages->f[j * n + c];
+            }
+            residual[i * n + c] = sum;
+        }
+    }
+    return true;
 }
 
 /* The weights w of z = h A f by which sum w_k z_k = h sum b_i f_i: A' w = b; of a stiffly accurate method z_s itself.
@@ -86,7 +102,7 @@ static inline double gm_rounding_of_stages(size_t size, size_t n, const double *
 static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLEAU_STAGES], const double *b,
                                         double *weights)
 {
-    double matrix[GM_TABLEAU_STAGES * GM_TABLEAU_STAGES], sum = 0;
+    double matrix[GM_TABLEAU_STAGES * GM_TABLEAU_STAGES];
     if (memcmp(a[stages - 1], b, stages * sizeof *b) == 0) {
         memset(weights, 0, stages * sizeof *b);
         weights[stages - 1] = 1;
@@ -98,13 +114,26 @@ static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLE
         }
     }
     memcpy(weights, b, stages * sizeof *b);
-    if (!gm_eliminate(stages, matrix, weights)) {
-        return false;
+    return gm_eliminate(stages, matrix, weights) && gm_sum_of(weights, stages) < 0x1p10;
+}
+
+/* increment := h sum b_i f_i, where it can be made of z, which Newton's method has found; NULL: of f alone. */
+static inline void gm_stages_increment(const struct gm_stages *stages, const double *z, double *increment)
+{
+    const size_t n = stages->n;
+    double weights[GM_TABLEAU_STAGES];
+    bool by_z = false;
+    for (size_t c = 0; c < n; c++) {
+        const bool second = c >= n / 2;
+        const double *b = second ? stages->d : stages->b;
+        if (z && (c == 0 || (c == n / 2 && stages->c != stages->a))) {
+            by_z = gm_weights_of_stages(stages->count, second ? stages->c : stages->a, b, weights);
+        }
+        increment[c] = 0;
+        for (size_t i = 0; i < stages->count; i++) {
+            increment[c] += by_z ? weights[i] * z[i * n + c] : stages->h * b[i] * stages->f[i * n + c];
+        }
     }
-    for (size_t i = 0; i < stages; i++) {
-        sum += fabs(weights[i]);
-    }
-    return sum < 0x1p10;
 }
 
 #endif

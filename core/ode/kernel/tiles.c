@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 
 /* The most members are 31 lines of the cache: rows that are a power of two apart would be in each other's way. */

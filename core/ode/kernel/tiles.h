@@ -2,7 +2,7 @@
 #ifndef GM_CORE_ODE_KERNEL_TILES_H
 #define GM_CORE_ODE_KERNEL_TILES_H
 
-#include "core/clones.h"
+#include "core/basics.h"
 #include "core/ode/ode.h"
 
 /* The loop of families over a problem whose n is chosen at run time, through its field: a tile of members,

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/larger.h"
+#include "core/basics.h"
 #include "core/ode/kernel/members.h"
 
 /* ---- angular momenta ---- */

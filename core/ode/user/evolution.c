@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/modes.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From tapes to the text of kernels. */
 #include "core/ode/user/kernel.h"
-#include "core/count.h"
+#include "core/basics.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "core/model/equations.h"
-#include "core/model/legendre.h"
 #include "core/ode/kernel/members.h"
 
 static bool is_linear(struct gm_user_system *system, bool *marked)
@@ -103,14 +102,20 @@ void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian)
     gm_tape_close(&lagrangian->slopes);
 }
 
+static void no_numbers(double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        values[i] = NAN;
+    }
+}
+
 /* One state whose velocities are looked for. */
 struct transform {
     const struct gm_user_lagrangian *lagrangian;
-    struct gm_mass mass;
     double *at;      /* q, v, t */
     double *outputs; /* of the tape of momenta */
     double *wanted;  /* p */
-    double *storage;
+    double *scratch;
 };
 
 static bool open_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian)
@@ -118,39 +123,44 @@ static bool open_transform(struct transform *transform, const struct gm_user_lag
     const size_t half = lagrangian->model->half, n = lagrangian->model->components,
                  outputs = lagrangian->momenta.outputs;
     *transform = (struct transform){.lagrangian = lagrangian};
-    transform->at = malloc((n + outputs + 4 * half) * sizeof(double));
-    if (!transform->at || !gm_mass_open(&transform->mass, half)) {
-        free(transform->at);
+    transform->at = malloc((n + outputs + half + gm_newton_scratch(half)) * sizeof(double));
+    if (!transform->at) {
         return false;
     }
     transform->outputs = transform->at + n;
     transform->wanted = transform->outputs + outputs;
-    transform->storage = transform->wanted + half;
+    transform->scratch = transform->wanted + half;
     return true;
 }
 
-static void close_transform(struct transform *transform)
+/* The mass matrix from the values of all slopes, or of those that are `alone` in it. */
+static void fill_mass(const struct gm_user_lagrangian_model *model, const double *values, bool alone,
+                      double *mass)
 {
-    gm_mass_close(&transform->mass);
-    free(transform->at);
+    memset(mass, 0, model->half * model->half * sizeof *mass);
+    for (size_t i = 0; i < model->slopes.count; i++) {
+        const struct gm_sparse_entry *slope = &model->slopes.entries[i];
+        const bool held = is_of_mass(model, slope);
+        if (held) {
+            mass[slope->row * model->half + slope->column - model->half] = *values;
+        }
+        values += held || !alone;
+    }
 }
 
-/* gm_legendre_momenta */
-static void momenta_at(void *data, const double *v, double *p, struct gm_mass *mass)
+/* p - dL/dv and the mass matrix; gm_linear_equations */
+static bool momenta_at(void *data, const double *v, double *residual, double *matrix, double *scale)
 {
     struct transform *transform = data;
     const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
     gm_tape_values(&transform->lagrangian->momenta, transform->at, transform->outputs, 1);
-    memcpy(p, transform->outputs, model->half * sizeof *p);
-    memset(mass->entries, 0, mass->n * mass->n * sizeof(double));
-    const double *entry = transform->outputs + model->half;
-    for (size_t i = 0; i < model->slopes.count; i++) {
-        const struct gm_sparse_entry *slope = &model->slopes.entries[i];
-        if (is_of_mass(model, slope)) {
-            mass->entries[slope->row * mass->n + slope->column - model->half] = *entry++;
-        }
+    for (size_t i = 0; i < model->half; i++) {
+        residual[i] = transform->wanted[i] - transform->outputs[i];
     }
+    fill_mass(model, transform->outputs + model->half, true, matrix);
+    *scale += gm_sum_of(v, model->half);
+    return true;
 }
 
 /* The velocities of member l of m; transform->at is that state with them. They begin at 0, so that every
@@ -158,13 +168,23 @@ static void momenta_at(void *data, const double *v, double *p, struct gm_mass *m
 static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
 {
     const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
+    const struct gm_implicit_equations equations = {.size = model->half,
+                                                    .data = transform,
+                                                    .linear = momenta_at,
+                                                    .counted = model->half,
+                                                    .least = 0x1p-52,
+                                                    .roundoff = 0x1p-40,
+                                                    .halved = true,
+                                                    .exact = model->linear};
+    struct gm_progress ignored = {0};
     for (size_t i = 0; i < model->components; i++) {
         transform->at[i] = y[i * m + l];
     }
     memcpy(transform->wanted, transform->at + model->half, model->half * sizeof *v);
     memset(v, 0, model->half * sizeof *v);
-    gm_legendre_solve(model->half, model->linear, momenta_at, transform, transform->wanted, &transform->mass,
-                      transform->storage, v);
+    if (!gm_newton_solve(&equations, transform->scratch, v, &ignored)) {
+        no_numbers(v, model->half);
+    }
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
 }
 
@@ -185,21 +205,13 @@ static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const 
             at[(half + i) * m + l] = v[i];
         }
     }
-    if (good) {
-        close_transform(&transform);
-    } else {
+    free(transform.at);
+    if (!good) {
         free(at);
         at = NULL;
     }
     free(v);
     return at;
-}
-
-static void no_numbers(double *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        values[i] = NAN;
-    }
 }
 
 void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
@@ -317,8 +329,9 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
             columns[entries[i].column * half + entries[i].row] -= values[i];
         }
     }
+    fill_mass(model, values, false, transform.scratch);
+    gm_eliminate_columns(half, transform.scratch, n, columns);
     for (size_t c = 0; c < n; c++) {
-        gm_mass_solve(&transform.mass, columns + c * half);
         for (size_t i = 0; i < half; i++) {
             matrix[i * n + c] = columns[c * half + i];
         }
@@ -336,6 +349,6 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     if (!isfinite(v[0])) {
         no_numbers(matrix, n * n);
     }
-    close_transform(&transform);
+    free(transform.at);
     free(columns);
 }

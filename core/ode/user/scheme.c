@@ -7,7 +7,7 @@
    of the processor's inverse, its adjoint by -h, of the kernel and of the processor. Hairer, Lubich & Wanner
    (2006), sections II.3, II.4, V.2, V.3.3. */
 #include "core/ode/user/scheme.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/expression/number.h"
 
 #include <math.h>

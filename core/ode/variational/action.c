@@ -70,23 +70,19 @@ struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scra
 static bool find_mass(const struct gm_action_at *action, const double *at)
 {
     const size_t n = action->problem->n, half = action->half;
-    double *a = action->mass + half * half, *column = action->field;
+    double *a = action->mass + half * half;
     memcpy(action->state, at, n * sizeof *at);
     memset(action->state + half, 0, half * sizeof *at);
     loops_of(action->problem)->field(action->problem, action->state, action->field, 1);
     memcpy(action->drift, action->field, half * sizeof *at);
     loops_of(action->problem)->jacobian(action->problem, action->state, action->jacobian);
-    for (size_t k = 0; k < half; k++) {
-        for (size_t i = 0; i < half; i++) {
-            memcpy(a + i * half, action->jacobian + i * n + half, half * sizeof *a);
-            column[i] = i == k;
-        }
-        if (!gm_eliminate(half, a, column)) {
-            return false;
-        }
-        for (size_t i = 0; i < half; i++) {
-            action->mass[i * half + k] = column[i];
-        }
+    memset(action->mass, 0, half * half * sizeof *a); /* the inverse by columns: it is symmetric */
+    for (size_t i = 0; i < half; i++) {
+        memcpy(a + i * half, action->jacobian + i * n + half, half * sizeof *a);
+        action->mass[i * (half + 1)] = 1;
+    }
+    if (!gm_eliminate_columns(half, a, half, action->mass)) {
+        return false;
     }
     *action->known = 1;
     return true;

@@ -10,14 +10,12 @@
 
 #include "core/ode/kernel/members.h"
 
-enum { ITERATIONS = 50 };
-
 size_t gm_manifold_scratch_size(const struct gm_problem *problem)
 {
     const size_t half = problem->n / 2, constraints = gm_action_constraints(problem),
                  all = half + constraints;
     return gm_action_room(problem) + problem->n + 2 * constraints + constraints * half + half * half + all +
-           all * all;
+           gm_newton_scratch(all);
 }
 
 struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *scratch)
@@ -29,8 +27,8 @@ struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *scr
     manifold.slopes = manifold.g + constraints;
     manifold.curvature = manifold.slopes + constraints * half;
     manifold.multipliers = manifold.curvature + half * half;
-    manifold.right = manifold.multipliers + constraints;
-    manifold.matrix = manifold.right + half + constraints;
+    manifold.unknowns = manifold.multipliers + constraints;
+    manifold.right = manifold.unknowns + half + constraints;
     return manifold;
 }
 
@@ -43,64 +41,119 @@ void gm_manifold_constrain(const struct gm_manifold *manifold, const double *q)
     }
 }
 
-/* matrix := [dL2/dv2, -G'; G, 0] of the latest evaluations, solved for `right`. */
-static bool solve(const struct gm_manifold *manifold)
+/* matrix := [dL2/dv2, -G'; G, 0] of the latest evaluations */
+static inline __attribute__((always_inline)) void fill(const struct gm_manifold *manifold,
+                                                       double *restrict matrix)
 {
     const size_t half = manifold->action.half, constraints = manifold->constraints, all = half + constraints;
-    memset(manifold->matrix, 0, all * all * sizeof(double));
+    memset(matrix, 0, all * all * sizeof(double));
     for (size_t i = 0; i < half; i++) {
-        memcpy(manifold->matrix + i * all, manifold->action.motion.momenta_v + i * half,
-               half * sizeof(double));
+        for (size_t j = 0; j < half; j++) {
+            matrix[i * all + j] = manifold->action.motion.momenta_v[i * half + j];
+        }
         for (size_t k = 0; k < constraints; k++) {
-            manifold->matrix[i * all + half + k] = -manifold->slopes[k * half + i];
-            manifold->matrix[(half + k) * all + i] = manifold->slopes[k * half + i];
+            matrix[i * all + half + k] = -manifold->slopes[k * half + i];
+            matrix[(half + k) * all + i] = manifold->slopes[k * half + i];
         }
     }
-    return gm_eliminate(all, manifold->matrix, manifold->right);
+}
+
+/* pushed := p + G' multipliers */
+static inline void push(const struct gm_manifold *manifold, const double *multipliers, const double *p,
+                        double *pushed)
+{
+    const size_t half = manifold->action.half;
+    for (size_t i = 0; i < half; i++) {
+        double sum = p[i];
+        for (size_t k = 0; k < manifold->constraints; k++) {
+            sum += manifold->slopes[k * half + i] * multipliers[k];
+        }
+        pushed[i] = sum;
+    }
+}
+
+/* A state that is moved onto the manifold, and its own momenta. */
+struct settling {
+    const struct gm_manifold *manifold;
+    const double *p;
+};
+
+/* dL/dv = p + G' multipliers, G v = 0: the velocities and multipliers. */
+static bool settle(void *data, const double *v, double *residual, double *matrix, double *scale)
+{
+    const struct settling *settling = data;
+    const struct gm_manifold *manifold = settling->manifold;
+    const size_t half = manifold->action.half;
+    memcpy(manifold->at + half, v, half * sizeof *v);
+    if (!gm_action_evaluate(&manifold->action, manifold->at)) {
+        return false;
+    }
+    push(manifold, v + half, settling->p, residual);
+    for (size_t i = 0; i < half; i++) {
+        residual[i] -= manifold->action.motion.momenta[i];
+        *scale += fabs(v[i]);
+    }
+    for (size_t k = 0; k < manifold->constraints; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < half; i++) {
+            sum -= manifold->slopes[k * half + i] * v[i];
+        }
+        residual[half + k] = sum;
+    }
+    fill(manifold, matrix);
+    return true;
+}
+
+/* g(q) = 0, by the directions in which momenta are pushed at the first state. */
+static bool approach(void *data, const double *q, double *residual, double *matrix, double *scale)
+{
+    const struct settling *settling = data;
+    const struct gm_manifold *manifold = settling->manifold;
+    const size_t half = manifold->action.half;
+    memcpy(manifold->at, q, half * sizeof *q);
+    gm_manifold_constrain(manifold, q);
+    memset(residual, 0, half * sizeof *residual);
+    for (size_t k = 0; k < manifold->constraints; k++) {
+        residual[half + k] = -manifold->g[k];
+    }
+    if (!gm_action_evaluate(&manifold->action, manifold->at)) {
+        return false;
+    }
+    fill(manifold, matrix);
+    *scale += gm_sum_of(q, half);
+    return true;
+}
+
+/* From the unknowns that are there; unknowns are half coordinates or velocities, and multipliers. */
+static inline __attribute__((always_inline)) bool solve(const struct gm_manifold *manifold,
+                                                        gm_linear_equations *linear, const double *p)
+{
+    const size_t half = manifold->action.half;
+    struct settling settling = {manifold, p};
+    struct gm_progress ignored = {0};
+    const struct gm_implicit_equations equations = {.size = half + manifold->constraints,
+                                                    .data = &settling,
+                                                    .counted = half,
+                                                    .least = 0x1p-52,
+                                                    .roundoff = 0x1p-46};
+    memset(manifold->unknowns + half, 0, manifold->constraints * sizeof(double));
+    return gm_newton_solve_by(&equations, linear, manifold->right, manifold->unknowns, &ignored);
 }
 
 bool gm_manifold_settle(const struct gm_manifold *manifold, double *y)
 {
-    const struct gm_action_at *action = &manifold->action;
-    const size_t half = action->half, constraints = manifold->constraints;
-    double *v = manifold->at + half, *p = y + half, previous = INFINITY;
+    const size_t half = manifold->action.half, n = manifold->action.problem->n;
+    double *v = manifold->at + half, *unknowns = manifold->unknowns;
     memcpy(manifold->at, y, half * sizeof *y);
-    memcpy(manifold->at + 2 * half, y + 2 * half, (action->problem->n - 2 * half) * sizeof *y);
+    memcpy(manifold->at + 2 * half, y + 2 * half, (n - 2 * half) * sizeof *y);
     gm_manifold_constrain(manifold, y);
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        if (!gm_action_evaluate(action, manifold->at)) {
-            return false;
-        }
-        for (size_t i = 0; i < half; i++) {
-            manifold->right[i] = p[i] - action->motion.momenta[i];
-        }
-        for (size_t k = 0; k < constraints; k++) {
-            double sum = 0;
-            for (size_t i = 0; i < half; i++) {
-                sum -= manifold->slopes[k * half + i] * v[i];
-            }
-            manifold->right[half + k] = sum;
-        }
-        if (!solve(manifold)) {
-            return false;
-        }
-        double change = 0, size = 0;
-        for (size_t i = 0; i < half; i++) {
-            v[i] += manifold->right[i];
-            change += fabs(manifold->right[i]);
-            size += fabs(v[i]);
-            for (size_t k = 0; k < constraints; k++) {
-                p[i] += manifold->slopes[k * half + i] * manifold->right[half + k];
-            }
-        }
-        if (!isfinite(change)) {
-            return false;
-        }
-        if (change <= 0x1p-52 * size || gm_is_settled(change, 0x1p-46 * size, &previous)) {
-            return true;
-        }
+    memcpy(unknowns, v, half * sizeof *v);
+    if (!solve(manifold, settle, y + half)) {
+        return false;
     }
-    return false;
+    memcpy(v, unknowns, half * sizeof *v);
+    push(manifold, unknowns + half, y + half, y + half);
+    return true;
 }
 
 /* g'' = G a + v' g_qq v = 0 and dp/dt = M a + (d dL/dv / dq) v = dL/dq + F + G' multipliers, for a and
@@ -138,16 +191,13 @@ static bool accelerate(const struct gm_manifold *manifold, const double *y, doub
     for (size_t k = 0; k < constraints; k++) {
         manifold->right[half + k] = -bent[k];
     }
-    if (!solve(manifold)) {
+    double *matrix = manifold->right + half + constraints;
+    fill(manifold, matrix);
+    if (!gm_eliminate(half + constraints, matrix, manifold->right)) {
         return false;
     }
-    for (size_t i = 0; i < half; i++) {
-        f[i] = v[i];
-        f[half + i] = action->motion.forces[i];
-        for (size_t k = 0; k < constraints; k++) {
-            f[half + i] += manifold->slopes[k * half + i] * manifold->right[half + k];
-        }
-    }
+    memcpy(f, v, half * sizeof *f);
+    push(manifold, manifold->right + half, action->motion.forces, f + half);
     return true;
 }
 
@@ -172,29 +222,14 @@ void gm_manifold_field(const struct gm_problem *problem, const double *y, double
 
 bool gm_manifold_project(const struct gm_problem *problem, double *y)
 {
-    double *scratch = calloc(gm_manifold_scratch_size(problem), sizeof *scratch), previous = INFINITY;
+    double *scratch = calloc(gm_manifold_scratch_size(problem), sizeof *scratch);
     bool good = false;
     if (scratch) {
         const struct gm_manifold manifold = gm_manifold_lay(problem, scratch);
-        const size_t half = manifold.action.half, constraints = manifold.constraints;
-        for (int iteration = 0; iteration < ITERATIONS && !good; iteration++) {
-            memcpy(manifold.at, y, half * sizeof *y);
-            gm_manifold_constrain(&manifold, y);
-            memset(manifold.right, 0, half * sizeof *y);
-            for (size_t k = 0; k < constraints; k++) {
-                manifold.right[half + k] = -manifold.g[k];
-            }
-            if (!gm_action_evaluate(&manifold.action, manifold.at) || !solve(&manifold)) {
-                break;
-            }
-            double change = 0, size = 0;
-            for (size_t i = 0; i < half; i++) {
-                y[i] += manifold.right[i];
-                change += fabs(manifold.right[i]);
-                size += fabs(y[i]);
-            }
-            good = change <= 0x1p-52 * size || gm_is_settled(change, 0x1p-46 * size, &previous);
-        }
+        const size_t half = manifold.action.half;
+        memcpy(manifold.unknowns, y, half * sizeof *y);
+        good = solve(&manifold, approach, NULL);
+        memcpy(y, manifold.unknowns, half * sizeof *y);
         memset(manifold.at + half, 0, half * sizeof *y);
         good = good && gm_manifold_settle(&manifold, y);
     }

@@ -12,7 +12,8 @@ struct gm_manifold {
     double *at;                     /* q, v, t: n */
     double *g, *slopes, *curvature; /* as struct gm_action says */
     double *multipliers;            /* constraints */
-    double *right, *matrix;         /* of half + constraints unknowns, and the square of that */
+    double *unknowns;               /* half + constraints */
+    double *right;                  /* what Newton's method for them works in */
 };
 
 /* Doubles of room, zeros at first, as gm_action_room's. */

@@ -15,15 +15,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
-static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
+const struct gm_collocation_tableau gm_collocation_midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
-static const struct gm_collocation_tableau gauss4 = {
+const struct gm_collocation_tableau gm_collocation_gauss4 = {
     2,
     {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
     {0.5, 0.5},
@@ -219,29 +219,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-double *gm_any_form_stages(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                           const double *y, const double *remembered)
+const double *gm_any_form_stages(const double *memory)
 {
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
-    double *begun = calloc(memory(problem, scheme), sizeof *begun);
-    double *stages = work ? malloc(of_level(work) * sizeof *stages) : NULL;
-    if (stages && begun) {
-        const struct gm_task task = {
-            .problem = problem, .scheme = scheme, .dt = dt, .y = y, .memory_out = begun, .workspace = work};
-        if (!remembered) {
-            start(&task);
-        }
-        memcpy(stages, (remembered ? remembered : begun) + ARRAYS, of_level(work) * sizeof *stages);
-    }
-    if (work) {
-        gm_collocation_close(work);
-    }
-    if (!begun) {
-        free(stages);
-        stages = NULL;
-    }
-    free(begun);
-    return stages;
+    return memory + ARRAYS;
 }
 
 /* The solution becomes the first of the past ones. */
@@ -409,17 +389,18 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
     {                                                                                                        \
         .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
         .family = &gm_family_any_form, .coefficients = tableau_, .order = order_, .needs = GM_NEEDS_ALL,     \
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC, .in_cells = true,                                       \
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,                                                         \
     }
 
 static const struct gm_scheme schemes[] = {
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        &midpoint, 2),
+        &gm_collocation_midpoint, 2),
     BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &midpoint, 2),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &gm_collocation_midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
+        3),
     BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };

@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/clones.h"
+#include "core/basics.h"
 #include "core/scheme.h"
 
 /* ---- the workspace ---- */
@@ -853,7 +853,28 @@ static void node_weights(const struct gm_collocation *work, size_t mode, double 
     }
 }
 
-void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes)
+/* The same of the left side of a cell, whose right one is that of the next. Where the sides' own part is free, it is what
+   gives the slopes no part in it. */
+static void side_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
+{
+    const double complex rise = cexp(I * angle_of(mode, work->points)) - work->rest;
+    const bool free = cabs(rise) < 1e-12;
+    double complex whole = free ? 0 : rise;
+    for (size_t m = 0; m < work->r; m++) {
+        weights[m] = free ? 0 : work->weights[m];
+        for (size_t l = 0; free && l < work->r; l++) {
+            weights[m] += work->weights[l] * work->inverse[l][m];
+        }
+        whole += free ? weights[m] : 0;
+    }
+    for (size_t m = 0; m < work->r; m++) {
+        weights[m] /= whole;
+    }
+}
+
+/* Values at a place of every cell, node or left side, from those at the stages. */
+static void combine(struct gm_collocation *work, const double *stages, double *values,
+                    void (*weigh)(const struct gm_collocation *work, size_t mode, double complex *weights))
 {
     const size_t points = work->points, r = work->r;
     for (size_t c = 0; c < work->d; c++) {
@@ -867,7 +888,7 @@ void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, 
         }
         for (size_t mode = 0; mode < points; mode++) {
             double complex weights[GM_COLLOCATION_STAGES], sum = 0;
-            node_weights(work, mode, weights);
+            weigh(work, mode, weights);
             for (size_t m = 0; m < r; m++) {
                 sum += weights[m] * work->waves[m * points + mode];
             }
@@ -875,7 +896,28 @@ void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, 
         }
         gm_fourier_inverse(work->fourier, work->waves);
         for (size_t i = 0; i < points; i++) {
-            nodes[c * points + i] = creal(work->waves[i]) + slant(work, c, i, 0);
+            values[c * points + i] = creal(work->waves[i]) + slant(work, c, i, 0);
+        }
+    }
+}
+
+void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes)
+{
+    combine(work, stages, nodes, node_weights);
+}
+
+void gm_collocation_slopes(struct gm_collocation *work, const double *stages, double *slopes)
+{
+    const size_t points = work->points, r = work->r;
+    const double over = 1 / work->problem->line.dx;
+    double *sides = work->gradient;
+    combine(work, stages, sides, side_weights);
+    for (size_t at = 0; at < work->d * r; at++) {
+        double *slope = slopes + at * points;
+        memset(slope, 0, points * sizeof *slope);
+        add(slope, sides + at / r * points, -over * work->sums[at % r], points);
+        for (size_t l = 0; l < r; l++) {
+            add(slope, stages + (at / r * r + l) * points, over * work->inverse[at % r][l], points);
         }
     }
 }

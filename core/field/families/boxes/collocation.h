@@ -16,6 +16,8 @@ struct gm_collocation_tableau {
         c[GM_COLLOCATION_STAGES];
 };
 
+extern const struct gm_collocation_tableau gm_collocation_midpoint, gm_collocation_gauss4; /* any_form.c */
+
 /* Where the equations of a step are linear: the equations of a cell solved for its stages, as factors, and
    those between the sides of cells. The cells have the same where the coefficients are constant. */
 struct gm_collocation_factors {
@@ -73,6 +75,8 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt);
 /* Values at the nodes, [component * points + node], to those at the stages of cells, and back. */
 void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages);
 void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes);
+/* The slopes of values at the stages, there. */
+void gm_collocation_slopes(struct gm_collocation *work, const double *stages, double *slopes);
 /* basis' s at the nodes, as a guess of y. */
 void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes);
 

@@ -23,23 +23,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/boxes/modes.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
-static const struct gm_gauss_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
-static const struct gm_gauss_tableau gauss4 = {
-    2,
-    {{0.25, 0.25 - GM_ROOT3 / 6}, {0.25 + GM_ROOT3 / 6, 0.25}},
-    {0.5, 0.5},
-    {0.5 - GM_ROOT3 / 6, 0.5 + GM_ROOT3 / 6},
-};
-
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return 2 * ((const struct gm_gauss_tableau *)scheme->coefficients)->n * problem->line.points + 1;
+    return 2 * ((const struct gm_collocation_tableau *)scheme->coefficients)->r * problem->line.points + 1;
 }
 
 /* Corrects v so that a step leads to the other level as well as to the order of the scheme. */
@@ -47,7 +39,7 @@ static void correct(struct gm_gauss_work *work, const struct gm_problem *problem
                     double *v, const double *other_nodes)
 {
     enum { TIMES = 2 };
-    const size_t count = work->tableau->n * work->points, size = count * sizeof *u;
+    const size_t count = work->tableau->r * work->points, size = count * sizeof *u;
     struct gm_progress uncounted = {.status = GM_OK};
     double *other = malloc(2 * size);
     for (int k = 0; other && k < TIMES; k++) {
@@ -72,8 +64,8 @@ static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
     const struct gm_grid1 *grid = &problem->line;
-    const struct gm_gauss_tableau *tableau = task->scheme->coefficients;
-    const size_t points = grid->points, r = tableau->n, count = r * points;
+    const struct gm_collocation_tableau *tableau = task->scheme->coefficients;
+    const size_t points = grid->points, r = tableau->r, count = r * points;
     const double gap = task->y[2 * points];
     double *u = task->memory_out, *v = u + count, *filled = v + count;
     struct gm_gauss_work *work = task->workspace;
@@ -120,7 +112,7 @@ static struct gm_progress advance(const struct gm_task *task)
 {
     struct gm_gauss_work *work = task->workspace;
     const struct gm_grid1 *grid = &task->problem->line;
-    const size_t points = work->points, count = work->tableau->n * points, size = count * sizeof(double);
+    const size_t points = work->points, count = work->tableau->r * points, size = count * sizeof(double);
     struct gm_progress progress = {.status = GM_OK};
     memcpy(work->next_u, task->memory, size);
     memcpy(work->next_v, task->memory + count, size);
@@ -145,6 +137,42 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+/* u_t^2/2 + u_x^2/2 + V(u) at the stages of the cells; the square of the slope branch by branch. */
+static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory)
+{
+    (void)y;
+    const struct gm_grid1 *grid = &problem->line;
+    struct gm_gauss_work *work = gm_gauss_open(problem, scheme);
+    if (!work) {
+        return NAN;
+    }
+    const size_t points = work->points, r = work->tableau->r;
+    const double *u = memory, *v = u + r * points;
+    double sum = grid->jump * grid->jump / (2 * grid->dx * grid->dx * (double)points), slopes = 0;
+    gm_gauss_prepare(work, grid->dx, grid->dx);
+    for (size_t m = 0; m < r; m++) {
+        gm_gauss_forward(work, u + m * points, work->hat_u + m * points);
+    }
+    for (size_t at = 0; at < (points / 2 + 1) * r; at++) {
+        const struct gm_gauss_branch *branch = &work->branches[at];
+        const size_t mode = at / r;
+        if (!isinf(branch->frequency)) {
+            const double slope =
+                branch->frequency * cabs(gm_gauss_amplitude(branch, r, points, mode, work->hat_u));
+            slopes += (mode > 0 && 2 * mode < points ? 2 : 1) * slope * slope;
+        }
+    }
+    sum += slopes / (double)(2 * r * points);
+    for (size_t at = 0; at < r * points; at++) {
+        const double slant = gm_gauss_slant(grid, work->tableau, at / points, at % points);
+        sum += work->tableau->b[at / points] *
+               (v[at] * v[at] / 2 + gm_field_of(problem)->wave->potential(problem, u[at] + slant));
+    }
+    gm_gauss_close(work);
+    return grid->dx * sum;
+}
+
 /* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
 /* What the law needs of one tangent, which work holds before and after its step: u and v at the stages of the
@@ -155,8 +183,8 @@ static void find_faces(struct gm_gauss_work *work, double dx, const double *curv
 {
     enum { U, V, W, DIMENSION };
     const double high = 4;
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r;
     for (size_t i = 0; i < points; i++) {
         for (size_t m = 0; m < r; m++) {
             double *lower = faces->lower + (i * r + m) * DIMENSION;
@@ -233,7 +261,7 @@ struct base {
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t count = 2 * base->work->tableau->n * base->work->points;
+    const size_t count = 2 * base->work->tableau->r * base->work->points;
     double *memory = malloc((base->problem->n + 2 * (count + 1)) * sizeof *memory);
     if (!memory) {
         return false;
@@ -263,7 +291,7 @@ static bool advance_tangent(const struct base *base, const double *memory, const
                             bool by_differences, const double *start, struct gm_faces *faces)
 {
     struct gm_gauss_work *work = base->work;
-    const size_t half = work->tableau->n * work->points, size = half * sizeof(double);
+    const size_t half = work->tableau->r * work->points, size = half * sizeof(double);
     struct gm_problem straight = *base->problem;
     straight.line.jump = 0;
     struct gm_progress uncounted = {.status = GM_OK};
@@ -288,8 +316,8 @@ static bool advance_tangent(const struct base *base, const double *memory, const
 static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                    const double *y, const double *memory, bool by_differences)
 {
-    const struct gm_gauss_tableau *tableau = scheme->coefficients;
-    const size_t points = problem->line.points, r = tableau->n, half = r * points, q = r * r;
+    const struct gm_collocation_tableau *tableau = scheme->coefficients;
+    const size_t points = problem->line.points, r = tableau->r, half = r * points, q = r * r;
     const struct gm_lattice cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
     struct gm_gauss_work *work = gm_gauss_open(problem, scheme);
     struct gm_faces faces[2] = {{0}};
@@ -340,11 +368,10 @@ static const struct gm_scheme schemes[] = {
             "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1 + bᵀA⁻¹1)]/Δx,  midpoint rule in x and t",
         .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473: the box, by Fourier modes",
         .family = &gm_family_gauss,
-        .coefficients = &midpoint,
+        .coefficients = &gm_collocation_midpoint,
         .order = 2,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        .in_cells = true,
     },
     {
         .name = "gauss-box3",
@@ -352,7 +379,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
         .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
         .family = &gm_family_gauss,
-        .coefficients = &gauss4,
+        .coefficients = &gm_collocation_gauss4,
         .order = 3,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
@@ -370,4 +397,5 @@ const struct gm_family gm_family_gauss = {
     .workspace_open = gm_gauss_open,
     .workspace_close = gm_gauss_close,
     .form = form,
+    .wave_energy = wave_energy,
 };

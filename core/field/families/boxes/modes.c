@@ -19,8 +19,8 @@ void gm_gauss_close(void *workspace)
 
 void *gm_gauss_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_gauss_tableau *tableau = scheme->coefficients;
-    const size_t points = problem->line.points, r = tableau->n, q = r * r, modes = points / 2 + 1;
+    const struct gm_collocation_tableau *tableau = scheme->coefficients;
+    const size_t points = problem->line.points, r = tableau->r, q = r * r, modes = points / 2 + 1;
     struct gm_gauss_work *work = calloc(1, sizeof *work);
     if (!work) {
         return NULL;
@@ -71,10 +71,10 @@ double gm_gauss_angle(size_t mode, size_t points)
 }
 
 /* sum_k a[j][k] a[k][l] */
-static double square(const struct gm_gauss_tableau *tableau, size_t j, size_t l)
+static double square(const struct gm_collocation_tableau *tableau, size_t j, size_t l)
 {
     double sum = 0;
-    for (size_t k = 0; k < tableau->n; k++) {
+    for (size_t k = 0; k < tableau->r; k++) {
         sum += tableau->a[j][k] * tableau->a[k][l];
     }
     return sum;
@@ -99,8 +99,8 @@ static struct gm_gauss_branch branch_at(size_t r, size_t e, double angle, bool s
 
 void gm_gauss_prepare(struct gm_gauss_work *work, double dx, double dt)
 {
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t r = tableau->n;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t r = tableau->r;
     if (work->dt == dt) {
         return;
     }
@@ -140,8 +140,8 @@ double complex gm_gauss_amplitude(const struct gm_gauss_branch *branch, size_t r
 /* From the transforms of the force (work->hat) at all stages those of u''. */
 static void solve_modes(struct gm_gauss_work *work)
 {
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r;
     for (size_t mode = 0; mode <= points / 2; mode++) {
         double complex solution[GM_GAUSS_STAGES][GM_GAUSS_STAGES] = {{0}};
         for (size_t e = 0; e < r; e++) {
@@ -173,15 +173,16 @@ static void solve_modes(struct gm_gauss_work *work)
     }
 }
 
-double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_gauss_tableau *tableau, size_t m, size_t i)
+double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_collocation_tableau *tableau, size_t m,
+                      size_t i)
 {
-    return grid->jump * ((double)i + (m < tableau->n ? tableau->c[m] : 0)) / (double)grid->points;
+    return grid->jump * ((double)i + (m < tableau->r ? tableau->c[m] : 0)) / (double)grid->points;
 }
 
 void gm_gauss_forces(struct gm_gauss_work *work, const struct gm_problem *problem, const double *curvature)
 {
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n, q = r * r;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r, q = r * r;
     for (size_t row = 0; row < q; row++) {
         double *force = work->force + row * points;
         const double *stage = work->stages + row * points;
@@ -202,8 +203,8 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
                              const double *curvature, struct gm_progress *progress)
 {
     enum { MOST = 200 };
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n, q = r * r;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r, q = r * r;
     gm_gauss_prepare(work, problem->line.dx, dt);
     for (size_t m = 0; m < r; m++) {
         gm_gauss_forward(work, work->u + m * points, work->hat_u + m * points);
@@ -268,8 +269,8 @@ enum gm_status gm_gauss_step(struct gm_gauss_work *work, const struct gm_problem
 void gm_gauss_to_nodes(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *stages,
                        double *nodes)
 {
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r;
     for (size_t m = 0; m < r; m++) {
         gm_gauss_forward(work, stages + m * points, work->hat + m * points);
     }
@@ -306,8 +307,8 @@ void gm_gauss_share_mean(double *stages, size_t points)
 void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_grid1 *grid, const double *nodes,
                         double *stages, double *second)
 {
-    const struct gm_gauss_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = tableau->n;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = tableau->r;
     double *scratch = work->force;
     for (size_t i = 0; i < points; i++) {
         scratch[i] = nodes[i] - gm_gauss_slant(grid, tableau, r, i);

@@ -2,8 +2,7 @@
 #ifndef GM_CORE_FIELD_FAMILIES_BOXES_MODES_H
 #define GM_CORE_FIELD_FAMILIES_BOXES_MODES_H
 
-#include "core/field/field.h"
-#include "core/linear/fourier.h"
+#include "core/field/families/boxes/collocation.h"
 
 /* Gauss-Legendre collocation on a ring by Fourier modes: a step of the scheme (gauss.c) and of a
    tangent. Values at the stages are [stage * points + cell]. */
@@ -11,11 +10,6 @@
 #define GM_ROOT3 1.7320508075688772935
 
 enum { GM_GAUSS_STAGES = 2 };
-
-struct gm_gauss_tableau {
-    size_t n;
-    double a[GM_GAUSS_STAGES][GM_GAUSS_STAGES], b[GM_GAUSS_STAGES], c[GM_GAUSS_STAGES];
-};
 
 /* A branch of a mode: stage values vector * amplitude, |vector| = 1. */
 struct gm_gauss_branch {
@@ -26,9 +20,9 @@ struct gm_gauss_branch {
 
 struct gm_gauss_work {
     size_t points;
-    const struct gm_gauss_tableau *tableau; /* the same in space and time */
-    double dt;                              /* what the branches were made for */
-    struct gm_gauss_branch *branches;       /* [mode * r], modes 0 .. points/2 */
+    const struct gm_collocation_tableau *tableau; /* the same in space and time */
+    double dt;                                    /* what the branches were made for */
+    struct gm_gauss_branch *branches;             /* [mode * r], modes 0 .. points/2 */
     struct gm_fourier *fourier;
     double *u, *v, *next_u, *next_v;      /* [stage * points + cell] */
     double *stages, *force;               /* [(time stage * r + stage) * points + cell] */
@@ -55,7 +49,7 @@ double _Complex gm_gauss_amplitude(const struct gm_gauss_branch *branch, size_t 
                                    const double _Complex *hat);
 
 /* u - jump x / length is periodic; that of stage m of cell i, of its node for m = r. */
-double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_gauss_tableau *tableau, size_t m,
+double gm_gauss_slant(const struct gm_grid1 *grid, const struct gm_collocation_tableau *tableau, size_t m,
                       size_t i);
 
 /* V' at all stages; of a tangent, V'' at those of the solution times the tangent. */

@@ -18,8 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/clones.h"
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/dispersive/box.h"
 #include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"

@@ -3,7 +3,7 @@
        u^{n+1} = u^{n-1} - eta dt/(3 dx) (u_{i+1} + u_i + u_{i-1}) (u_{i+1} - u_{i-1})
                          - mu dt/dx^3 (u_{i+2} - 2 u_{i+1} + 2 u_{i-1} - u_{i-2}).
    Stable for dt below about 0.385 dx^3/mu. */
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/dispersive.h"

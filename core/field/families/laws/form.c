@@ -4,10 +4,11 @@
 #include "core/field/families/laws/form.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-#include "core/count.h"
-#include "core/field/families/boxes/collocation.h"
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
+#include "core/run.h"
 
 /* s at a node of one level, or of both in the middle, further by the jump around the ring. */
 static void at_node(const struct gm_problem *problem, const double *y, const double *other, size_t i,
@@ -33,38 +34,6 @@ static void in_cell(const struct gm_problem *problem, const double *y, size_t i,
     }
 }
 
-/* At a node, with its slope by differences of order 8. */
-static void at_place(const struct gm_problem *problem, const double *y, size_t i, double *s, double *slope)
-{
-    static const double weights[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-    const struct gm_form *form = gm_field_of(problem)->form;
-    const long points = (long)problem->line.points;
-    for (size_t c = 0; c < form->dimension; c++) {
-        const double *u = y + c * problem->line.points, jump = form->jump ? form->jump[c] : 0;
-        s[c] = u[i];
-        slope[c] = 0;
-        for (long by = 1; by <= (long)GM_COUNT(weights); by++) {
-            const long right = (long)i + by, left = (long)i - by + 4 * points;
-            const double rise =
-                u[right % points] - u[left % points] + jump * (double)(right / points - left / points + 4);
-            slope[c] += weights[by - 1] * rise / problem->line.dx;
-        }
-    }
-}
-
-/* A box knows means in cells, whose integrals are of order 2; boxes of more stages have nodes of a higher one. */
-static void here(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y, size_t i,
-                 double *s, double *slope)
-{
-    const struct gm_collocation_tableau *tableau =
-        scheme->family == &gm_family_any_form ? scheme->coefficients : NULL;
-    if (tableau && tableau->r > 1) {
-        at_place(problem, y, i, s, slope);
-    } else {
-        in_cell(problem, y, i, s, slope);
-    }
-}
-
 static double product(const double *matrix, size_t d, const double *a, const double *b)
 {
     double sum = 0;
@@ -76,61 +45,67 @@ static double product(const double *matrix, size_t d, const double *a, const dou
     return sum;
 }
 
-double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
+/* The integral of a density of s and its slope, by Gauss's rule at the stages of the cells. */
+static double integral(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory,
+                       double (*density)(const struct gm_problem *problem, const double *s,
+                                         const double *slope))
 {
-    const struct gm_form *form = gm_field_of(problem)->form;
-    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-    for (size_t i = 0; i < problem->line.points; i++) {
-        here(problem, scheme, y, i, s, slope);
-        sum += form->function(problem->parameters, s) - product(form->k, form->dimension, s, slope) / 2;
+    struct gm_collocation *work = memory ? gm_collocation_open(problem, scheme) : NULL;
+    if (!work) {
+        return NAN;
     }
+    const size_t points = work->points, r = work->r;
+    const double *stages = gm_any_form_stages(memory);
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    gm_collocation_slopes(work, stages, work->high);
+    for (size_t at = 0; at < r * points; at++) {
+        for (size_t c = 0; c < work->d; c++) {
+            s[c] = stages[c * r * points + at];
+            slope[c] = work->high[c * r * points + at];
+        }
+        sum += work->tableau->b[at / points] * density(problem, s, slope);
+    }
+    gm_collocation_close(work);
     return problem->line.dx * sum;
 }
 
-double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
+static double energy_density(const struct gm_problem *problem, const double *s, const double *slope)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
-    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-    for (size_t i = 0; i < problem->line.points; i++) {
-        here(problem, scheme, y, i, s, slope);
-        sum += product(form->m, form->dimension, s, slope) / 2;
-    }
-    return problem->line.dx * sum;
+    return form->function(problem->parameters, s) - product(form->k, form->dimension, s, slope) / 2;
+}
+
+static double momentum_density(const struct gm_problem *problem, const double *s, const double *slope)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    return product(form->m, form->dimension, s, slope) / 2;
+}
+
+double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory)
+{
+    return integral(problem, scheme, memory, energy_density);
+}
+
+double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        const double *memory)
+{
+    return integral(problem, scheme, memory, momentum_density);
 }
 
 /* The level after a step; NULL: memory is short, or it fails. */
 static double *next_level(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y)
 {
-    const struct gm_family *family = scheme->family;
-    const size_t size = family->memory(problem, scheme);
-    double *next = malloc(problem->n * sizeof *next), *memory = calloc(2 * size, sizeof *memory);
-    void *work = family->workspace_open(problem, scheme);
-    struct gm_task task = {
-        .problem = problem,
-        .scheme = scheme,
-        .dt = dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = y,
-        .out = next,
-        .memory_out = memory,
-        .workspace = work,
-    };
-    bool good = next && memory && work && family->start(&task) == GM_OK;
-    if (good) {
-        task.memory = memory;
-        task.memory_out = memory + size;
-        good = family->loop(&task).status == GM_OK;
+    static const struct gm_settings no_settings;
+    struct gm_run *run = gm_run_open(problem, scheme, &no_settings, 0, dt, y);
+    double *next = run && gm_run_advance(run, 1) == GM_OK ? malloc(problem->n * sizeof *next) : NULL;
+    if (next) {
+        memcpy(next, gm_run_state(run), problem->n * sizeof *next);
     }
-    if (work) {
-        family->workspace_close(work);
+    if (run) {
+        gm_run_close(run);
     }
-    free(memory);
-    if (!good) {
-        free(next);
-    }
-    return good ? next : NULL;
+    return next;
 }
 
 bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,

@@ -9,10 +9,12 @@
        d/dt [s' M s_x / 2] + d/dx [S - s' M s_t / 2] = 0
    and what is left of them on a grid where the state is s. A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx. */
 
-/* dx sum [S(A s) - (A s)' K D s / 2] and dx sum (A s)' M D s / 2; of boxes of two and three stages over nodes, with
-   slopes of order 8 */
-double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y);
-double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y);
+/* The integrals of S(s) - s' K s_x / 2 and s' M s_x / 2 at the stages of the cells, with the slopes that the boxes have
+   there: of one stage dx sum [S(A s) - (A s)' K D s / 2] and dx sum (A s)' M D s / 2. `memory` is that of a run with the
+   scheme, a row of gm_family_any_form; NaN where it is NULL, or memory is short. */
+double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory);
+double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        const double *memory);
 
 /* What the next step of the box, from the nodes y, leaves of a law in every cell,
        energy     [S(b) - S(a) - (b - a)' grad S((a + b)/2)] / dt    from a = A_x s^n to b = A_x s^{n+1}

@@ -79,8 +79,12 @@ static enum gm_wave_law law_of(const struct gm_scheme *scheme)
     return has_row ? row->law : GM_LAW_NONE;
 }
 
-double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
+double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory)
 {
+    if (scheme->family->wave_energy) {
+        return memory ? scheme->family->wave_energy(problem, scheme, y, memory) : NAN;
+    }
     return scheme->in_cells ? gm_wave_cell_energy(problem, y) : gm_wave_energy(problem, y);
 }
 

@@ -12,8 +12,10 @@
 double gm_wave_energy(const struct gm_problem *problem, const double *y);
 /* dx sum over cells [ (A(u - o)/dt)^2 / 2 + (D(u + o)/2)^2 / 2 + V(A(u + o)/2) ] */
 double gm_wave_cell_energy(const struct gm_problem *problem, const double *y);
-/* The energy that belongs to the scheme's own laws: of nodes or of cells. */
-double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y);
+/* The energy that belongs to the scheme's own laws: of nodes, of cells or of its family's stages. `memory` is that of a
+   run at y. */
+double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory);
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 

@@ -24,10 +24,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
-#include "core/larger.h"
 #include "core/linear/differences.h"
 #include "core/linear/settled.h"
 
@@ -263,6 +262,29 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+/* u_t^2/2 + V(u) by Lobatto's rule on the elements, and u_x^2/2 of the parabolas through their stages, whose derivative
+   in u is -L u. */
+static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory)
+{
+    (void)scheme;
+    (void)y;
+    const struct gm_grid1 *grid = &problem->line;
+    const size_t points = grid->points;
+    const double *u = memory, *v = u + points;
+    double sum = 0;
+    for (size_t i = 0; i < points; i += 2) {
+        const double end = i + 2 < points ? u[i + 2] : u[0] + grid->jump;
+        const double rise = (u[i + 1] - u[i]) / grid->dx, further = (end - u[i + 1]) / grid->dx;
+        sum += (7 * (rise * rise + further * further) - 2 * rise * further) / 12;
+        for (size_t m = 0; m < 2; m++) {
+            sum += (m ? 4. / 3 : 2. / 3) *
+                   (v[i + m] * v[i + m] / 2 + gm_field_of(problem)->wave->potential(problem, u[i + m]));
+        }
+    }
+    return grid->dx * sum;
+}
+
 /* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
 struct base {
@@ -468,4 +490,5 @@ const struct gm_family gm_family_lobatto = {
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,
     .form = form,
+    .wave_energy = wave_energy,
 };

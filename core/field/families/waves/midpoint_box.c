@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
@@ -152,6 +152,26 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+/* Of both levels, with the slopes that the scheme takes. */
+static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *memory)
+{
+    (void)scheme;
+    const struct gm_grid1 *grid = &problem->line;
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    const size_t points = grid->points;
+    const double *u = y, *o = y + points, *v_u = memory, *v_o = memory + points;
+    double sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        const double slope = (at(grid, u, i, 1) - at(grid, u, i, -1)) / (2 * grid->dx),
+                     other = (at(grid, o, i, 1) - at(grid, o, i, -1)) / (2 * grid->dx);
+        sum += (v_u[i] * v_o[i] + slope * other + wave->potential(problem, u[i]) +
+                wave->potential(problem, o[i])) /
+               2;
+    }
+    return grid->dx * sum;
+}
+
 static const struct gm_two_step_row row = {.law = GM_LAW_CENTRED};
 
 static const struct gm_scheme schemes[] = {
@@ -180,4 +200,5 @@ const struct gm_family gm_family_midpoint_box = {
     .workspace_open = workspace_open,
     .workspace_close = free,
     .form = gm_wave_form,
+    .wave_energy = wave_energy,
 };

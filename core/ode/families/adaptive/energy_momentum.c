@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -24,20 +24,20 @@
 enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
 enum { ITERATIONS = 50 };
 
-/* The scratch: the middle, the field and its Jacobian there, a matrix and a right side. */
+/* The scratch: the middle, the field and its Jacobian there, a right side, and what Newton's method works in. */
 struct storage {
-    double *middle, *field, *jacobian, *matrix, *right;
+    double *middle, *field, *jacobian, *right, *scratch;
 };
 
 static size_t room_of(const struct gm_problem *problem)
 {
-    return 3 * problem->n + 2 * problem->n * problem->n;
+    return 3 * problem->n + problem->n * problem->n + gm_newton_scratch(problem->n);
 }
 
 static struct storage lay(const struct gm_problem *problem, double *scratch)
 {
     const size_t n = problem->n;
-    return (struct storage){scratch, scratch + n, scratch + 3 * n, scratch + 3 * n + n * n, scratch + 2 * n};
+    return (struct storage){scratch, scratch + n, scratch + 3 * n, scratch + 2 * n, scratch + 3 * n + n * n};
 }
 
 static double weight_of(const struct gm_problem *problem)
@@ -46,49 +46,54 @@ static double weight_of(const struct gm_problem *problem)
     return hamiltonian->weight ? hamiltonian->weight(problem) : 1;
 }
 
-/* right := (1 - tau/2 J)^-1 right */
-static bool divide(const struct gm_problem *problem, const struct storage *storage, double tau)
+/* matrix := 1 - tau/2 J */
+static void fill(const struct gm_problem *problem, const struct storage *storage, double tau, double *matrix)
 {
     const size_t n = problem->n;
     for (size_t i = 0; i < n * n; i++) {
-        storage->matrix[i] = (i % (n + 1) == 0) - tau / 2 * storage->jacobian[i];
+        matrix[i] = (i % (n + 1) == 0) - tau / 2 * storage->jacobian[i];
     }
-    return gm_eliminate(n, storage->matrix, storage->right);
 }
 
-/* The middle of a step tau from y, with field and Jacobian there, by Newton's method. */
+/* What the middle of a step is asked for. */
+struct half_step {
+    const struct gm_problem *problem;
+    const struct storage *storage;
+    const double *y;
+    double tau;
+    struct gm_progress *progress;
+};
+
+/* y + tau/2 f(z) - z */
+static bool linear(void *data, const double *z, double *residual, double *matrix, double *scale)
+{
+    const struct half_step *half = data;
+    const struct storage *storage = half->storage;
+    gm_field(half->problem, z, storage->field, 1);
+    half->progress->evaluations++;
+    for (size_t c = 0; c < half->problem->n; c++) {
+        residual[c] = half->y[c] - z[c] + half->tau / 2 * storage->field[c];
+        *scale += fabs(half->y[c]) + fabs(half->tau * storage->field[c]);
+    }
+    const bool found = gm_jacobian(half->problem, z, storage->jacobian);
+    fill(half->problem, storage, half->tau, matrix);
+    return found;
+}
+
+/* The middle of a step tau from y, with field and Jacobian there. */
 static bool find_middle(const struct gm_problem *problem, const double *y, double tau,
                         const struct storage *storage, struct gm_progress *progress)
 {
     const size_t n = problem->n;
-    double previous = INFINITY;
+    struct half_step half = {problem, storage, y, tau, progress};
+    const struct gm_implicit_equations equations = {
+        .size = n, .data = &half, .counted = n, .roundoff = 0x1p-50};
     memcpy(storage->middle, y, n * sizeof *y);
-    for (int i = 0; i < ITERATIONS; i++) {
-        gm_field(problem, storage->middle, storage->field, 1);
-        progress->evaluations++;
-        progress->iterations++;
-        progress->solves++;
-        for (size_t c = 0; c < n; c++) {
-            storage->right[c] = storage->middle[c] - y[c] - tau / 2 * storage->field[c];
-        }
-        double change = 0, size = 0;
-        if (!gm_jacobian(problem, storage->middle, storage->jacobian) || !divide(problem, storage, tau)) {
-            return false;
-        }
-        for (size_t c = 0; c < n; c++) {
-            storage->middle[c] -= storage->right[c];
-            change += fabs(storage->right[c]);
-            size += fabs(y[c]) + fabs(tau * storage->field[c]);
-        }
-        if (!isfinite(change)) {
-            return false;
-        }
-        if (gm_is_settled(change, 0x1p-50 * size, &previous)) {
-            gm_field(problem, storage->middle, storage->field, 1);
-            return gm_jacobian(problem, storage->middle, storage->jacobian);
-        }
+    if (!gm_newton_solve_by(&equations, linear, storage->scratch, storage->middle, progress)) {
+        return false;
     }
-    return false;
+    gm_field(problem, storage->middle, storage->field, 1);
+    return gm_jacobian(problem, storage->middle, storage->jacobian);
 }
 
 /* The step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is nested,
@@ -107,7 +112,8 @@ static bool find_step(const struct gm_problem *problem, const double *y, double 
         for (size_t c = 0; c < problem->n; c++) {
             storage->right[c] = storage->field[c] / 2;
         }
-        if (!divide(problem, storage, *tau)) {
+        fill(problem, storage, *tau, storage->scratch);
+        if (!gm_eliminate(problem->n, storage->scratch, storage->right)) {
             return false;
         }
         double derivative = 0, size = fabs(energy);

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/kernel/loops.h"
@@ -41,73 +41,75 @@ static bool slopes(const struct gm_problem *problem, double E, const double *y, 
     return density > 0 && isfinite(density);
 }
 
-static double size_of(const double *values, size_t count)
+/* A step from y; slopes are F at the stages, and times 1/Q there. */
+struct work {
+    const struct gm_task *task;
+    const struct gm_members *members;
+    double *stage, *gradient, times[GM_IMPLICIT_STAGES];
+    bool collapsed; /* Q was no density */
+    struct gm_progress *progress;
+};
+
+static bool sweep(void *data, const double *F, double *next, double *scale)
 {
-    double sum = 0;
-    for (size_t c = 0; c < count; c++) {
-        sum += fabs(values[c]);
+    struct work *work = data;
+    const struct gm_implicit_row *row = work->task->scheme->coefficients;
+    const double *y = work->members->y, ds = work->task->dt, E = work->members->memory[ENERGY];
+    const size_t n = work->members->n, stages = (size_t)row->stages;
+    for (size_t i = 0; i < stages; i++) {
+        for (size_t c = 0; c < n; c++) {
+            double sum = 0;
+            for (size_t j = 0; j < stages; j++) {
+                sum += row->a[i][j] * (j < i ? next : F)[j * n + c];
+            }
+            work->stage[c] = y[c] + ds * sum;
+        }
+        work->collapsed =
+            !slopes(work->task->problem, E, work->stage, work->gradient, next + i * n, &work->times[i]);
+        if (work->collapsed) {
+            return false;
+        }
     }
-    return sum;
+    work->progress->evaluations += stages;
+    *scale += gm_sum_of(y, n) / fabs(ds) + gm_sum_of(next, stages * n);
+    return true;
 }
 
-/* By fixed-point iteration: in the time s the motion is gentle. */
+/* By sweeps: in the time s the motion is gentle. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    enum { ITERATIONS = 100 };
     const struct gm_implicit_row *row = task->scheme->coefficients;
-    const struct gm_problem *problem = task->problem;
-    const size_t n = problem->n, stages = (size_t)row->stages;
-    const double ds = task->dt, E = members->memory[ENERGY];
-    double *stage = members->scratch, *gradient = stage + n, *next = gradient + n, *F = next + n;
-    double times[GM_IMPLICIT_STAGES], previous = INFINITY;
-    bool settled = false;
-    if (!slopes(problem, E, members->y, gradient, F, times)) {
+    const size_t n = members->n, stages = (size_t)row->stages;
+    struct work work = {.task = task,
+                        .members = members,
+                        .stage = members->scratch,
+                        .gradient = members->scratch + n,
+                        .progress = progress};
+    double *F = work.gradient + n, *next = F + stages * n;
+    const struct gm_implicit_equations equations = {
+        .size = stages * n, .data = &work, .sweep = sweep, .roundoff = 1e-15};
+    if (!slopes(task->problem, members->memory[ENERGY], members->y, work.gradient, F, work.times)) {
         return GM_STEP_COLLAPSE;
     }
     for (size_t i = 1; i < stages; i++) {
         memcpy(F + i * n, F, n * sizeof *F);
     }
     progress->evaluations++;
-    for (int k = 0; k < ITERATIONS && !settled; k++) {
-        double change = 0, size = 0;
-        for (size_t i = 0; i < stages; i++) {
-            for (size_t c = 0; c < n; c++) {
-                double sum = 0;
-                for (size_t j = 0; j < stages; j++) {
-                    sum += row->a[i][j] * F[j * n + c];
-                }
-                stage[c] = members->y[c] + ds * sum;
-            }
-            if (!slopes(problem, E, stage, gradient, next, &times[i])) {
-                return GM_STEP_COLLAPSE;
-            }
-            for (size_t c = 0; c < n; c++) {
-                change += fabs(next[c] - F[i * n + c]);
-            }
-            size += size_of(next, n);
-            memcpy(F + i * n, next, n * sizeof *F);
-        }
-        progress->evaluations += stages;
-        progress->iterations++;
-        const double scale = size_of(members->y, n) + fabs(ds) * size;
-        progress->unsolved = gm_unsolved_by(fabs(ds) * change, scale);
-        if (!isfinite(change)) {
-            return GM_NO_CONVERGENCE;
-        }
-        settled = gm_is_settled(fabs(ds) * change, 1e-15 * scale, &previous);
+    if (!gm_sweeps_solve(&equations, next, F, progress)) {
+        return work.collapsed ? GM_STEP_COLLAPSE : GM_NO_CONVERGENCE;
     }
     double time = 0;
     for (size_t j = 0; j < stages; j++) {
-        time += ds * row->b[j] * times[j];
+        time += task->dt * row->b[j] * work.times[j];
         for (size_t c = 0; c < n; c++) {
-            members->y[c] += ds * row->b[j] * F[j * n + c];
+            members->y[c] += task->dt * row->b[j] * F[j * n + c];
         }
     }
     const double before = progress->t, whole = members->memory[TIME_CARRY] + time;
     progress->t += whole;
     members->memory[TIME_CARRY] = whole + (before - progress->t);
-    return !settled ? GM_NO_CONVERGENCE : progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
 }
 
 static struct gm_progress loop(const struct gm_task *task)
@@ -133,7 +135,7 @@ static enum gm_status start(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_implicit_row *row = scheme->coefficients;
-    return gm_members_open(problem, REMEMBERED, (3 + (size_t)row->stages) * problem->n);
+    return gm_members_open(problem, REMEMBERED, (2 + 2 * (size_t)row->stages) * problem->n);
 }
 
 #define IN_POINCARES_TIME(row, name)                                                                         \

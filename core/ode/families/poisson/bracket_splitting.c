@@ -8,7 +8,7 @@
    scheme. R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; Hairer, Lubich & Wanner (2006), VII.4.2. */
 #include <stdlib.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"

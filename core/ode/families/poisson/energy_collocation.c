@@ -4,11 +4,10 @@
    c_i Gauss' nodes, l_i Lagrange's polynomials on them, b_i = int l_i. Then H(y_1) - H(y_0) is a sum of
    g' B g = 0. Integrals are taken by Gauss' rule of five nodes, exact where H is a polynomial of degree 10 (s = 1)
    or 5 (s = 2). Casimirs that are quadratic are kept as well. D. Cohen & E. Hairer, BIT 51 (2011) 91. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 
@@ -50,65 +49,67 @@ static void place(const struct row *row, const double *y, const double *slopes, 
     }
 }
 
+/* A step; means of gradients are in the scratch, and a place, a gradient, a bracket. */
+struct work {
+    const struct gm_task *task;
+    const struct gm_members *members;
+    struct gm_progress *progress;
+};
+
+/* The brackets are those of one polynomial: slopes change when all are known. */
+static bool sweep(void *data, const double *slopes, double *next, double *scale)
+{
+    const struct work *work = data;
+    const struct gm_members *members = work->members;
+    const struct gm_problem *problem = work->task->problem;
+    const struct row *row = work->task->scheme->coefficients;
+    const struct gm_poisson *poisson = gm_ode_of(problem)->poisson;
+    const size_t n = problem->n, size = (size_t)row->stages * n;
+    double *means = members->scratch, *there = means + MOST * n, *gradient = there + n,
+           *matrix = gradient + n;
+    memset(means, 0, size * sizeof *means);
+    for (int k = 0; k < NODES; k++) {
+        place(row, members->y, slopes, nodes[k], n, there);
+        poisson->gradient(problem, there, gradient);
+        for (int i = 0; i < row->stages; i++) {
+            const double weight = weights[k] * lagrange(row, i, nodes[k]) / row->b[i];
+            for (size_t c = 0; c < n; c++) {
+                means[(size_t)i * n + c] += weight * gradient[c];
+            }
+        }
+    }
+    for (int i = 0; i < row->stages; i++) {
+        place(row, members->y, slopes, row->c[i], n, there);
+        poisson->bracket(problem, there, matrix);
+        for (size_t c = 0; c < n; c++) {
+            double sum = 0;
+            for (size_t j = 0; j < n; j++) {
+                sum += matrix[c * n + j] * means[(size_t)i * n + j];
+            }
+            next[(size_t)i * n + c] = work->task->dt * sum;
+        }
+    }
+    work->progress->evaluations += NODES;
+    *scale += gm_sum_of(next, size) + gm_sum_of(members->y, n);
+    return true;
+}
+
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    enum { ITERATIONS = 100 };
     const struct row *row = task->scheme->coefficients;
-    const struct gm_problem *problem = task->problem;
-    const struct gm_poisson *poisson = gm_ode_of(problem)->poisson;
-    const size_t n = problem->n;
-    double *slopes = members->scratch, *means = slopes + MOST * n, *there = means + MOST * n,
-           *gradient = there + n, *matrix = gradient + n, previous = INFINITY;
+    const size_t n = members->n;
+    double *slopes = members->scratch + (MOST + 2) * n + n * n, *next = slopes + MOST * n;
+    struct work work = {task, members, progress};
+    const struct gm_implicit_equations equations = {
+        .size = (size_t)row->stages * n, .data = &work, .sweep = sweep, .roundoff = 1e-15};
     memset(slopes, 0, MOST * n * sizeof *slopes);
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        double change = 0, size = 0;
-        memset(means, 0, MOST * n * sizeof *means);
-        for (int k = 0; k < NODES; k++) {
-            place(row, members->y, slopes, nodes[k], n, there);
-            poisson->gradient(problem, there, gradient);
-            for (int i = 0; i < row->stages; i++) {
-                const double weight = weights[k] * lagrange(row, i, nodes[k]) / row->b[i];
-                for (size_t c = 0; c < n; c++) {
-                    means[(size_t)i * n + c] += weight * gradient[c];
-                }
-            }
-        }
-        /* the brackets are those of one polynomial: slopes change when all are known */
-        double *next = means;
-        for (int i = 0; i < row->stages; i++) {
-            place(row, members->y, slopes, row->c[i], n, there);
-            poisson->bracket(problem, there, matrix);
-            for (size_t c = 0; c < n; c++) {
-                gradient[c] = 0;
-                for (size_t j = 0; j < n; j++) {
-                    gradient[c] += matrix[c * n + j] * means[(size_t)i * n + j];
-                }
-            }
-            memcpy(next + (size_t)i * n, gradient, n * sizeof *next);
-        }
-        for (size_t c = 0; c < (size_t)row->stages * n; c++) {
-            const double slope = task->dt * next[c];
-            change += fabs(slope - slopes[c]);
-            size += fabs(slope);
-            slopes[c] = slope;
-        }
-        progress->evaluations += NODES;
-        progress->iterations++;
-        for (size_t c = 0; c < n; c++) {
-            size += fabs(members->y[c]);
-        }
-        progress->unsolved = gm_unsolved_by(change, size);
-        if (!isfinite(change)) {
-            return GM_NO_CONVERGENCE;
-        }
-        if (gm_is_settled(change, 1e-15 * size, &previous)) {
-            place(row, members->y, slopes, 1, n, there);
-            memcpy(members->y, there, n * sizeof *there);
-            return GM_OK;
-        }
+    if (!gm_sweeps_solve(&equations, next, slopes, progress)) {
+        return GM_NO_CONVERGENCE;
     }
-    return GM_NO_CONVERGENCE;
+    place(row, members->y, slopes, 1, n, next);
+    memcpy(members->y, next, n * sizeof *next);
+    return GM_OK;
 }
 
 static struct gm_progress loop(const struct gm_task *task)
@@ -120,7 +121,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 {
     const size_t n = problem->n;
     (void)scheme;
-    return gm_members_open(problem, 0, (2 * MOST + 2) * n + n * n);
+    return gm_members_open(problem, 0, (3 * MOST + 2) * n + n * n);
 }
 
 #define COLLOCATION(row, degree)                                                                             \

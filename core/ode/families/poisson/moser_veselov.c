@@ -11,69 +11,59 @@
    5 (2005) 87. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 
-/* I c + c x I c - (1 + |c|^2) m, its derivative over c by rows, and c x I c */
-static void equations(const double *inertia, const double *m, const double *c, double *residual,
-                      double *matrix, double *across)
+struct rotation {
+    const double *inertia;
+    double m[3], across[3]; /* h/2 y_0, c x I c */
+};
+
+/* (1 + |c|^2) m - I c - c x I c, and c x I c */
+static bool linear(void *data, const double *c, double *residual, double *matrix, double *scale)
 {
+    struct rotation *rotation = data;
+    const double *inertia = rotation->inertia, *m = rotation->m;
     const double length = 1 + c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const double apart = inertia[k] - inertia[j];
-        across[i] = apart * c[j] * c[k];
-        residual[i] = inertia[i] * c[i] + across[i] - length * m[i];
+        rotation->across[i] = apart * c[j] * c[k];
+        residual[i] = length * m[i] - (inertia[i] * c[i] + rotation->across[i]);
         matrix[3 * i + i] = inertia[i] - 2 * m[i] * c[i];
         matrix[3 * i + j] = apart * c[k] - 2 * m[i] * c[j];
         matrix[3 * i + k] = apart * c[j] - 2 * m[i] * c[k];
+        *scale += fabs(c[i]);
     }
+    return true;
 }
 
 /* By Newton's method from the rotation of a short step; beyond some step there is none. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    enum { ITERATIONS = 50 };
     const struct gm_poisson *poisson = gm_ode_of(task->problem)->poisson;
-    const double *inertia = poisson->moments, h = poisson->turning * task->dt;
-    double *y = members->y, m[3], c[3], residual[3], matrix[9], across[3], previous = INFINITY;
+    const double h = poisson->turning * task->dt;
+    double *y = members->y, c[3], scratch[18], unused = 0;
+    struct rotation rotation = {.inertia = poisson->moments};
+    const struct gm_implicit_equations equations = {
+        .size = 3, .data = &rotation, .counted = 3, .least = 0x1p-52, .roundoff = 0x1p-46};
     for (int i = 0; i < 3; i++) {
-        m[i] = h / 2 * y[i];
-        c[i] = m[i] / inertia[i];
+        rotation.m[i] = h / 2 * y[i];
+        c[i] = rotation.m[i] / rotation.inertia[i];
     }
     progress->evaluations++;
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        double change = 0, size = 0;
-        equations(inertia, m, c, residual, matrix, across);
-        progress->iterations++;
-        progress->solves++;
-        if (!gm_eliminate(3, matrix, residual)) {
-            progress->unsolved.obstacle = GM_SINGULAR;
-            return GM_NO_CONVERGENCE;
-        }
-        for (int i = 0; i < 3; i++) {
-            c[i] -= residual[i];
-            change += fabs(residual[i]);
-            size += fabs(c[i]);
-        }
-        progress->unsolved = gm_unsolved_by(change, size);
-        if (!isfinite(change)) {
-            return GM_NO_CONVERGENCE;
-        }
-        if (change <= 0x1p-52 * size || gm_is_settled(change, 0x1p-46 * size, &previous)) {
-            equations(inertia, m, c, residual, matrix, across);
-            const double length = 1 + c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-            for (int i = 0; i < 3 && h != 0; i++) {
-                y[i] -= 4 / h * across[i] / length;
-            }
-            return GM_OK;
-        }
+    if (!gm_newton_solve_by(&equations, linear, scratch, c, progress)) {
+        return GM_NO_CONVERGENCE;
     }
-    return GM_NO_CONVERGENCE;
+    linear(&rotation, c, scratch, scratch + 3, &unused);
+    const double length = 1 + c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    for (int i = 0; i < 3 && h != 0; i++) {
+        y[i] -= 4 / h * rotation.across[i] / length;
+    }
+    return GM_OK;
 }
 
 static struct gm_progress loop(const struct gm_task *task)

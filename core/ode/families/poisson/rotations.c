@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
@@ -59,59 +59,69 @@ static enum gm_status about_axes(const struct gm_problem *problem, double h, str
     return GM_OK;
 }
 
-/* z of vector number i; its length is that of y */
-static void place(const double *y, const double *end, size_t i, size_t spins, double *z, double *radius)
+/* z of vector number i, where y_1 = y_0 + push; its length is that of y */
+static void place(const double *y, const double *push, size_t i, size_t spins, double *z, double *radius)
 {
-    double before[3], after[3], length = 0;
+    double before[3], pushed[3], length = 0;
     gm_vector_take(y, i, spins, before);
-    gm_vector_take(end, i, spins, after);
+    gm_vector_take(push, i, spins, pushed);
     *radius = sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
     for (int c = 0; c < 3; c++) {
-        z[c] = before[c] + after[c];
+        z[c] = before[c] + (before[c] + pushed[c]);
         length += z[c] * z[c];
     }
+    const double factor = *radius > 0 ? *radius / sqrt(length) : 0;
     for (int c = 0; c < 3; c++) {
-        z[c] *= *radius > 0 ? *radius / sqrt(length) : 0;
+        z[c] *= factor;
     }
+}
+
+/* A step of the spherical midpoint rule. The scratch is z and omega. */
+struct turn {
+    const struct gm_problem *problem;
+    double h;
+    const struct gm_members *members;
+    struct gm_progress *progress;
+};
+
+/* next := h omega(z) x z */
+static bool sweep(void *data, const double *push, double *next, double *scale)
+{
+    const struct turn *turn = data;
+    const size_t n = turn->problem->n, spins = gm_ode_of(turn->problem)->poisson->spins;
+    double *z = turn->members->scratch, *k = z + n;
+    for (size_t i = 0; i < spins; i++) {
+        double vector[3], radius;
+        place(turn->members->y, push, i, spins, vector, &radius);
+        gm_vector_put(z, i, spins, vector);
+        *scale += radius;
+    }
+    gm_angular_velocity(turn->problem, turn->h, z, k, turn->progress);
+    for (size_t i = 0; i < spins; i++) {
+        double omega[3], vector[3], turned[3];
+        gm_vector_take(k, i, spins, omega);
+        gm_vector_take(z, i, spins, vector);
+        gm_cross(omega, vector, turned);
+        gm_vector_put(next, i, spins, turned);
+    }
+    return true;
 }
 
 static enum gm_status spherical_midpoint(const struct gm_problem *problem, double h,
                                          struct gm_members *members, struct gm_progress *progress)
 {
-    enum { ITERATIONS = 100 };
-    const size_t n = problem->n, spins = gm_ode_of(problem)->poisson->spins;
-    double *y = members->y, *end = members->scratch, *z = end + n, *k = z + n, *push = k + n;
-    double previous = INFINITY;
-    memcpy(end, y, n * sizeof *end);
+    const size_t n = problem->n;
+    double *push = members->scratch + 2 * n, *next = push + n;
+    struct turn turn = {problem, h, members, progress};
+    const struct gm_implicit_equations equations = {.size = n, .data = &turn, .roundoff = 12e-16};
     memset(push, 0, n * sizeof *push);
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        double change = 0, size = 0;
-        for (size_t i = 0; i < spins; i++) {
-            double vector[3], radius;
-            place(y, end, i, spins, vector, &radius);
-            gm_vector_put(z, i, spins, vector);
-            size += radius;
-        }
-        gm_angular_velocity(problem, h, z, k, progress);
-        progress->iterations++;
-        for (size_t i = 0; i < spins; i++) {
-            double omega[3], vector[3], next[3];
-            gm_vector_take(k, i, spins, omega);
-            gm_vector_take(z, i, spins, vector);
-            gm_cross(omega, vector, next);
-            for (size_t c = 0; c < 3; c++) {
-                change += fabs(next[c] - push[c * spins + i]);
-                push[c * spins + i] = next[c];
-                end[c * spins + i] = y[c * spins + i] + next[c];
-            }
-        }
-        if (size == 0 || gm_is_settled(change, 4e-16 * size * 3, &previous)) {
-            memcpy(y, end, n * sizeof *y);
-            return GM_OK;
-        }
-        progress->unsolved = gm_unsolved_by(change, size);
+    if (!gm_sweeps_solve_by(&equations, sweep, next, push, progress)) {
+        return GM_NO_CONVERGENCE;
     }
-    return GM_NO_CONVERGENCE;
+    for (size_t c = 0; c < n; c++) {
+        members->y[c] += push[c];
+    }
+    return GM_OK;
 }
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,

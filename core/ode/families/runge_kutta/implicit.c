@@ -12,12 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/linear/settled.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
@@ -76,7 +77,7 @@ static const struct gm_implicit_row sdirk2 = {.stages = 2,
    a member's bits depend neither on the others nor on which of the two loops it is. A passive particle whose
    iteration does not contract, because a vortex turns it too fast, is solved by Newton's method. */
 
-enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150, NEWTON = 50 };
+enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150 };
 
 /* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
 struct stage_scratch {
@@ -109,13 +110,6 @@ static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, 
     };
 }
 
-/* What Newton's method needs of one member, beside a matrix of all stages: y, a stage, z, f, right side,
-   Jacobian. */
-static size_t newton_room(size_t stages, size_t n)
-{
-    return (2 + 3 * stages) * n + n * n + stages * n * stages * n;
-}
-
 /* One of the two. */
 struct work {
     void *tiles, *modes;
@@ -140,8 +134,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     if (gm_ode_of(problem)->semilinear && problem->m == 1) {
         work->modes = gm_implicit_modes_open(problem, row);
     } else {
-        work->tiles = gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
-                                    gm_matrix_size(problem) > 0 ? newton_room(stages, n) : 0);
+        work->tiles =
+            gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
+                          gm_matrix_size(problem) > 0 ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
     }
     if (!work->modes && !work->tiles) {
         workspace_close(work);
@@ -268,77 +263,36 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
     }
 }
 
-/* The same equations by Newton's method with the Jacobian of every stage, for member l. What the step adds to it is
-   left in the first z. */
+static void set_stages(struct gm_stages *stages, const struct gm_implicit_row *row, double h, const double *y,
+                       struct gm_progress *progress)
+{
+    stages->h = h;
+    stages->y = y;
+    stages->a = stages->c = row->a;
+    stages->b = stages->d = row->b;
+    stages->progress = progress;
+}
+
+/* The same equations by Newton's method for member l. What the step adds to it is left in the first z. */
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
-    const struct gm_loops *loops = tile->loops;
     const struct gm_implicit_row *row = tile->row;
-    const size_t n = problem->n, stages = (size_t)row->stages, size = stages * n, members = tile->members;
-    double *y = tile->shared, *state = y + n, *z = state + n, *f = z + size, *right = f + size,
-           *jacobian = right + size, *matrix = jacobian + n * n;
-    double previous = INFINITY, weights[STAGES];
-    memset(z, 0, size * sizeof *z);
+    const size_t n = problem->n, members = tile->members;
+    double *y = tile->shared, *increment = y + n;
+    struct gm_stage_solver solver = gm_stage_solver_lay(problem, (size_t)row->stages, increment + n);
     for (size_t c = 0; c < n; c++) {
         y[c] = tile->y[c * members + l];
     }
-    for (int iteration = 0; iteration < NEWTON; iteration++) {
-        double scale = 0;
-        for (size_t j = 0; j < stages; j++) {
-            for (size_t c = 0; c < n; c++) {
-                state[c] = y[c] + z[j * n + c];
-                scale += fabs(y[c]) + fabs(z[j * n + c]);
-            }
-            loops->field(problem, state, f + j * n, 1);
-            loops->jacobian(problem, state, jacobian);
-            for (size_t i = 0; i < stages; i++) {
-                for (size_t r = 0; r < n; r++) {
-                    for (size_t c = 0; c < n; c++) {
-                        const double unit = i == j && r == c ? 1 : 0;
-                        matrix[(i * n + r) * size + j * n + c] =
-                            unit - h * row->a[i][j] * jacobian[r * n + c];
-                    }
-                }
-            }
-        }
-        for (size_t i = 0; i < size; i++) {
-            right[i] = -z[i];
-            for (size_t j = 0; j < stages; j++) {
-                right[i] += h * row->a[i / n][j] * f[j * n + i % n];
-            }
-        }
-        progress->evaluations += stages;
-        progress->iterations++;
-        progress->solves++;
-        const double rounding =
-            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(size, n, matrix, y, z) : 0;
-        if (!gm_eliminate(size, matrix, right)) {
-            progress->unsolved.obstacle = gm_obstacle_of(size * size, matrix);
-            return false;
-        }
-        double change = 0;
-        for (size_t i = 0; i < size; i++) {
-            change += fabs(right[i]);
-            z[i] += right[i];
-        }
-        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
-            const bool regular = gm_weights_of_stages(stages, row->a, row->b, weights);
-            for (size_t c = 0; c < n; c++) {
-                double increment = 0;
-                for (size_t i = 0; i < stages; i++) {
-                    increment += regular ? weights[i] * z[i * n + c] : h * row->b[i] * f[i * n + c];
-                }
-                s->z[c * members + l] = increment;
-            }
-            return true;
-        }
-        progress->unsolved = gm_unsolved_by(change, scale);
-        if (!isfinite(change)) {
-            return false;
-        }
+    set_stages(&solver.stages, row, h, y, progress);
+    if (!gm_stages_by_newton(&solver)) {
+        return false;
     }
-    return false;
+    gm_stages_increment(&solver.stages, solver.z, increment);
+    for (size_t c = 0; c < n; c++) {
+        s->z[c * members + l] = increment[c];
+    }
+    return true;
 }
 
 /* A block of passive particles in one sub-step. */
@@ -364,55 +318,55 @@ static void block_slopes(const struct gm_problem *problem, const double *states,
     }
 }
 
+/* Where the active components are at the stages. */
+struct carriers {
+    const struct gm_problem *problem;
+    const double *states;
+};
+
+static bool carried_slope(void *data, size_t j, const double *state, double *f, double *jacobian)
+{
+    const struct carriers *carriers = data;
+    const struct gm_problem *problem = carriers->problem;
+    double strain[2];
+    gm_ode_of(problem)->loops[gm_isa_best()]->passive(problem,
+                                                      carriers->states + j * gm_tile_components(problem),
+                                                      &state[0], &state[1], &f[0], &f[1], strain, 1);
+    jacobian[0] = strain[0];
+    jacobian[1] = jacobian[2] = strain[1];
+    jacobian[3] = -strain[0];
+    return true;
+}
+
 /* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
 static bool solve_one(const struct gm_problem *problem, const double *states,
                       const struct gm_implicit_row *row, double h, struct block *block, size_t k)
 {
-    const size_t stages = (size_t)row->stages, size = 2 * stages;
+    enum { MOST = 2 * STAGES };
     const double start[2] = {block->start[0][k], block->start[1][k]};
-    double z[2 * STAGES] = {0}, previous = INFINITY;
-    for (int iteration = 0; iteration < NEWTON; iteration++) {
-        double matrix[4 * STAGES * STAGES], right[2 * STAGES], scale = 0;
-        for (size_t j = 0; j < stages; j++) {
-            const double x = start[0] + z[2 * j], y = start[1] + z[2 * j + 1];
-            double strain[2];
-            scale += fabs(x) + fabs(y);
-            gm_ode_of(problem)->loops[gm_isa_best()]->passive(
-                problem, states + j * gm_tile_components(problem), &x, &y, &block->slopes[j][0][k],
-                &block->slopes[j][1][k], strain, 1);
-            for (size_t i = 0; i < stages; i++) {
-                const double a = h * row->a[i][j], unit = i == j ? 1 : 0;
-                double *corner = matrix + 2 * i * size + 2 * j;
-                corner[0] = unit - a * strain[0];
-                corner[1] = -(a * strain[1]);
-                corner[size] = -(a * strain[1]);
-                corner[size + 1] = unit + a * strain[0];
-            }
-        }
-        for (size_t i = 0; i < size; i++) {
-            right[i] = -z[i];
-            for (size_t j = 0; j < stages; j++) {
-                right[i] += h * row->a[i / 2][j] * block->slopes[j][i % 2][k];
-            }
-        }
-        const double rounding =
-            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages(size, 2, matrix, start, z) : 0;
-        if (!gm_eliminate(size, matrix, right)) {
-            return false;
-        }
-        double change = 0;
-        for (size_t i = 0; i < size; i++) {
-            z[i] += right[i];
-            change += fabs(right[i]);
-        }
-        if (!isfinite(change)) {
-            return false;
-        }
-        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
-            return true;
-        }
+    double z[MOST] = {0}, f[MOST], state[2], jacobian[4], scratch[MOST * (MOST + 3)];
+    struct carriers carriers = {problem, states};
+    struct gm_progress ignored = {0};
+    struct gm_stages stages = {.count = (size_t)row->stages,
+                               .n = 2,
+                               .slope = carried_slope,
+                               .data = &carriers,
+                               .f = f,
+                               .state = state,
+                               .jacobian = jacobian};
+    set_stages(&stages, row, h, start, &ignored);
+    const struct gm_implicit_equations equations = {.size = 2 * stages.count,
+                                                    .data = &stages,
+                                                    .linear = gm_stages_linear,
+                                                    .counted = 2 * stages.count,
+                                                    .y = start,
+                                                    .n = 2};
+    const bool solved = gm_newton_solve(&equations, scratch, z, &ignored);
+    for (size_t j = 0; j < stages.count; j++) {
+        block->slopes[j][0][k] = f[2 * j];
+        block->slopes[j][1][k] = f[2 * j + 1];
     }
-    return false;
+    return solved;
 }
 
 /* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.

@@ -117,71 +117,44 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
 
 #ifdef GM_PASS_SCALAR
 
-/* The same equations by Newton's method with the Jacobian of every stage, for one member, and what the step adds to
-   it. */
-static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
-                            const void *parameters, double *increment, struct counts_scalar *counts)
+GM_INLINE bool implicit_slope(void *data, size_t stage, const double *state, double *f, double *jacobian)
 {
-    enum { NEWTON_ITERATIONS = 50, N = GM_COMPONENTS };
-    const int stages = row->stages, size = stages * N;
-    double z[GM_IMPLICIT_STAGES * N] = {0}, f[GM_IMPLICIT_STAGES][N], weights[GM_IMPLICIT_STAGES];
-    double matrix[GM_IMPLICIT_STAGES * N * GM_IMPLICIT_STAGES * N], right[GM_IMPLICIT_STAGES * N];
-    double previous = INFINITY;
-    for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
-        double scale = 0;
-        for (int j = 0; j < stages; j++) {
-            double stage[N], jacobian[N][N];
-            for (int c = 0; c < N; c++) {
-                stage[c] = y[c] + z[j * N + c];
-                scale += fabs(y[c]) + fabs(z[j * N + c]);
-            }
-            field_scalar(stage, f[j], parameters);
-            jacobian_scalar(stage, jacobian, parameters);
-            for (int i = 0; i < stages; i++) {
-                for (int r = 0; r < N; r++) {
-                    for (int c = 0; c < N; c++) {
-                        double unit = i == j && r == c ? 1 : 0;
-                        matrix[(i * N + r) * size + j * N + c] = unit - h * row->a[i][j] * jacobian[r][c];
-                    }
-                }
-            }
-        }
-        for (int i = 0; i < size; i++) {
-            right[i] = -z[i];
-            for (int j = 0; j < stages; j++) {
-                right[i] += h * row->a[i / N][j] * f[j][i % N];
-            }
-        }
-        counts->evaluations += (unsigned long)stages;
-        counts->iterations++;
-        counts->solves++;
-        const double rounding =
-            gm_rounding_decides(scale, previous) ? gm_rounding_of_stages((size_t)size, N, matrix, y, z) : 0;
-        if (!gm_eliminate((size_t)size, matrix, right)) {
-            counts->unsolved.obstacle = gm_obstacle_of((size_t)(size * size), matrix);
-            return false;
-        }
-        double change = 0;
-        for (int i = 0; i < size; i++) {
-            change += fabs(right[i]);
-            z[i] += right[i];
-        }
-        if (gm_newton_is_settled((size_t)size, change, scale, rounding, &previous)) {
-            const bool regular = gm_weights_of_stages((size_t)stages, row->a, row->b, weights);
-            for (int c = 0; c < N; c++) {
-                increment[c] = 0;
-                for (int i = 0; i < stages; i++) {
-                    increment[c] += regular ? weights[i] * z[i * N + c] : h * row->b[i] * f[i][c];
-                }
-            }
-            return true;
-        }
-        counts->unsolved = gm_unsolved_by(change, scale);
-        if (!isfinite(change)) {
-            return false;
-        }
+    (void)stage;
+    field_scalar(state, f, data);
+    jacobian_scalar(state, (double(*)[GM_COMPONENTS])jacobian, data);
+    return true;
+}
+
+/* The same equations by Newton's method, for one member, and what the step adds to it. */
+static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
+                            const void *parameters, double *increment, struct gm_progress *progress)
+{
+    enum { N = GM_COMPONENTS, MOST = GM_IMPLICIT_STAGES * N };
+    double z[MOST] = {0}, f[MOST], state[N], jacobian[N * N], scratch[MOST * (MOST + 1)];
+    struct gm_stages stages = {
+        .count = (size_t)row->stages,
+        .n = N,
+        .h = h,
+        .y = y,
+        .a = row->a,
+        .b = row->b,
+        .c = row->a,
+        .d = row->b,
+        .slope = implicit_slope,
+        .data = (void *)parameters,
+        .f = f,
+        .state = state,
+        .jacobian = jacobian,
+        .progress = progress,
+    };
+    const struct gm_implicit_equations equations = {
+
+        .size = stages.count * N, .data = &stages, .counted = stages.count * N, .y = y, .n = N};
+    if (!gm_newton_solve_by(&equations, gm_stages_linear, scratch, z, progress)) {
+        return false;
     }
-    return false;
+    gm_stages_increment(&stages, z, increment);
+    return true;
 }
 
 #endif
@@ -200,7 +173,7 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
         for (int c = 0; c < GM_COMPONENTS; c++) {
             state[c] = K(lane)(y[c], l);
         }
-        struct counts_scalar cost = {.lanes = 1};
+        struct gm_progress cost = {0};
         const bool found = implicit_newton(row, state, h, parameters, increment, &cost);
         K(set_mask_lane)(&solved, l, found);
         for (int c = 0; c < GM_COMPONENTS; c++) {

@@ -6,22 +6,21 @@
 #include "core/ode/families/runge_kutta/modes.h"
 
 #include <complex.h>
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/linear/complex_matrix.h"
+#include "core/linear/iteration.h"
 #include "core/linear/modes.h"
-#include "core/linear/settled.h"
 #include "core/ode/kernel/tiles.h"
 
-enum { ITERATIONS = 150, LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
+enum { LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
 
 struct work {
     struct gm_modes modes;
     size_t stages, n;
-    double *z, *at, *rest;                      /* increments h sum_j a_ij K_j of the stages; n; n */
+    double *z, *next, *at, *rest;               /* increments h sum_j a_ij K_j of the stages, twice; n; n */
     double complex *state, *slopes, *increment; /* waves: of y; K, stages * n; n */
     double complex *matrix;                     /* of a mode */
 };
@@ -47,13 +46,14 @@ void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_i
     }
     work->stages = stages;
     work->n = n;
-    work->z = malloc((stages + 2) * n * sizeof *work->z);
+    work->z = malloc((2 * stages + 2) * n * sizeof *work->z);
     work->state = malloc(((stages + 2) * n + unknowns * unknowns) * sizeof *work->state);
     if (!gm_modes_open(&work->modes, n / fields, fields) || !work->z || !work->state) {
         gm_implicit_modes_close(work);
         return NULL;
     }
-    work->at = work->z + stages * n;
+    work->next = work->z + stages * n;
+    work->at = work->next + stages * n;
     work->rest = work->at + n;
     work->increment = work->state + n;
     work->slopes = work->increment + n;
@@ -106,59 +106,54 @@ static void combine(struct work *work, double h, const double *factors, double *
     gm_modes_back(&work->modes, work->increment, nodes);
 }
 
-/* One iteration: K from the stages, and the stages from it. The sum of the changes, NaN where there is no K. */
-static double iterate_slopes(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
-                             const double *y, struct work *work)
+/* One step, or one of those that it is made of. */
+struct substep {
+    const struct gm_task *task;
+    struct work *work;
+    const double *y;
+    double h, norm; /* of y */
+    struct gm_progress *progress;
+};
+
+/* K from the stages, and the stages from it. */
+static bool sweep(void *data, const double *z, double *next, double *scale)
 {
+    const struct substep *substep = data;
+    const struct gm_problem *problem = substep->task->problem;
+    const struct gm_implicit_row *row = substep->task->scheme->coefficients;
+    struct work *work = substep->work;
     const size_t n = work->n;
     for (size_t i = 0; i < work->stages; i++) {
         for (size_t c = 0; c < n; c++) {
-            work->at[c] = y[c] + work->z[i * n + c];
+            work->at[c] = substep->y[c] + z[i * n + c];
         }
         gm_ode_of(problem)->semilinear->nonlinear(problem, work->at, work->rest);
         gm_modes_forward(&work->modes, work->rest, work->slopes + i * n);
     }
     for (size_t mode = 0; mode < gm_modes_half(work->modes.points); mode++) {
-        if (!solve_mode(problem, row, h, work, mode)) {
-            return NAN;
-        }
-    }
-    double change = 0;
-    for (size_t i = 0; i < work->stages; i++) {
-        combine(work, h, row->a[i], work->at);
-        for (size_t c = 0; c < n; c++) {
-            change += fabs(work->at[c] - work->z[i * n + c]);
-            work->z[i * n + c] = work->at[c];
-        }
-    }
-    return change;
-}
-
-static bool find_slopes(const struct gm_task *task, double h, const double *y, struct work *work,
-                        struct gm_progress *progress)
-{
-    const struct gm_implicit_row *row = task->scheme->coefficients;
-    double norm = 0, previous = INFINITY;
-    for (size_t c = 0; c < work->n; c++) {
-        norm += fabs(y[c]);
-    }
-    /* transforms round every value by what the largest have */
-    const double roundoff = 16 * (double)work->stages * DBL_EPSILON * norm;
-    gm_modes_forward(&work->modes, y, work->state);
-    memset(work->z, 0, work->stages * work->n * sizeof *work->z);
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        const double change = iterate_slopes(task->problem, row, h, y, work);
-        progress->evaluations += work->stages;
-        progress->iterations++;
-        if (gm_is_settled(change, roundoff, &previous)) {
-            return true;
-        }
-        progress->unsolved = gm_unsolved_by(change, norm);
-        if (!(change < 1e100)) {
+        if (!solve_mode(problem, row, substep->h, work, mode)) {
             return false;
         }
     }
-    return false;
+    for (size_t i = 0; i < work->stages; i++) {
+        combine(work, substep->h, row->a[i], next + i * n);
+    }
+    substep->progress->evaluations += work->stages;
+    *scale += substep->norm;
+    return true;
+}
+
+static bool find_slopes(struct substep *substep)
+{
+    struct work *work = substep->work;
+    const size_t size = work->stages * work->n;
+    /* transforms round every value by what the largest have */
+    const struct gm_implicit_equations equations = {
+        .size = size, .data = substep, .sweep = sweep, .roundoff = 16 * (double)work->stages * GM_EPSILON};
+    substep->norm = gm_sum_of(substep->y, work->n);
+    gm_modes_forward(&work->modes, substep->y, work->state);
+    memset(work->z, 0, size * sizeof *work->z);
+    return gm_sweeps_solve(&equations, work->next, work->z, substep->progress);
 }
 
 struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
@@ -175,7 +170,8 @@ struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
     for (; progress.done < task->steps; progress.done++) {
         for (int substep = 0; substep < row->composition->steps; substep++) {
             const double h = task->dt * gm_composition_fraction(row->composition, substep);
-            if (!find_slopes(task, h, y, work, &progress)) {
+            struct substep made = {.task = task, .work = work, .y = y, .h = h, .progress = &progress};
+            if (!find_slopes(&made)) {
                 progress.status = GM_NO_CONVERGENCE;
                 return progress;
             }

@@ -10,8 +10,6 @@
    (1925); E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
 #include "core/ode/families/runge_kutta/nystrom.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,9 +17,9 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
-/* The scratch: the forces at the stages, the velocity at p0, a state and its slope. */
+/* The scratch: the forces at the stages, the velocity at p0, a state and its slope, and the next forces. */
 struct scratch {
-    double *forces, *velocity, *state, *slope;
+    double *forces, *velocity, *state, *slope, *next;
     size_t half;
 };
 
@@ -33,7 +31,8 @@ static struct scratch scratch_of(const struct gm_members *members, int stages)
                             .forces = at,
                             .velocity = at + (size_t)stages * half,
                             .state = at + ((size_t)stages + 1) * half,
-                            .slope = at + ((size_t)stages + 1) * half + members->n};
+                            .slope = at + ((size_t)stages + 1) * half + members->n,
+                            .next = at + ((size_t)stages + 1) * half + 2 * members->n};
 }
 
 /* slope[0 .. half) := q' at the state's momenta */
@@ -60,19 +59,29 @@ static void find_force(const struct gm_problem *problem, const struct scratch *s
     }
 }
 
+/* A step. */
+struct work {
+    const struct gm_task *task;
+    const struct gm_members *members;
+    struct scratch scratch;
+    bool is_explicit;
+    struct gm_progress *progress;
+};
+
 /* state := positions at the time c h with these weights of the forces, as far as there are `count` */
-static void place(const struct gm_task *task, const struct gm_members *members, const struct scratch *scratch,
-                  const double *weights, int count, double c)
+static void place(const struct work *work, const double *forces, const double *weights, int count, double c)
 {
+    const struct scratch *scratch = &work->scratch;
+    const struct gm_members *members = work->members;
     const size_t half = scratch->half;
-    const double h = task->dt;
+    const double h = work->task->dt;
     memcpy(scratch->state, members->y, members->n * sizeof(double));
     for (int j = 0; j < count; j++) {
         for (size_t k = 0; weights[j] != 0 && k < half; k++) {
-            scratch->state[half + k] += h * weights[j] * scratch->forces[(size_t)j * half + k];
+            scratch->state[half + k] += h * weights[j] * forces[(size_t)j * half + k];
         }
     }
-    find_velocity(task->problem, scratch);
+    find_velocity(work->task->problem, scratch);
     for (size_t k = 0; k < half; k++) {
         scratch->state[k] += h * ((c - 1) * scratch->velocity[k] + scratch->slope[k]);
     }
@@ -81,22 +90,21 @@ static void place(const struct gm_task *task, const struct gm_members *members, 
     }
 }
 
-/* Asks for all forces once, from those that are there; how much they change. */
-static double pass(const struct gm_task *task, const struct gm_members *members,
-                   const struct gm_nystrom_row *row, const struct scratch *scratch, bool is_explicit)
+/* All forces once, each from those that are there by then. */
+static bool sweep(void *data, const double *forces, double *next, double *scale)
 {
-    const size_t half = scratch->half;
-    double change = 0;
+    const struct work *work = data;
+    const struct gm_nystrom_row *row = work->task->scheme->coefficients;
+    const size_t half = work->scratch.half, count = (size_t)row->stages * half;
+    memmove(next, forces, count * sizeof *next);
     for (int i = 0; i < row->stages; i++) {
-        place(task, members, scratch, row->a[i], is_explicit ? i : row->stages, row->c[i]);
-        find_force(task->problem, scratch);
-        double *force = scratch->forces + (size_t)i * half;
-        for (size_t k = 0; k < half; k++) {
-            change += fabs(scratch->slope[half + k] - force[k]);
-            force[k] = scratch->slope[half + k];
-        }
+        place(work, next, row->a[i], work->is_explicit ? i : row->stages, row->c[i]);
+        find_force(work->task->problem, &work->scratch);
+        memcpy(next + (size_t)i * half, work->scratch.slope + half, half * sizeof *next);
     }
-    return change;
+    work->progress->evaluations += (unsigned long)row->stages;
+    *scale += gm_sum_of(next, count);
+    return true;
 }
 
 static bool is_explicit_row(const struct gm_nystrom_row *row)
@@ -113,38 +121,30 @@ static bool is_explicit_row(const struct gm_nystrom_row *row)
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    enum { ITERATIONS = 150 };
     const struct gm_nystrom_row *row = task->scheme->coefficients;
-    const struct scratch scratch = scratch_of(members, row->stages);
-    const size_t half = scratch.half;
-    const bool is_explicit = is_explicit_row(row);
-    memcpy(scratch.state, members->y, members->n * sizeof(double));
-    find_velocity(task->problem, &scratch);
-    memcpy(scratch.velocity, scratch.slope, half * sizeof(double));
-    memset(scratch.forces, 0, (size_t)row->stages * half * sizeof(double));
-    bool settled = false;
-    double previous = INFINITY;
-    for (int iteration = 0; iteration < (is_explicit ? 1 : ITERATIONS) && !settled; iteration++) {
-        const double change = pass(task, members, row, &scratch, is_explicit);
-        double size = 0;
-        for (size_t k = 0; k < (size_t)row->stages * half; k++) {
-            size += fabs(scratch.forces[k]);
+    struct work work = {task, members, scratch_of(members, row->stages), is_explicit_row(row), progress};
+    const struct scratch *scratch = &work.scratch;
+    const size_t half = scratch->half;
+    double *forces = scratch->forces, size = 0;
+    memcpy(scratch->state, members->y, members->n * sizeof(double));
+    find_velocity(task->problem, scratch);
+    memcpy(scratch->velocity, scratch->slope, half * sizeof(double));
+    memset(forces, 0, (size_t)row->stages * half * sizeof(double));
+    const struct gm_implicit_equations equations = {
+        .size = (size_t)row->stages * half, .data = &work, .sweep = sweep, .roundoff = 8 * GM_EPSILON};
+    if (work.is_explicit) {
+        sweep(&work, forces, forces, &size);
+        if (!(size < 1e100)) {
+            return GM_BLOW_UP;
         }
-        progress->evaluations += (unsigned long)row->stages;
-        progress->iterations += is_explicit ? 0 : 1;
-        settled = is_explicit || gm_is_settled(change, 8 * DBL_EPSILON * size, &previous);
-        if (!(change < 1e100)) {
-            return is_explicit ? GM_BLOW_UP : GM_NO_CONVERGENCE;
-        }
-    }
-    if (!settled) {
+    } else if (!gm_sweeps_solve(&equations, scratch->next, forces, progress)) {
         return GM_NO_CONVERGENCE;
     }
-    place(task, members, &scratch, row->b, row->stages, 1);
-    memcpy(members->y, scratch.state, half * sizeof(double));
+    place(&work, forces, row->b, row->stages, 1);
+    memcpy(members->y, scratch->state, half * sizeof(double));
     for (int i = 0; i < row->stages; i++) {
         for (size_t k = 0; k < half; k++) {
-            members->y[half + k] += task->dt * row->bv[i] * scratch.forces[(size_t)i * half + k];
+            members->y[half + k] += task->dt * row->bv[i] * forces[(size_t)i * half + k];
         }
     }
     if (members->n % 2 != 0) {
@@ -161,7 +161,7 @@ static struct gm_progress loop(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_nystrom_row *row = scheme->coefficients;
-    return gm_members_open(problem, 0, ((size_t)row->stages + 1) * (problem->n / 2) + 2 * problem->n);
+    return gm_members_open(problem, 0, (2 * (size_t)row->stages + 1) * (problem->n / 2) + 2 * problem->n);
 }
 
 const struct gm_family gm_family_nystrom = {

@@ -7,197 +7,39 @@
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
 #include "core/ode/families/runge_kutta/partitioned.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/kernel/stage_solver.h"
 #include "core/theory/coefficients.h"
 
-enum { PICARD_ITERATIONS = 150, NEWTON_ITERATIONS = 50 };
-
-/* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the
-   matrix. */
-struct scratch {
-    double *z, *f, *stage, *right, *matrix, *jacobian;
-};
-
-static struct scratch scratch_of(const struct gm_members *members, size_t stages)
-{
-    const size_t n = members->n;
-    double *at = members->scratch;
-    return (struct scratch){
-        .z = at,
-        .f = at + stages * n,
-        .stage = at + 2 * stages * n,
-        .right = at + (2 * stages + 1) * n,
-        .jacobian = at + (3 * stages + 1) * n,
-        .matrix = at + (3 * stages + 1) * n + n * n,
-    };
-}
-
-/* Slopes at y + z_i; returns the 1-norm of all that is added. */
-static double slopes(const struct gm_task *task, const struct gm_members *members,
-                     const struct scratch *scratch, size_t stages, struct gm_progress *progress)
-{
-    const size_t n = members->n;
-    double size = 0;
-    for (size_t i = 0; i < stages; i++) {
-        for (size_t c = 0; c < n; c++) {
-            scratch->stage[c] = members->y[c] + scratch->z[i * n + c];
-            size += fabs(members->y[c]) + fabs(scratch->z[i * n + c]);
-        }
-        gm_field(task->problem, scratch->stage, scratch->f + i * n, 1);
-    }
-    progress->evaluations += stages;
-    progress->iterations++;
-    return size;
-}
-
-static double coefficient(const struct gm_partitioned_row *tableau, size_t i, size_t j, bool momentum)
-{
-    return momentum ? tableau->c[i][j] : tableau->a[i][j];
-}
-
-/* right := h (a | c) f - z; returns its 1-norm */
-static double residual(const struct gm_partitioned_row *tableau, const struct scratch *scratch, size_t n,
-                       double h)
-{
-    double change = 0;
-    for (size_t i = 0; i < tableau->stages; i++) {
-        for (size_t c = 0; c < n; c++) {
-            double next = 0;
-            for (size_t j = 0; j < tableau->stages; j++) {
-                next += h * coefficient(tableau, i, j, c >= n / 2) * scratch->f[j * n + c];
-            }
-            scratch->right[i * n + c] = next - scratch->z[i * n + c];
-            change += fabs(scratch->right[i * n + c]);
-        }
-    }
-    return change;
-}
-
-static bool by_fixed_point(const struct gm_task *task, struct gm_members *members,
-                           const struct gm_partitioned_row *tableau, struct gm_progress *progress)
-{
-    const struct scratch scratch = scratch_of(members, tableau->stages);
-    const size_t size = tableau->stages * members->n;
-    const bool newton = gm_matrix_size(task->problem) > 0;
-    double previous = INFINITY, before_previous = INFINITY;
-    memset(scratch.z, 0, size * sizeof(double));
-    for (int iteration = 0; iteration < PICARD_ITERATIONS; iteration++) {
-        const double scale = slopes(task, members, &scratch, tableau->stages, progress);
-        const double change = residual(tableau, &scratch, members->n, task->dt);
-        const double roundoff = 8 * GM_EPSILON * scale, before = previous;
-        progress->unsolved = gm_unsolved_by(change, scale);
-        if (!(change < 1e100)) {
-            return false;
-        }
-        for (size_t i = 0; i < size; i++) {
-            scratch.z[i] += scratch.right[i];
-        }
-        if (gm_is_settled(change, roundoff, &previous)) {
-            return true;
-        }
-        if (newton && !GM_SWEEPS_CONTRACT(change, before_previous, roundoff)) {
-            return false;
-        }
-        before_previous = before;
-    }
-    return false;
-}
-
-/* matrix := I - h (a | c) J of the stages; false where there is no Jacobian. */
-static bool linearise(const struct gm_task *task, const struct gm_members *members,
-                      const struct gm_partitioned_row *tableau, const struct scratch *scratch)
-{
-    const size_t n = members->n, size = tableau->stages * n;
-    for (size_t j = 0; j < tableau->stages; j++) {
-        for (size_t c = 0; c < n; c++) {
-            scratch->stage[c] = members->y[c] + scratch->z[j * n + c];
-        }
-        if (!gm_jacobian(task->problem, scratch->stage, scratch->jacobian)) {
-            return false;
-        }
-        for (size_t i = 0; i < tableau->stages; i++) {
-            for (size_t r = 0; r < n; r++) {
-                const double factor = task->dt * coefficient(tableau, i, j, r >= n / 2);
-                for (size_t c = 0; c < n; c++) {
-                    scratch->matrix[(i * n + r) * size + j * n + c] =
-                        (i == j && r == c ? 1 : 0) - factor * scratch->jacobian[r * n + c];
-                }
-            }
-        }
-    }
-    return true;
-}
-
-static bool by_newton(const struct gm_task *task, struct gm_members *members,
-                      const struct gm_partitioned_row *tableau, struct gm_progress *progress)
-{
-    const struct scratch scratch = scratch_of(members, tableau->stages);
-    const size_t n = members->n, size = tableau->stages * n;
-    double previous = INFINITY;
-    memset(scratch.z, 0, size * sizeof(double));
-    for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
-        const double scale = slopes(task, members, &scratch, tableau->stages, progress);
-        residual(tableau, &scratch, n, task->dt);
-        if (!linearise(task, members, tableau, &scratch)) {
-            return false;
-        }
-        progress->solves++;
-        const double rounding = gm_rounding_decides(scale, previous)
-                                    ? gm_rounding_of_stages(size, n, scratch.matrix, members->y, scratch.z)
-                                    : 0;
-        if (!gm_eliminate(size, scratch.matrix, scratch.right)) {
-            progress->unsolved.obstacle = gm_obstacle_of(size * size, scratch.matrix);
-            return false;
-        }
-        double change = 0;
-        for (size_t i = 0; i < size; i++) {
-            change += fabs(scratch.right[i]);
-            scratch.z[i] += scratch.right[i];
-        }
-        if (gm_newton_is_settled(size, change, scale, rounding, &previous)) {
-            return true;
-        }
-        progress->unsolved = gm_unsolved_by(change, scale);
-        if (!isfinite(change)) {
-            return false;
-        }
-    }
-    return false;
-}
-
-/* y += sum w_k z_k after Newton's method, where a side has such weights; else y += h sum b_i f_i. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
     const struct gm_partitioned_row *tableau = task->scheme->coefficients;
-    const size_t n = members->n, stages = tableau->stages;
-    const struct scratch scratch = scratch_of(members, stages);
-    bool from_z[2] = {false, false};
-    double weights[2][GM_PARTITIONED_STAGES];
-    if (gm_ode_of(task->problem)->stiff || !by_fixed_point(task, members, tableau, progress)) {
-        if (!by_newton(task, members, tableau, progress)) {
-            return GM_NO_CONVERGENCE;
-        }
-        from_z[0] = gm_weights_of_stages(stages, tableau->a, tableau->b, weights[0]);
-        from_z[1] = gm_weights_of_stages(stages, tableau->c, tableau->d, weights[1]);
-        slopes(task, members, &scratch, stages, progress);
+    const size_t n = members->n;
+    double *increment = members->scratch, unused = 0;
+    struct gm_stage_solver solver = gm_stage_solver_lay(task->problem, tableau->stages, increment + n);
+    struct gm_stages *stages = &solver.stages;
+    stages->h = task->dt;
+    stages->y = members->y;
+    stages->a = tableau->a;
+    stages->b = tableau->b;
+    stages->c = tableau->c;
+    stages->d = tableau->d;
+    stages->progress = progress;
+    if (!gm_ode_of(task->problem)->stiff && gm_stages_by_sweeps(&solver)) {
+        gm_stages_increment(stages, NULL, increment);
+    } else if (gm_stages_by_newton(&solver)) {
+        gm_stages_sweep(stages, solver.z, solver.scratch, &unused); /* the slopes at the last z */
+        gm_stages_increment(stages, solver.z, increment);
+    } else {
+        return GM_NO_CONVERGENCE;
     }
     for (size_t c = 0; c < n; c++) {
-        const size_t side = c < n / 2 ? 0 : 1;
-        double increment = 0;
-        for (size_t i = 0; i < stages; i++) {
-            increment += from_z[side]
-                             ? weights[side][i] * scratch.z[i * n + c]
-                             : task->dt * (side == 0 ? tableau->b : tableau->d)[i] * scratch.f[i * n + c];
-        }
-        members->y[c] += increment;
+        members->y[c] += increment[c];
     }
     return GM_OK;
 }
@@ -210,8 +52,7 @@ static struct gm_progress loop(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const size_t stages = ((const struct gm_partitioned_row *)scheme->coefficients)->stages;
-    const size_t matrices = (1 + stages * stages) * gm_matrix_size(problem);
-    return gm_members_open(problem, 0, (3 * stages + 1) * problem->n + matrices);
+    return gm_members_open(problem, 0, problem->n + gm_stage_solver_room(problem, stages));
 }
 
 static const struct gm_partitioned_row symplectic_euler = {

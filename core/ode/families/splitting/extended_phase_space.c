@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"

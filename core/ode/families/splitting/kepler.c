@@ -16,7 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 

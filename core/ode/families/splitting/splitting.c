@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"

@@ -5,7 +5,7 @@
    K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; H. Ammari, lecture 5. */
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 
 enum form { SIMPLE, PALINDROME };

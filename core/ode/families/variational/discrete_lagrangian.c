@@ -26,13 +26,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
-
-enum { ITERATIONS = 50, HALVINGS = 20 };
 
 /* The scratch: what the basis is at the points, unknowns, and their equations. */
 struct step {
@@ -40,12 +38,13 @@ struct step {
     const struct gm_task *task;
     struct gm_manifold manifold;
     size_t half, constraints, unknowns;
-    double friction, t;                /* of the state, where the equations hold it */
-    double *values, *slopes;           /* l_j(c_i), l_j'(c_i): points * (degree + 1) */
-    double *q, *p;                     /* at the start */
-    double *solution, *change, *trial; /* Q_j - q0, then mu_j, of the unknowns */
-    double *residual, *matrix;
+    double friction, t;      /* of the state, where the equations hold it */
+    double *values, *slopes; /* l_j(c_i), l_j'(c_i): points * (degree + 1) */
+    double *q, *p;           /* at the start */
+    double *solution;        /* Q_j - q0, then mu_j, of the unknowns */
+    double *scratch, *residual, *matrix;
     double *impulse; /* what the momenta gain, but for the last multiplier */
+    struct gm_progress *progress;
 };
 
 static size_t unknowns_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
@@ -53,12 +52,12 @@ static size_t unknowns_of(const struct gm_problem *problem, const struct gm_vari
     return rule->degree * (problem->n / 2 + gm_action_constraints(problem));
 }
 
-/* Three vectors of unknowns, the residual, and the matrix; the tables, and three vectors of coordinates. */
+/* The unknowns, and what Newton's method works in; the tables, and three vectors of coordinates. */
 static size_t room_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
 {
     const size_t unknowns = unknowns_of(problem, rule);
-    return 2 * rule->points * (rule->degree + 1) + 3 * (problem->n / 2) + 4 * unknowns + unknowns * unknowns +
-           gm_manifold_scratch_size(problem);
+    return 2 * rule->points * (rule->degree + 1) + 3 * (problem->n / 2) + unknowns +
+           gm_newton_scratch(unknowns) + gm_manifold_scratch_size(problem);
 }
 
 static struct step lay(const struct gm_problem *problem, const struct gm_variational_row *rule,
@@ -76,11 +75,8 @@ static struct step lay(const struct gm_problem *problem, const struct gm_variati
     step.p = step.q + half;
     step.impulse = step.p + half;
     step.solution = step.impulse + half;
-    step.change = step.solution + unknowns;
-    step.trial = step.change + unknowns;
-    step.residual = step.trial + unknowns;
-    step.matrix = step.residual + unknowns;
-    step.manifold = gm_manifold_lay(problem, step.matrix + unknowns * unknowns);
+    step.scratch = step.solution + unknowns;
+    step.manifold = gm_manifold_lay(problem, step.scratch + gm_newton_scratch(unknowns));
     return step;
 }
 
@@ -155,7 +151,7 @@ static bool add_point(const struct step *step, const double *unknowns, size_t i)
     for (size_t a = 0; a < half; a++) {
         step->impulse[a] += h * b * motion->forces[a];
         for (size_t j = 0; j < rule->degree; j++) {
-            step->residual[j * half + a] += b * (h * motion->forces[a] * l[j] + motion->momenta[a] * dl[j]);
+            step->residual[j * half + a] -= b * (h * motion->forces[a] * l[j] + motion->momenta[a] * dl[j]);
         }
     }
     for (size_t j = 0; j < rule->degree; j++) {
@@ -193,7 +189,7 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
     for (size_t k = 0; k < constraints; k++) {
         const size_t equation = degree * half + (j - 1) * constraints + k; /* g(Q_j) = 0 */
         if (moved) {
-            step->residual[equation] = manifold->g[k];
+            step->residual[equation] = -manifold->g[k];
         }
         for (size_t a = 0; a < half; a++) {
             const double slope = manifold->slopes[k * half + a];
@@ -202,7 +198,7 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
             }
             if (j < degree) {
                 step->matrix[(j * half + a) * all + degree * half + j * constraints + k] = b * slope;
-                step->residual[j * half + a] += b * slope * manifold->multipliers[k];
+                step->residual[j * half + a] -= b * slope * manifold->multipliers[k];
                 step->impulse[a] += b * slope * manifold->multipliers[k];
             }
         }
@@ -215,28 +211,31 @@ static void add_constraints(const struct step *step, const double *unknowns, siz
     }
 }
 
-/* The equations at these unknowns, with their derivatives; returns the 1-norm of the residual. */
-static double assemble(const struct step *step, const double *unknowns, struct gm_progress *progress)
+/* -R at these unknowns, and the derivatives of R. */
+static bool linear(void *data, const double *unknowns, double *residual, double *matrix, double *scale)
 {
+    struct step *step = data;
     const struct gm_variational_row *rule = step->rule;
-    double size = 0;
+    step->residual = residual;
+    step->matrix = matrix;
     memset(step->impulse, 0, step->half * sizeof(double));
-    memset(step->residual, 0, step->unknowns * sizeof(double));
-    memset(step->matrix, 0, step->unknowns * step->unknowns * sizeof(double));
-    memcpy(step->residual, step->p, step->half * sizeof(double));
+    memset(residual, 0, step->unknowns * sizeof(double));
+    memset(matrix, 0, step->unknowns * step->unknowns * sizeof(double));
+    for (size_t a = 0; a < step->half; a++) {
+        residual[a] = -step->p[a];
+    }
     for (size_t i = 0; i < rule->points; i++) {
         if (!add_point(step, unknowns, i)) {
-            return NAN;
+            return false;
         }
     }
     for (size_t j = 0; j <= rule->degree && step->constraints > 0; j++) {
         add_constraints(step, unknowns, j);
     }
-    progress->evaluations += rule->points;
-    for (size_t i = 0; i < step->unknowns; i++) {
-        size += fabs(step->residual[i]);
-    }
-    return size;
+    step->progress->evaluations += rule->points;
+    *scale += (double)rule->degree * gm_sum_of(step->q, step->half) +
+              gm_sum_of(unknowns, rule->degree * step->half);
+    return true;
 }
 
 /* The last change is one of the multipliers too, and so of what the momenta gain by them. */
@@ -250,65 +249,30 @@ static void correct_impulse(const struct step *step)
         }
         gm_manifold_constrain(manifold, manifold->at);
         for (size_t k = 0; k < step->constraints; k++) {
-            const double change = step->change[degree * half + j * step->constraints + k];
+            const double change = step->scratch[degree * half + j * step->constraints + k];
             for (size_t a = 0; a < half; a++) {
-                step->impulse[a] -= step->rule->b[j] * manifold->slopes[k * half + a] * change;
+                step->impulse[a] += step->rule->b[j] * manifold->slopes[k * half + a] * change;
             }
         }
     }
 }
 
-/* Newton's method from rest, where the first step is the Legendre transform; shortened where a whole step
-   leads further away. */
-static bool solve(const struct step *step, struct gm_progress *progress)
+/* Newton's method from rest, where the first step is the Legendre transform. The last change is below rounding, but of
+   one sign in all steps: left out it would add up. */
+static bool solve(struct step *step)
 {
-    const size_t moved = step->rule->degree * step->half, all = step->unknowns;
-    double previous = INFINITY,
-           off = (memset(step->solution, 0, all * sizeof(double)), assemble(step, step->solution, progress));
-    double scale = 0;
-    for (size_t a = 0; a < step->half; a++) {
-        scale += (double)step->rule->degree * fabs(step->q[a]);
+    const struct gm_implicit_equations equations = {.size = step->unknowns,
+                                                    .data = step,
+                                                    .counted = step->rule->degree * step->half,
+                                                    .least = 0x1p-53,
+                                                    .roundoff = 0x1p-46,
+                                                    .halved = true};
+    memset(step->solution, 0, step->unknowns * sizeof(double));
+    if (!gm_newton_solve_by(&equations, linear, step->scratch, step->solution, step->progress)) {
+        return false;
     }
-    for (int iteration = 0; iteration < ITERATIONS && isfinite(off); iteration++) {
-        memcpy(step->change, step->residual, all * sizeof(double));
-        progress->iterations++;
-        progress->solves++;
-        if (!gm_eliminate(all, step->matrix, step->change)) {
-            progress->unsolved.obstacle = GM_SINGULAR;
-            return false;
-        }
-        double change = 0, far = 0;
-        for (size_t i = 0; i < moved; i++) {
-            change += fabs(step->change[i]);
-            far += fabs(step->solution[i]);
-        }
-        const double size = scale + far;
-        progress->unsolved = gm_unsolved_by(change, size);
-        if (!isfinite(change)) {
-            return false;
-        }
-        if (change <= 0x1p-53 * far || gm_is_settled(change, 0x1p-46 * size, &previous)) {
-            /* the last change is below rounding, but of one sign in all steps: left out it would add up */
-            for (size_t i = 0; i < all; i++) {
-                step->solution[i] -= step->change[i];
-            }
-            correct_impulse(step);
-            return true;
-        }
-        double factor = 1, there = NAN;
-        for (int halving = 0; halving < HALVINGS; halving++, factor /= 2) {
-            for (size_t i = 0; i < all; i++) {
-                step->trial[i] = step->solution[i] - factor * step->change[i];
-            }
-            there = assemble(step, step->trial, progress);
-            if (there <= off || (change <= 0x1p-26 * size && isfinite(there))) {
-                break;
-            }
-        }
-        off = there;
-        memcpy(step->solution, step->trial, all * sizeof(double));
-    }
-    return false;
+    correct_impulse(step);
+    return true;
 }
 
 /* p1 := the momenta at the end, G v = 0 */
@@ -342,6 +306,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     const size_t half = step.half;
     double *y = members->y;
     step.task = task;
+    step.progress = progress;
     step.friction = rule->damped ? gm_ode_of(problem)->action->friction(problem) : 0;
     const double fades = exp(-step.friction * task->dt / 2);
     if (rule->late) {
@@ -358,7 +323,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     if (rule->tables) {
         rule->tables(task->settings, step.values, step.slopes);
     }
-    if (!solve(&step, progress)) {
+    if (!solve(&step)) {
         return GM_NO_CONVERGENCE;
     }
     double *carry = members->carry;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
+#include "core/basics.h"
 #include "core/kind.h"
 #include "core/ode/families/families.h"
 #include "core/ode/variational/manifold.h"

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_CLONES_H
-#define GM_CORE_CLONES_H
+/* Three things that any file may need. */
+#ifndef GM_CORE_BASICS_H
+#define GM_CORE_BASICS_H
+
+/* How many elements an array has. */
+#define GM_COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* A hot loop over points, compiled for several instruction sets and picked when the program is loaded. No
    clone fuses or reorders an operation (-ffp-contract=off), so all give the same bits. It is inlined nowhere. */
@@ -9,5 +13,11 @@
 #else
 #define GM_CLONES __attribute__((noinline))
 #endif
+
+/* The larger of both; NaN where one is, which fmax loses. */
+static inline double gm_larger(double a, double b)
+{
+    return a > b || a != a ? a : b;
+}
 
 #endif

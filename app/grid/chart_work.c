@@ -5,13 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/work.h"
+#include "app/grid/chart.h"
+#include "app/grid/hooks.h"
+#include "app/grid/judge.h"
 #include "core/expression/number.h"
-#include "scenes/common/graph.h"
 
 enum { NAMED = GM_LANE_COLOURS };
 
-static bool holds(const struct gm_work_line *const *chosen, size_t count, const struct gm_work_line *line)
+static bool holds(const struct gm_grid_line *const *chosen, size_t count, const struct gm_grid_line *line)
 {
     for (size_t i = 0; i < count; i++) {
         if (chosen[i] == line) {
@@ -21,44 +22,50 @@ static bool holds(const struct gm_work_line *const *chosen, size_t count, const 
     return false;
 }
 
+/* Whether more than one run was made. */
+static bool is_line(const struct gm_grid_line *line)
+{
+    return line->count > 1 && line->cells[1].tried;
+}
+
 /* The cheapest at each error by either cost, then the scene's preferred ones, then, where there are few,
  * others. */
-static size_t choose(const struct gm_work_table *table, const struct gm_work_line *chosen[NAMED])
+static size_t choose(const struct gm_grid *grid, const struct gm_grid_line *chosen[NAMED])
 {
     size_t count = 0;
-    for (size_t i = 0; table->line_count <= NAMED && i < table->line_count; i++) {
-        chosen[count++] = &table->lines[i];
+    for (size_t i = 0; grid->begun <= NAMED && i < grid->begun; i++) {
+        chosen[count++] = &grid->lines[i];
     }
-    const enum gm_work_cost costs[] = {GM_COST_SECONDS, gm_work_second_cost(table)};
+    const enum gm_cost costs[] = {GM_COST_SECONDS, gm_work_second_cost(grid)};
     for (int which = 0; which < 2; which++) {
         for (size_t i = 0; i < 3 && count < NAMED; i++) {
-            const struct gm_work_line *line = gm_work_cheapest(table, table->errors[i], costs[which]);
+            const struct gm_grid_line *line = gm_work_cheapest(grid, grid->errors[i], costs[which]);
             if (line && !holds(chosen, count, line)) {
                 chosen[count++] = line;
             }
         }
     }
-    const char *const *preferred = table->request.scene->schemes;
+    const char *const *preferred = grid->request.scene->schemes;
     for (; *preferred && count < NAMED; preferred++) {
-        for (size_t i = 0; i < table->line_count && count < NAMED; i++) {
-            if (strcmp(table->lines[i].scheme->name, *preferred) == 0 && table->lines[i].count > 1 &&
-                !holds(chosen, count, &table->lines[i])) {
-                chosen[count++] = &table->lines[i];
+        for (size_t i = 0; i < grid->begun && count < NAMED; i++) {
+            if (strcmp(grid->lines[i].scheme->name, *preferred) == 0 && is_line(&grid->lines[i]) &&
+                !holds(chosen, count, &grid->lines[i])) {
+                chosen[count++] = &grid->lines[i];
             }
         }
     }
-    for (size_t i = 0; table->line_count <= 2 * NAMED && i < table->line_count && count < NAMED; i++) {
-        if (table->lines[i].count > 1 && !holds(chosen, count, &table->lines[i])) {
-            chosen[count++] = &table->lines[i];
+    for (size_t i = 0; grid->begun <= 2 * NAMED && i < grid->begun && count < NAMED; i++) {
+        if (is_line(&grid->lines[i]) && !holds(chosen, count, &grid->lines[i])) {
+            chosen[count++] = &grid->lines[i];
         }
     }
     return count;
 }
 
-static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost, double *points)
+static size_t points_of(const struct gm_grid_line *line, enum gm_cost cost, double *points)
 {
     size_t count = 0, all;
-    const struct gm_work_point *front = gm_work_front(line, cost, &all);
+    const struct gm_grid_cell *front = gm_work_front(line, cost, &all);
     for (size_t k = 0; k < all; k++) {
         const double price = gm_work_cost(&front[k], cost), error = front[k].error;
         if (isfinite(error) && error > 0 && price > 0 && isfinite(price)) {
@@ -167,26 +174,23 @@ static const double *rising(struct gm_picture *picture, const double *values, si
     return sorted;
 }
 
-static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
-                      const struct gm_work_line *const *chosen, size_t chosen_count)
+static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, enum gm_cost cost,
+                      const struct gm_grid_line *const *chosen, size_t chosen_count)
 {
-    const char *finer = gm_picture_text(picture, "%s%s", table->smaller_is_finer ? "1/" : "",
-                                        table->resolution ? table->resolution->key : "");
+    const char *finer = gm_picture_text(picture, "%s%s", grid->smaller_is_finer ? "1/" : "",
+                                        grid->parameter ? grid->parameter->key : "");
     const char *const titles[] = {"error against run time", "error against evaluations",
                                   gm_picture_text(picture, "error against %s", finer)};
     const char *const labels[] = {"processor time, s", "evaluations of f or force", finer};
-    double *points =
-        gm_picture_memory(picture, 2 * table->step_count * table->resolution_count * sizeof *points);
+    double *points = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *points);
     if (!points) {
         return;
     }
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, titles[cost]);
-    panel->axes = true;
-    panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0};
-    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
-    for (size_t i = 0; i < table->line_count; i++) {
-        const size_t count = points_of(&table->lines[i], cost, points);
+    const struct gm_axis x = {.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0},
+                         y = {.label = "", .scale = GM_LOG, .low = 1, .high = 0};
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, titles[cost], &x, &y);
+    for (size_t i = 0; i < grid->begun; i++) {
+        const size_t count = points_of(&grid->lines[i], cost, points);
         for (size_t k = 0; k < count; k++) {
             gm_range_add(&panel->x.low, &panel->x.high, points[2 * k]);
             /* an error above 10 says no more than 10 does */
@@ -194,24 +198,24 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
         }
     }
     gm_range_round(&panel->x.low, &panel->x.high, GM_LOG);
-    if (cost == GM_COST_RESOLUTION && !table->smaller_is_finer) {
-        panel->x.ticks = rising(picture, table->resolutions, table->resolution_count);
-        panel->x.tick_count = panel->x.ticks ? table->resolution_count : 0;
+    if (cost == GM_COST_RESOLUTION && !grid->smaller_is_finer) {
+        panel->x.ticks = rising(picture, grid->values.values, grid->values.count);
+        panel->x.tick_count = panel->x.ticks ? grid->values.count : 0;
     }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
-    for (size_t i = 0; i < table->line_count; i++) {
-        if (!holds(chosen, chosen_count, &table->lines[i])) {
-            const size_t count = points_of(&table->lines[i], cost, points);
+    for (size_t i = 0; i < grid->begun; i++) {
+        if (!holds(chosen, chosen_count, &grid->lines[i])) {
+            const size_t count = points_of(&grid->lines[i], cost, points);
             gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.35, 1.1, GM_SOLID}, points, count,
                          false);
         }
     }
     struct drawn lines[NAMED];
     for (size_t i = 0; i < chosen_count; i++) {
-        const size_t most = table->step_count * table->resolution_count;
+        const size_t most = grid->steps.count * grid->values.count;
         double *own = gm_picture_memory(picture, 2 * most * sizeof *own);
         lines[i] = (struct drawn){own, own ? points_of(chosen[i], cost, own) : 0};
-        const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
+        const struct gm_style style = gm_chart_style(i);
         gm_mark_line(picture, panel, style, own, lines[i].count, false);
         gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,
                        lines[i].count);
@@ -233,23 +237,22 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
     }
 }
 
-void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
+void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
-    const struct gm_work_line *chosen[NAMED] = {NULL};
-    const size_t count = choose(table, chosen);
-    const struct gm_scene *scene = table->request.scene;
-    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    const struct gm_grid_line *chosen[NAMED] = {NULL};
+    const size_t count = choose(grid, chosen);
+    const struct gm_scene *scene = grid->request.scene;
+    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle = gm_picture_text(picture, "%s at t = %s,  %s%s%zu scheme%s%s", table->measure_title,
-                                        gm_step_text(picture, timing->until), table->settings,
-                                        table->settings[0] ? ",  " : "", table->line_count,
-                                        gm_plural((double)table->line_count),
-                                        count < table->line_count ? ";  grey: those without a name" : "");
+    picture->subtitle = gm_picture_text(
+        picture, "%s at t = %s,  %s%s%zu scheme%s%s", grid->measure_title,
+        gm_step_text(picture, timing->until), grid->settings, grid->settings[0] ? ",  " : "", grid->begun,
+        gm_plural((double)grid->begun), count < grid->begun ? ";  grey: those without a name" : "");
 
     picture->clock = "";
-    picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(table, sentence, sizeof sentence));
-    draw_cost(table, picture, GM_COST_SECONDS, chosen, count);
-    draw_cost(table, picture, gm_work_second_cost(table), chosen, count);
+    picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(grid, sentence, sizeof sentence));
+    draw_cost(grid, picture, GM_COST_SECONDS, chosen, count);
+    draw_cost(grid, picture, gm_work_second_cost(grid), chosen, count);
 }

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_STUDIES_GRID_H
+#define GM_APP_STUDIES_GRID_H
+
+#include "app/base/arguments.h"
+#include "app/grid/listener.h"
+#include "app/grid/sweep.h"
+#include "app/output/row.h"
+#include "app/words/request.h"
+#include "core/ode/backward/modified_energy.h"
+
+/* A grid of runs: a scene, its words, axes of steps, values and schemes, and what is asked of each run. Four
+   presets say what that is: which accuracy costs how much, which step is stable, which Hamiltonian a scheme
+   keeps, and what a sweep tabulates. */
+
+enum gm_study_kind {
+    GM_STUDY_NONE,
+    GM_STUDY_WORK,
+    GM_STUDY_STABILITY,
+    GM_STUDY_BACKWARD,
+    GM_STUDY_SWEEP,
+    GM_STUDY_COUNT
+};
+
+enum gm_cell_verdict {
+    GM_BOUNDED, /* or accurate, where that was asked */
+    GM_LOST,    /* what should be conserved fell below half of its start */
+    GM_GAINED,  /* ... rose above twice its start */
+    GM_WRONG,   /* bounded, and not accurate, where that was asked */
+    GM_FAILED,  /* ended with a status */
+};
+
+enum { GM_POWERS = GM_MODIFIED_POWER + 1 };
+
+/* A run. */
+struct gm_grid_cell {
+    const struct gm_lane_spec *spec; /* the lane that it is, but for scheme, value and step */
+    double value;                    /* of the grid's parameter */
+    double step;                     /* as the ladder has it: dt, in the plan's unit, or a value of `ratio` */
+    double resolution;               /* the value, or its reciprocal where smaller is finer */
+    bool tried;                      /* what follows is known */
+    enum gm_status status;
+    double dt, t; /* the step, and the time reached */
+    int64_t steps;
+    double seconds; /* processor time, best of several; INFINITY: no run came to its end */
+    double evaluations, solves;
+    double error; /* NAN: not known, or the run failed */
+    double ratio; /* of what should be conserved to its start; NAN: not known */
+    enum gm_cell_verdict verdict;
+    /* Cut off after dt^k: the largest |H~(y_n) - H~(y_0)| of all looks at the run, and of the terms the
+       largest |dt^k H_k|, both divided by what the energy error is divided by. */
+    double errors[GM_POWERS], terms[GM_POWERS];
+    int best; /* the k with the smallest error */
+    /* If terms go on as k! (dt / gamma)^k, as the last two of those known do: they are smallest at k = gamma
+       / dt, and what is left drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt). Hairer, Lubich &
+       Wanner (2006), IX.8. NAN where fewer than two are known. */
+    double gamma;
+};
+
+enum gm_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS, GM_COST_RESOLUTION, GM_COST_COUNT };
+
+/* The runs of one scheme. */
+struct gm_grid_line {
+    const struct gm_scheme *scheme;
+    struct gm_grid_cell *cells;
+    size_t count;
+    char reason[GM_MESSAGE]; /* why there are no numbers; "": there are some, or the statuses say why not */
+    bool ended;              /* no lane can be opened */
+    /* Where the resolution varies: the cells that no other beats in error and cost, by rising cost; else NULL. */
+    struct gm_grid_cell *front[GM_COST_COUNT];
+    size_t front_count[GM_COST_COUNT];
+    struct gm_grid_cell *credited; /* scratch for them */
+    /* Of modified energies: the slopes at the two smallest steps whose errors are above round-off, or NAN; and
+       whether a power has a term that does not vanish. */
+    double orders[GM_POWERS];
+    bool shown[GM_POWERS];
+};
+
+/* The values of an axis, which are different. */
+struct gm_grid_axis {
+    double *values;
+    size_t count;
+};
+
+struct gm_study_row;
+
+struct gm_grid {
+    struct gm_request request; /* its first lane has the parameters that all share */
+    const struct gm_study_row *row;
+    struct gm_grid_line *lines;
+    size_t count;                         /* of lines, */
+    size_t begun;                         /* of which so many are shown: they are measured or under way */
+    const struct gm_parameter *parameter; /* what varies beside step and scheme; NULL: nothing does */
+    struct gm_grid_axis steps, values;
+    const struct gm_listener *listener; /* while it is measured */
+    size_t jobs;                        /* so many runs at once; 0: one a core */
+
+    /* stability */
+    const struct gm_stability *plan;
+    double accuracy; /* above which the scene's error is not accurate; INFINITY: bounded is asked alone */
+
+    /* work-precision */
+    char settings[160];  /* the words that set parameters which all runs share: "viscosity=0.05" */
+    bool best;           /* built-in schemes are added that promise most */
+    const char *measure; /* "solution_error" or an observable's key */
+    bool observed;       /* it is the observable, not the distance of the states */
+    const char *measure_title;
+    char reference[96]; /* what the error is measured against, in words */
+    const struct gm_scheme
+        *trusted; /* of a run that is the reference, and its step; NULL: the solution is exact */
+    double reference_step;
+    struct gm_lane
+        *finer;       /* the run that errors are distances from, where the scene measures these; else NULL */
+    double *solution; /* the state that errors are differences from; NULL: none */
+    bool smaller_is_finer;            /* of the parameter, as of the distance of nodes */
+    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: it has steps */
+    const double *errors;             /* 3, falling: at which schemes are compared */
+
+    /* sweep */
+    struct gm_sweep sweep;
+    int table; /* a file without a name */
+    struct gm_sweep_chart *chart;
+};
+
+/* What is special of a kind. */
+struct gm_study_row {
+    const char *name; /* of its command */
+    int refusal;      /* the exit status where nothing can be measured */
+    bool (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure,
+                 char *message);
+    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
+    void (*draw)(const struct gm_grid *grid, struct gm_picture *picture);
+    bool (*write)(const struct gm_grid *grid, const char *path);
+    void (*close)(struct gm_grid *grid);
+    /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL
+       where it shows none, and for a kind that has no runs of its own. In any thread, while it measures. */
+    char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
+
+    /* ---- of gm_cells_open ---- */
+    const char *which; /* what is asked where there is no scene */
+    size_t schemes;    /* so many of the scene's preferred ones are taken where none is named */
+    /* The words unless overridden; malloc'ed. NULL with a sentence where the scene has nothing to ask for, or
+       where memory is short. */
+    char *(*usual)(const struct gm_scene *scene, char *message);
+    /* Changes the words before they are read; NULL: nothing. False with a sentence. */
+    bool (*edit)(struct gm_grid *grid, struct gm_arguments *words, char *message);
+    /* Fills axes, lines and cells; `words` are all, among them those typed. False with a sentence. */
+    bool (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
+                    const char *measure, char *message);
+
+    /* ---- of gm_cells_measure ---- */
+    bool
+        alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
+    /* Finds what runs are compared with; NULL: nothing. False with a sentence. */
+    bool (*prepare)(struct gm_grid *grid, char *message);
+    /* Whether a cell is of no use, after those before it; NULL: all are of use. */
+    bool (*is_needless)(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
+    /* Makes the run of an open lane and fills its cell, in any thread; a message is why it has no numbers. */
+    void (*run)(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell, char *message);
+    /* Finds what a line says, after each of its cells; NULL: nothing. */
+    void (*conclude)(const struct gm_grid *grid, struct gm_grid_line *line);
+
+    /* ---- of gm_cells_write and gm_grid_put_cells ---- */
+    bool ordered; /* the scheme's order is a column */
+    int rows;     /* of a cell in CSV; `number` is that of one */
+    void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
+                     int number);
+};
+extern const struct gm_study_row gm_study_rows[GM_STUDY_COUNT]; /* that of GM_STUDY_NONE is empty */
+
+/* The kind of that name; GM_STUDY_NONE if there is none. */
+enum gm_study_kind gm_study_find(const char *name);
+
+/* Reads the words: a scene and its key=value; `measure` is the key of an observable or, of stability, what a
+   step is judged by; NULL: what the scene says. False with a sentence (GM_MESSAGE bytes); of the grid only
+   request.refusal says something then. */
+bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
+                  const char *measure, char *message);
+/* Makes the runs; stopped, the others stay untried. False with a sentence. */
+bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
+void gm_grid_close(struct gm_grid *grid);
+
+/* For gm_chart_write: `grid` is a struct gm_grid. Fills an empty picture; writes the cells as CSV, false with errno. */
+void gm_grid_draw(const void *grid, struct gm_picture *picture);
+bool gm_grid_write(const void *grid, const char *path);
+
+/* Writes the cells of a line as a list in JSON. */
+void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
+                       struct gm_row *row);
+
+#endif

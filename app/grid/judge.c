@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdicts on steps; fronts and what an error costs on them; slopes. */
+#include "app/grid/judge.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- stability ---- */
+
+enum gm_cell_verdict gm_stability_verdict(const struct gm_grid *grid, const struct gm_grid_cell *cell)
+{
+    if (cell->status != GM_OK) {
+        return GM_FAILED;
+    }
+    if (fabs(cell->ratio) > 2 || (!grid->plan->kept && grid->plan->error && !(cell->error <= 1))) {
+        return GM_GAINED;
+    }
+    if (!(cell->ratio >= 0.5)) {
+        return GM_LOST;
+    }
+    return grid->accuracy < INFINITY && !(cell->error <= grid->accuracy) ? GM_WRONG : GM_BOUNDED;
+}
+
+const char *gm_stability_judge(const struct gm_grid *grid)
+{
+    return grid->accuracy < INFINITY ? "accurate" : "bounded";
+}
+
+const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t size)
+{
+    const char *judge = gm_stability_judge(grid);
+    if (grid->accuracy < INFINITY) {
+        snprintf(text, size, "%s to %.3g (%s)", judge, grid->accuracy, grid->plan->error);
+    } else {
+        snprintf(text, size, "%s", judge);
+    }
+    return text;
+}
+
+const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell)
+{
+    static const char *const words[] = {[GM_LOST] = "lost", [GM_GAINED] = "gained", [GM_WRONG] = "wrong"};
+    if (!cell->tried) {
+        return "untried";
+    }
+    if (cell->verdict == GM_BOUNDED) {
+        return gm_stability_judge(grid);
+    }
+    return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
+}
+
+char gm_cell_letter(const struct gm_grid_cell *cell)
+{
+    if (!cell->tried) {
+        return '?';
+    }
+    switch (cell->verdict) {
+    case GM_BOUNDED:
+        return '.';
+    case GM_LOST:
+        return 'L';
+    case GM_GAINED:
+        return 'G';
+    case GM_WRONG:
+        return 'W';
+    case GM_FAILED:
+        break;
+    }
+    switch (cell->status) {
+    case GM_BLOW_UP:
+        return 'B';
+    case GM_NO_CONVERGENCE:
+        return 'N';
+    case GM_MESH_CROSSING:
+        return 'M';
+    default:
+        return 'C';
+    }
+}
+
+const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size)
+{
+    bool noted[128] = {['.'] = true};
+    size_t used = (size_t)snprintf(text, size, "%s", "");
+    for (size_t i = 0; i < grid->count; i++) {
+        for (size_t k = 0; k < grid->lines[i].count; k++) {
+            const struct gm_grid_cell *cell = &grid->lines[i].cells[k];
+            const char letter = gm_cell_letter(cell);
+            if (!noted[(size_t)letter] && used < size) {
+                used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
+                                         gm_cell_word(grid, cell));
+                noted[(size_t)letter] = true;
+            }
+        }
+    }
+    return text;
+}
+
+double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    double limit = 0;
+    for (size_t s = 0; s < grid->steps.count; s++) {
+        bool open = false;
+        for (size_t v = 0; v < grid->values.count; v++) {
+            const struct gm_grid_cell *cell = &line->cells[s * grid->values.count + v];
+            if (cell->tried && cell->verdict != GM_BOUNDED) {
+                return limit;
+            }
+            open = open || !cell->tried;
+        }
+        if (open) {
+            return NAN;
+        }
+        limit = grid->steps.values[s];
+    }
+    return limit;
+}
+
+/* ---- work-precision ---- */
+
+double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost)
+{
+    switch (cost) {
+    case GM_COST_SECONDS:
+        return cell->seconds;
+    case GM_COST_EVALUATIONS:
+        return cell->evaluations;
+    default:
+        return cell->resolution;
+    }
+}
+
+static bool is_better(const struct gm_grid_cell *a, const struct gm_grid_cell *b, enum gm_cost cost)
+{
+    const double here = gm_work_cost(a, cost), there = gm_work_cost(b, cost);
+    return here < there || (here == there && a->error < b->error);
+}
+
+size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm_cost cost,
+                         struct gm_grid_cell *best)
+{
+    size_t kept = 0;
+    double least = INFINITY;
+    const double better = 0.97; /* by less than this, errors are the same */
+    for (;;) {
+        /* the cheapest of those that are more accurate than all before */
+        const struct gm_grid_cell *next = NULL;
+        for (size_t i = 0; i < count; i++) {
+            if (cells[i].error < better * least && (!next || is_better(&cells[i], next, cost))) {
+                next = &cells[i];
+            }
+        }
+        if (!next) {
+            return kept;
+        }
+        least = next->error;
+        best[kept++] = *next;
+    }
+}
+
+/* Errors of both may cancel by chance: a cell is credited with the largest error of its resolution at its step
+   and all shorter ones. */
+void gm_work_conclude(const struct gm_grid *grid, struct gm_grid_line *line)
+{
+    struct gm_grid_cell *credited = line->credited;
+    for (size_t k = line->count; grid->parameter && k-- > 0;) {
+        credited[k] = line->cells[k];
+        if (k + 1 < line->count && credited[k + 1].value == credited[k].value &&
+            credited[k + 1].error > credited[k].error) {
+            credited[k].error = credited[k + 1].error;
+        }
+    }
+    for (int cost = 0; grid->parameter && cost < GM_COST_COUNT; cost++) {
+        line->front_count[cost] =
+            gm_work_keep_best(credited, line->count, (enum gm_cost)cost, line->front[cost]);
+    }
+}
+
+const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count)
+{
+    *count = line->front[cost] ? line->front_count[cost] : line->count;
+    return line->front[cost] ? line->front[cost] : line->cells;
+}
+
+enum gm_cost gm_work_second_cost(const struct gm_grid *grid)
+{
+    return grid->parameter ? GM_COST_RESOLUTION : GM_COST_EVALUATIONS;
+}
+
+double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error)
+{
+    const double price = gm_work_price(line, error, gm_work_second_cost(grid));
+    return grid->parameter && grid->smaller_is_finer ? 1 / price : price;
+}
+
+double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost cost)
+{
+    size_t count;
+    const struct gm_grid_cell *cells = gm_work_front(line, cost, &count);
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_grid_cell *here = &cells[k];
+        if (!(here->error <= error)) {
+            continue;
+        }
+        const struct gm_grid_cell *before = here - 1;
+        /* the coarsest step is good enough, or the one before says nothing */
+        if (k == 0 || !isfinite(before->error) || before->error <= here->error) {
+            return gm_work_cost(here, cost);
+        }
+        const double low = log(fmax(here->error, 1e-300)), high = log(before->error);
+        const double part = (log(error) - low) / (high - low);
+        const double from = gm_work_cost(here, cost), to = gm_work_cost(before, cost);
+        return from > 0 && to > 0 ? from * pow(to / from, part) : from;
+    }
+    return NAN;
+}
+
+const struct gm_grid_line *gm_work_cheapest(const struct gm_grid *grid, double error, enum gm_cost cost)
+{
+    const struct gm_grid_line *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < grid->begun; i++) {
+        const double price = gm_work_price(&grid->lines[i], error, cost);
+        if (price < least) {
+            least = price;
+            best = &grid->lines[i];
+        }
+    }
+    return best;
+}
+
+/* "10⁻³" */
+static const char *error_text(double error, char text[24])
+{
+    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const double power = round(-log10(error));
+    if (power < 1 || power > 9 || fabs(error * pow(10, power) - 1) > 1e-9) {
+        snprintf(text, 24, "%.3g", error);
+    } else {
+        snprintf(text, 24, "10⁻%s", digits[(int)power]);
+    }
+    return text;
+}
+
+/* "uniform Gauss 4 at 1 and 10⁻¹, control Gauss 4 at 10⁻²." */
+static size_t name_cheapest(const struct gm_grid *grid, const char *front, enum gm_cost cost, char *text,
+                            size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "%s", front);
+    enum { ERRORS = 3 };
+    const struct gm_grid_line *lines[ERRORS];
+    for (size_t i = 0; i < ERRORS; i++) {
+        lines[i] = gm_work_cheapest(grid, grid->errors[i], cost);
+    }
+    for (size_t i = 0; i < ERRORS && used < size; i++) {
+        char word[24];
+        error_text(grid->errors[i], word);
+        const bool same = i > 0 && lines[i] == lines[i - 1];
+        const bool last = i + 1 == ERRORS || lines[i + 1] != lines[i];
+        used += same ? (size_t)snprintf(text + used, size - used, "%s %s", last ? " and" : ",", word)
+                     : (size_t)snprintf(text + used, size - used, "%s %s at %s", i ? ";" : "",
+                                        lines[i] ? lines[i]->scheme->title : "none", word);
+    }
+    used = used < size ? used : size - 1;
+    used += (size_t)snprintf(text + used, size - used, ".");
+    return used < size ? used : size - 1;
+}
+
+const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size)
+{
+    const size_t used = name_cheapest(grid, "Cheapest by run time:", GM_COST_SECONDS, text, size);
+    if (grid->parameter) {
+        char front[64];
+        snprintf(front, sizeof front, "  %s %s:", grid->smaller_is_finer ? "Largest" : "Fewest",
+                 grid->parameter->key);
+        name_cheapest(grid, front, GM_COST_RESOLUTION, text + used, size - used);
+    }
+    return text;
+}
+
+/* ---- modified energies ---- */
+
+/* From the last two terms that are there, |dt^k H_k| = C k! (dt / gamma)^k. */
+static double gamma_of(const struct gm_grid_cell *cell)
+{
+    int last = GM_MODIFIED_POWER;
+    while (last > 0 && !(cell->terms[last] > 0)) {
+        last--;
+    }
+    int before = last - 1;
+    while (before > 0 && !(cell->terms[before] > 0)) {
+        before--;
+    }
+    if (before < 1) {
+        return NAN;
+    }
+    double factorials = 1;
+    for (int k = before + 1; k <= last; k++) {
+        factorials *= k;
+    }
+    return cell->dt * pow(factorials * cell->terms[before] / cell->terms[last], 1. / (last - before));
+}
+
+void gm_backward_judge(struct gm_grid_cell *cell)
+{
+    for (int k = 1; k < GM_POWERS; k++) {
+        cell->best = cell->errors[k] < cell->errors[cell->best] ? k : cell->best;
+    }
+    cell->gamma = gamma_of(cell);
+}
+
+void gm_backward_conclude(const struct gm_grid *grid, struct gm_grid_line *line)
+{
+    const double above_roundoff = 1e-12;
+    (void)grid;
+    line->shown[0] = true;
+    for (int k = 0; k < GM_POWERS; k++) {
+        const struct gm_grid_cell *fine = NULL, *coarse = NULL;
+        for (size_t i = line->count; i-- > 0 && !coarse;) {
+            const struct gm_grid_cell *cell = &line->cells[i];
+            line->shown[k] |= cell->tried && cell->terms[k] > 0;
+            if (cell->tried && cell->status == GM_OK && cell->errors[k] > above_roundoff) {
+                coarse = fine ? cell : NULL;
+                fine = fine ? fine : cell;
+            }
+        }
+        line->orders[k] =
+            coarse ? log(coarse->errors[k] / fine->errors[k]) / log(coarse->dt / fine->dt) : NAN;
+    }
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/arena.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* A block of memory stands behind its entry; a thing that was kept stands elsewhere. */
+struct gm_arena_entry {
+    struct gm_arena_entry *before, *after;
+    void *thing;
+    void (*close)(void *thing); /* NULL: a block */
+    _Alignas(max_align_t) unsigned char block[];
+};
+
+struct gm_arena {
+    struct gm_arena_entry *top;
+    jmp_buf *leave; /* NULL: no body runs */
+    char reason[512];
+};
+
+static const char no_memory[] = "not enough memory";
+
+struct gm_arena *gm_arena_open(void)
+{
+    return calloc(1, sizeof(struct gm_arena));
+}
+
+void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top)
+{
+    while (arena->top != top) {
+        struct gm_arena_entry *entry = arena->top;
+        arena->top = entry->before;
+        if (arena->top) {
+            arena->top->after = NULL;
+        }
+        if (entry->close) {
+            entry->close(entry->thing);
+        }
+        free(entry);
+    }
+}
+
+struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena)
+{
+    return arena->top;
+}
+
+void gm_arena_close(struct gm_arena *arena)
+{
+    if (arena) {
+        gm_arena_release(arena, NULL);
+        free(arena);
+    }
+}
+
+bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, void *data), void *data)
+{
+    if (!arena) {
+        return false;
+    }
+    struct gm_arena_entry *const top = arena->top;
+    jmp_buf *const outer = arena->leave;
+    jmp_buf here;
+    bool whole = false;
+    if (setjmp(here) == 0) {
+        arena->leave = &here;
+        body(arena, data);
+        whole = true;
+    }
+    arena->leave = outer;
+    if (!whole) {
+        gm_arena_release(arena, top);
+    }
+    return whole;
+}
+
+const char *gm_arena_reason(const struct gm_arena *arena)
+{
+    return arena ? arena->reason : no_memory;
+}
+
+void gm_arena_leave(struct gm_arena *arena)
+{
+    longjmp(*arena->leave, 1);
+}
+
+void gm_arena_refuse(struct gm_arena *arena, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(arena->reason, sizeof arena->reason, format, arguments);
+    va_end(arguments);
+    gm_arena_leave(arena);
+}
+
+static void *refused(struct gm_arena *arena)
+{
+    if (arena->leave) {
+        gm_arena_refuse(arena, "%s", no_memory);
+    }
+    return NULL;
+}
+
+static struct gm_arena_entry *add(struct gm_arena *arena, struct gm_arena_entry *entry)
+{
+    entry->before = arena->top;
+    if (arena->top) {
+        arena->top->after = entry;
+    }
+    return arena->top = entry;
+}
+
+/* Bytes of an entry with a block; 0: more than there can be. */
+static size_t bytes_of(size_t count, size_t size)
+{
+    const size_t head = sizeof(struct gm_arena_entry);
+    return size > 0 && count > (SIZE_MAX - head) / size ? 0 : head + count * size;
+}
+
+void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size)
+{
+    const size_t bytes = bytes_of(count, size);
+    struct gm_arena_entry *entry = bytes > 0 ? calloc(1, bytes) : NULL;
+    return entry ? add(arena, entry)->block : refused(arena);
+}
+
+void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size)
+{
+    if (!block) {
+        return gm_arena_take(arena, count, size);
+    }
+    const size_t bytes = bytes_of(count, size);
+    struct gm_arena_entry *entry = (void *)((unsigned char *)block - offsetof(struct gm_arena_entry, block));
+    entry = bytes > 0 ? realloc(entry, bytes) : NULL;
+    if (!entry) {
+        return refused(arena);
+    }
+    if (entry->before) {
+        entry->before->after = entry;
+    }
+    if (entry->after) {
+        entry->after->before = entry;
+    } else {
+        arena->top = entry;
+    }
+    return entry->block;
+}
+
+void *gm_arena_keep(struct gm_arena *arena, void *thing, void (*close)(void *thing))
+{
+    struct gm_arena_entry *entry = thing ? calloc(1, sizeof *entry) : NULL;
+    if (!entry) {
+        if (thing) {
+            close(thing);
+        }
+        return refused(arena);
+    }
+    entry->thing = thing;
+    entry->close = close;
+    return add(arena, entry)->thing;
+}
