@@ -81,64 +81,63 @@ static void put_values(FILE *stream, const char *text, size_t length, const stru
     }
 }
 
-static bool has_line(const char *text, const char *word)
+/* The number of the word that a line begins with, or `count`. */
+static size_t word_of(const char *line, const char *const *words, size_t count)
 {
-    const size_t letters = strlen(word);
-    for (const char *line = text; *line; line = gm_system_lines_end(line)) {
-        if (strncmp(line, word, letters) == 0 && line[letters] == ':') {
-            return true;
-        }
+    size_t i = 0;
+    while (i < count && (strncmp(line, words[i], strlen(words[i])) != 0 || line[strlen(words[i])] != ':')) {
+        i++;
     }
-    return false;
+    return i;
 }
 
 char *gm_system_now(const struct gm_scene *scene, const void *parameters)
 {
-    static const char *const valued[] = {"parameter:", "start:", NULL};
-    static const char *const lines[] = {"dt", "until", "members", "half_length",
-                                        "points"}; /* of one number, which a key sets */
-    enum { LINES = GM_COUNT(lines) };
-    char *text = NULL, numbers[LINES][GM_TEXT_SIZE];
-    bool other[LINES] = {false};
+    static const char *const words[] = {"dt",          "until",  "members",
+                                        "half_length", "points", /* one number, */
+                                        "parameter",   "start",  "lanes"};
+    enum { NUMBERS = 5, VALUED = 7, DT = 0 };
+    char *text = NULL;
+    bool given[NUMBERS] = {false};
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    for (size_t i = 0; i < LINES; i++) {
-        const struct gm_parameter *row = gm_scene_parameter(scene, lines[i]);
-        other[i] =
-            row && (strcmp(gm_parameter_format(row, parameters, numbers[i], sizeof numbers[i]),
-                           row->standard) != 0 ||
-                    (i == 0 && !has_line(scene->text, lines[i]))); /* dt of a word, or by the formula */
-    }
     if (stream && !strstr(scene->text, "geomint:")) {
         fputs("geomint: 1\n", stream);
     }
     for (const char *line = scene->text, *next; stream && *line; line = next) {
         next = gm_system_lines_end(line);
-        size_t k = 0;
-        while (valued[k] && strncmp(line, valued[k], strlen(valued[k])) != 0) {
-            k++;
-        }
-        const size_t key = valued[k] ? strlen(valued[k]) : 0, length = (size_t)(next - line);
+        const size_t word = word_of(line, words, GM_COUNT(words)), length = (size_t)(next - line);
+        const size_t key = word < VALUED ? strlen(words[word]) + 1 : 0;
         size_t values = key > 0 ? strcspn(line, ";#") : 0;
         values = values < length ? values : length;
         while (values > key && strchr(" \t\r\n", line[values - 1])) {
             values--;
         }
-        bool replaced = strncmp(line, "lanes:", strlen("lanes:")) == 0; /* these words are one lane's */
-        for (size_t i = 0; i < LINES; i++) {
-            const size_t letters = strlen(lines[i]);
-            replaced |= other[i] && strncmp(line, lines[i], letters) == 0 && line[letters] == ':';
-        }
-        if (replaced) {
-            continue;
+        const struct gm_parameter *row = word < NUMBERS ? gm_scene_parameter(scene, words[word]) : NULL;
+        char number[GM_TEXT_SIZE];
+        if (word == VALUED) {
+            continue; /* these words are one lane's */
         }
         fwrite(line, 1, key, stream);
-        put_values(stream, line + key, values - key, scene, parameters);
+        if (row && is_changed(row, parameters)) {
+            fprintf(stream, " %s", gm_parameter_format(row, parameters, number, sizeof number));
+        } else if (word < NUMBERS) {
+            fwrite(line + key, 1, values - key, stream);
+        } else {
+            put_values(stream, line + key, values - key, scene, parameters);
+        }
         fwrite(line + values, 1, length - values, stream);
+        if (word < NUMBERS) {
+            given[word] = true;
+        }
     }
-    for (size_t i = 0; stream && i < LINES; i++) {
-        if (other[i]) {
-            fprintf(stream, "%s: %s\n", lines[i], numbers[i]);
+    for (size_t i = 0; stream && i < NUMBERS; i++) {
+        const struct gm_parameter *row = gm_scene_parameter(scene, words[i]);
+        char number[GM_TEXT_SIZE];
+        /* dt of a word, or by the formula */
+        if (row && !given[i] && (i == DT || is_changed(row, parameters))) {
+            fprintf(stream, "%s: %s\n", words[i],
+                    gm_parameter_format(row, parameters, number, sizeof number));
         }
     }
     return stream && fclose(stream) == 0 ? text : NULL;

@@ -146,7 +146,7 @@ wait_for 'left 0'
 start 40x12 COLORTERM=truecolor TERM=tmux-256color
 open_scene kepler
 screen | grep -q 'SCHEMES' && fail "40x12: a panel beside the picture"
-keys Down Down Down Down Down # past members, spread, shape and show, which every system has
+keys Down
 wait_for 'eccentricity = 0\.5: '
 keys Right
 wait_for 'eccentricity = 0\.55: '
