@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/linear/eigenvalues.h"
+#include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
@@ -713,7 +714,12 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
         return NULL;
     }
     system_scene->system = *system;
-    if (!make(system_scene, name, words, typed, sentence)) {
+    const unsigned long refusals = gm_memory_refusals();
+    bool good = make(system_scene, name, words, typed, sentence);
+    if (gm_memory_refusals() != refusals) { /* a default would be another number */
+        good = gm_refuse(sentence, "not enough memory");
+    }
+    if (!good) {
         gm_system_scene_close(&system_scene->scene);
         return NULL;
     }
