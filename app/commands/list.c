@@ -310,11 +310,11 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
         gm_row_text(&schemes, NULL, entry->schemes[i]->name);
     }
     gm_row_close(&schemes);
-    gm_list_put_file(&row, file, scene->room);
+    gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
     printf("}\n");
 }
 
-/* `file`: of a room; NULL: it is a scene of the program. */
+/* `file`: that of the scene; NULL: it has none. */
 static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
                        const struct gm_options *options)
 {
@@ -410,6 +410,12 @@ static int refuse_name(const char *word)
                 : "");
 }
 
+/* Whether a word means a file: a scene of the program hides a file of its name, unless it is made of it. */
+static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *file)
+{
+    return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));
+}
+
 /* The text of the file that a word means. */
 static int list_source(const char *word)
 {
@@ -417,7 +423,7 @@ static int list_source(const char *word)
     char message[GM_MESSAGE];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
-    while (kind < GM_FILE_MESH && (gm_scene_find(word) || !gm_file_find(kind, word, &file))) {
+    while (kind < GM_FILE_MESH && !find_file(kind, word, &file)) {
         kind++;
     }
     if (kind == GM_FILE_MESH && (gm_scene_find(word) || gm_scheme_find(word) || find_list(word))) {
@@ -440,7 +446,8 @@ int gm_command_list(const struct gm_options *options)
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool is_system = *first && !gm_scene_find(first) && gm_file_find(GM_FILE_SYSTEM, first, &file);
+    const bool is_system =
+        *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
         const enum gm_telling telling = options->json     ? GM_TELL_JSON
                                         : options->latex  ? GM_TELL_LATEX
@@ -469,7 +476,8 @@ int gm_command_list(const struct gm_options *options)
         return list->print ? list->print(options) : list_files(list, options);
     }
     const struct gm_scene *scene = gm_scene_find(what);
-    const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file);
+    const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file),
+               from_file = room || (scene && find_file(GM_FILE_SYSTEM, what, &file));
     if (room) {
         int status;
         char message[GM_MESSAGE];
@@ -481,5 +489,5 @@ int gm_command_list(const struct gm_options *options)
     if (!scene) {
         return refuse_name(what);
     }
-    return list_scene(scene, what, room ? &file : NULL, options) ? gm_finish(GM_EXIT_OK) : GM_EXIT_USAGE;
+    return list_scene(scene, what, from_file ? &file : NULL, options) ? gm_finish(GM_EXIT_OK) : GM_EXIT_USAGE;
 }

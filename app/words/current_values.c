@@ -94,17 +94,22 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
     }
     while (stream && gm_lines_next(scene->text, strlen(scene->text), &at, &line, &fault)) {
         const size_t i = gm_span_among(scene->text, line.word, lines);
+        const size_t values = line.value.begin + strcspn(scene->text + line.value.begin, ";#");
+        const struct gm_span value =
+            gm_span_trimmed(scene->text, (struct gm_span){line.value.begin,
+                                                          values < line.value.end ? values : line.value.end});
         has_dt = has_dt || i == DT;
-        if (i == LANES || (i < LANES && put[i])) { /* the words of lanes are one lane's */
+        if (i == LANES) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
+        } else if (i < LANES && put[i]) { /* its range stays */
+            fwrite(scene->text + from, 1, value.begin - from, stream);
+            fputs(gm_parameter_format(rows[i], parameters, number, sizeof number), stream);
+            from = value.end;
+            put[i] = false;
         } else if (i == PARAMETER || i == START) {
-            const size_t values = line.value.begin + strcspn(scene->text + line.value.begin, ";#");
-            const struct gm_span pairs = gm_span_trimmed(
-                scene->text,
-                (struct gm_span){line.value.begin, values < line.value.end ? values : line.value.end});
-            fwrite(scene->text + from, 1, pairs.begin - from, stream);
-            from = put_values(stream, scene->text, pairs, scene, parameters);
+            fwrite(scene->text + from, 1, value.begin - from, stream);
+            from = put_values(stream, scene->text, value, scene, parameters);
         }
     }
     if (stream) {

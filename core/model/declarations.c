@@ -109,7 +109,8 @@ static bool add_derived(struct gm_reading *reading, const char *before, const ch
 /* parameter: NAME = value; low .. high; meaning; unit */
 static bool add_parameter(struct gm_reading *reading, const struct gm_system_line *line, bool lists)
 {
-    struct gm_span rest = line->value, piece, range = {0, 0}, meaning = {0, 0}, unit = {0, 0};
+    struct gm_span rest = line->value, piece;
+    struct gm_written_range range;
     struct gm_target target;
     gm_span_take(reading->text, &rest, ";", &piece);
     if (!gm_reading_assignment(reading, piece, &target)) {
@@ -119,9 +120,6 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
     if (is_list != lists) {
         return true;
     }
-    (void)(gm_span_take(reading->text, &rest, ";", &range) &&
-           gm_span_take(reading->text, &rest, ";", &meaning) &&
-           gm_span_take(reading->text, &rest, ";", &unit));
     const size_t first = reading->parameter_count, entries = reading->entry_count;
     if (!add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count)) {
         return false;
@@ -134,34 +132,22 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
         pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
         entry->value = value;
         variable->start_place = entry->place;
-        variable->meaning = gm_reading_text(reading, meaning);
-        variable->unit = gm_reading_text(reading, unit);
+        variable->text = gm_reading_text(reading, value);
     }
     if (is_list &&
         (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first))) {
         return gm_fail_first(&reading->fault, target.value.begin, "%zu values were expected, or one for all",
                              reading->parameter_count - first);
     }
-    const size_t dots = gm_span_until(reading->text, range, "..");
-    if (range.begin < range.end && dots == range.end) {
-        return gm_fail_first(&reading->fault, range.begin, "a range was expected, low .. high");
+    if (!gm_reading_range(reading, rest, &range)) {
+        return false;
     }
-    if (range.begin < range.end) {
-        double low, high;
-        if (!gm_reading_number(reading, gm_span_trimmed(reading->text, (struct gm_span){range.begin, dots}),
-                               &low) ||
-            !gm_reading_number(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, range.end}),
-                               &high)) {
-            return false;
-        }
-        if (!(low <= high)) {
-            return gm_fail_first(&reading->fault, range.begin,
-                                 "a range's lower end comes first, and %g is above %g", low, high);
-        }
-        for (size_t i = first; i < reading->parameter_count; i++) {
-            reading->system->variables[i].low = low;
-            reading->system->variables[i].high = high;
-        }
+    for (size_t i = first; i < reading->parameter_count; i++) {
+        struct gm_system_variable *variable = &reading->system->variables[i];
+        variable->low = range.low;
+        variable->high = range.high;
+        variable->meaning = gm_reading_text(reading, range.meaning);
+        variable->unit = gm_reading_text(reading, range.unit);
     }
     return !reading->fault.failed;
 }

@@ -172,7 +172,7 @@ bool gm_options_read(struct gm_reading *reading, struct gm_system_item *item, st
 /* FORMULA or FORMULA:format, between braces */
 static bool read_braces(struct gm_reading *reading, struct gm_system_item *item, struct gm_span inside)
 {
-    static const char *const formats[] = {"pi", "/", "nonzero"};
+    static const char *const formats[] = {"pi", "T", "/", "nonzero"};
     const size_t colon = gm_span_until(reading->text, inside, ":");
     const struct gm_span formula = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, colon}),
                          format = {colon < inside.end ? colon + 1 : colon, inside.end};
@@ -184,7 +184,7 @@ static bool read_braces(struct gm_reading *reading, struct gm_system_item *item,
     }
     if (!known) {
         return gm_fail_first(&reading->fault, format.begin,
-                             "a value is written as {x}, {x:pi}, {x:/} or {x:nonzero}");
+                             "a value is written as {x}, {x:pi}, {x:T}, {x:/} or {x:nonzero}");
     }
     const char *name = reading->text + formula.begin;
     const size_t length = formula.end - formula.begin;

@@ -19,8 +19,11 @@ static struct gm_system_item *add_item(struct gm_reading *reading, const struct 
         return NULL;
     }
     struct gm_system_item *item = &system->items[system->item_count];
-    *item = (struct gm_system_item){
-        .word = line->word, .place = line->value.begin, .name = gm_reading_text(reading, name)};
+    *item = (struct gm_system_item){.word = line->word,
+                                    .place = line->value.begin,
+                                    .low = NAN,
+                                    .high = NAN,
+                                    .name = gm_reading_text(reading, name)};
     system->item_count += item->name != NULL;
     return item->name ? item : NULL;
 }
@@ -50,12 +53,19 @@ static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item
     return !reading->fault.failed;
 }
 
+/* What a line assigns, and the range and meaning behind it. */
+struct assignment {
+    enum gm_system_word word;
+    struct gm_written_range range;
+};
+
 /* where a component keeps what a line assigns to it */
 static bool assign(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
                    gm_node_id node, void *data)
 {
     struct gm_user_system *system = reading->system;
-    const enum gm_system_word word = *(const enum gm_system_word *)data;
+    const struct assignment *assignment = data;
+    const enum gm_system_word word = assignment->word;
     const bool is_velocity =
         entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
     if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
@@ -78,20 +88,31 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
                              gm_system_words[word].word, variable->name);
     }
     *place = node;
-    variable->start_place = word == GM_WORD_START ? target->name.begin : variable->start_place;
-    return true;
+    if (word == GM_WORD_START) {
+        variable->start_place = target->name.begin;
+        variable->low = assignment->range.low;
+        variable->high = assignment->range.high;
+        variable->meaning = gm_reading_text(reading, assignment->range.meaning);
+        variable->unit = gm_reading_text(reading, assignment->range.unit);
+    }
+    return word != GM_WORD_START || (variable->meaning && variable->unit);
 }
 
 static bool read_assignments(struct gm_reading *reading, const struct gm_system_line *line)
 {
-    struct gm_span rest = line->value, piece;
-    enum gm_system_word word = line->word;
+    const enum gm_system_word word = line->word;
+    struct gm_span all = line->value, rest = all, piece;
+    struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
+    if (word == GM_WORD_START && !gm_system_is_field(reading->system)) {
+        gm_span_take(reading->text, &all, ";", &rest);
+        gm_reading_range(reading, all, &assignment.range);
+    }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
         reading->initial = word == GM_WORD_EXACT || word == GM_WORD_START;
         reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system);
         if (gm_reading_assignment(reading, piece, &target)) {
-            gm_reading_elements(reading, &target, assign, &word);
+            gm_reading_elements(reading, &target, assign, &assignment);
         }
         reading->initial = reading->exact = false;
     }
@@ -365,8 +386,15 @@ static bool read_section(struct gm_reading *reading, const struct gm_system_line
         return gm_fail_first(&reading->fault, condition.begin,
                              "the time between two looks is %g, and has to be above 0", period);
     }
-    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != 3) {
-        return gm_fail_first(&reading->fault, rest.begin, "a section shows two values: ; x, p_x");
+    gm_span_take(reading->text, &rest, ";", &piece);
+    if (piece.begin == piece.end || !add_formulas(reading, item, piece) || item->count != 3) {
+        return gm_fail_first(&reading->fault, piece.begin, "a section shows two values: ; x, p_x");
+    }
+    rest = gm_span_trimmed(reading->text, rest);
+    item->alone = rest.end - rest.begin == 5 && memcmp(reading->text + rest.begin, "alone", 5) == 0;
+    if (rest.begin < rest.end && !item->alone) {
+        return gm_fail_first(&reading->fault, rest.begin,
+                             "\"alone\" was expected: the section is the usual picture");
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &where, ",", &piece)) {
         const size_t more = gm_span_until(reading->text, piece, ">"),
@@ -612,6 +640,48 @@ static bool read_compile(struct gm_reading *reading, const struct gm_system_line
     return good;
 }
 
+/* F; scale: the least that its error is relative to */
+static bool read_energy(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, energy;
+    gm_span_take(reading->text, &rest, ";", &energy);
+    rest = gm_span_trimmed(reading->text, rest);
+    struct gm_system_item *item =
+        rest.begin < rest.end ? add_item(reading, line, (struct gm_span){0, 0}) : NULL;
+    return (rest.begin == rest.end || (item && gm_options_read(reading, item, rest))) &&
+           gm_reading_formula(reading, energy, &reading->system->energy);
+}
+
+/* F; low .. high; meaning */
+static bool read_timing(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const char *word = gm_system_words[line->word].word;
+    struct gm_span rest = line->value, value;
+    struct gm_written_range range;
+    double number;
+    gm_span_take(reading->text, &rest, ";", &value);
+    if (!gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
+        return false;
+    }
+    if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
+        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be %s", word, number,
+                             line->word == GM_WORD_DT ? "above 0" : "0 or more");
+    }
+    if (number < range.low || number > range.high) {
+        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and its range is from %g to %g", word,
+                             number, range.low, range.high);
+    }
+    reading->system->texts[line->word] = gm_reading_text(reading, value);
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    if (!item || !add_formula(reading, item, value)) {
+        return false;
+    }
+    item->low = range.low;
+    item->high = range.high;
+    item->text = gm_reading_text(reading, range.meaning);
+    return item->text != NULL;
+}
+
 static bool read_what_is_said(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_user_system *system = reading->system;
@@ -625,17 +695,7 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_DT:
     case GM_WORD_UNTIL:
     case GM_WORD_STEPS:
-        if (!gm_reading_number(reading, line->value, &number)) {
-            return false;
-        }
-        if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
-            return gm_fail_first(&reading->fault, line->value.begin, "%s is %g, and has to be %s",
-                                 gm_system_words[line->word].word, number,
-                                 line->word == GM_WORD_DT ? "above 0" : "0 or more");
-        }
-        system->texts[line->word] = gm_reading_text(reading, line->value);
-        item = add_item(reading, line, (struct gm_span){0, 0});
-        return item && add_formula(reading, item, line->value);
+        return read_timing(reading, line);
     case GM_WORD_TITLE:
     case GM_WORD_SUBTITLE:
     case GM_WORD_CAPTION:
@@ -673,6 +733,7 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_L_MATRIX:
         return read_matrix(reading, line);
     case GM_WORD_HAMILTONIAN:
+        return read_energy(reading, line);
     case GM_WORD_LAGRANGE:
     case GM_WORD_POTENTIAL:
     case GM_WORD_S_FUNCTION:

@@ -609,3 +609,27 @@ const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, e
     }
     return NULL;
 }
+
+bool gm_reading_range(struct gm_reading *reading, struct gm_span rest, struct gm_written_range *range)
+{
+    struct gm_span ends = {0, 0};
+    *range = (struct gm_written_range){.low = NAN, .high = NAN};
+    (void)(gm_span_take(reading->text, &rest, ";", &ends) &&
+           gm_span_take(reading->text, &rest, ";", &range->meaning) &&
+           gm_span_take(reading->text, &rest, ";", &range->unit));
+    const size_t dots = gm_span_until(reading->text, ends, "..");
+    if (ends.begin == ends.end) {
+        return true;
+    }
+    if (dots == ends.end) {
+        return gm_fail_first(&reading->fault, ends.begin, "a range was expected, low .. high");
+    }
+    const struct gm_span low = {ends.begin, dots}, high = {dots + 2, ends.end};
+    if (!gm_reading_number(reading, gm_span_trimmed(reading->text, low), &range->low) ||
+        !gm_reading_number(reading, gm_span_trimmed(reading->text, high), &range->high)) {
+        return false;
+    }
+    return range->low <= range->high ||
+           gm_fail_first(&reading->fault, ends.begin, "a range's lower end comes first, and %g is above %g",
+                         range->low, range->high);
+}

@@ -105,6 +105,13 @@ bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *val
 bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const char *what, long *low,
                        long *high);
 
+/* What may follow a value: low .. high; meaning; unit. NaN: no range is given. */
+struct gm_written_range {
+    double low, high;
+    struct gm_span meaning, unit; /* empty: none is given */
+};
+bool gm_reading_range(struct gm_reading *reading, struct gm_span rest, struct gm_written_range *range);
+
 /* NAME, NAME[low .. high], NAME[index] */
 struct gm_target {
     struct gm_span name, index; /* empty: there is none */

@@ -9,6 +9,7 @@ void gm_system_close(struct gm_user_system *system)
 {
     for (size_t i = 0; i < system->variable_count; i++) {
         free(system->variables[i].name);
+        free(system->variables[i].text);
         free(system->variables[i].meaning);
         free(system->variables[i].unit);
     }

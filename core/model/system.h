@@ -40,8 +40,9 @@ enum { GM_MOST_OF_MATRICES = 8 };
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* of a parameter; else NaN */
+    char *text;           /* of a parameter, as it is written; else NULL */
     double low, high;     /* its range; NaN: none is given */
-    char *meaning, *unit; /* "" */
+    char *meaning, *unit; /* "" or NULL: none is given */
     bool fixed;           /* it is in an index or a bound: another value is another graph */
     bool angle;           /* periodic */
     /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
@@ -74,16 +75,18 @@ struct gm_system_item {
     enum gm_system_word word;
     char *name; /* of let, invariant, casimir, symmetry, observe, graph, figure; the key of a stability; "" */
     char *words; /* of figure, work, stability: key=value by blanks; NULL */
-    char *text;  /* of a text, also behind require, level and figure; NULL */
+    char *text;  /* of a text, also behind require, level, figure, dt and until; NULL */
     struct gm_system_option *options;
     size_t option_count;
     size_t place; /* of the line's text */
     gm_node_id *nodes;
     size_t count;
-    double value;           /* of compile: of a parameter, and */
-    size_t variable;        /* its number */
-    bool periodic;          /* a section at equal times: nodes[0] is the period */
-    bool in_section;        /* a level */
+    double low, high; /* of dt and until, with their meaning as the text: the range; NaN: none is given */
+    double value;     /* of compile: of a parameter, and */
+    size_t variable;  /* its number */
+    bool periodic;    /* a section at equal times: nodes[0] is the period */
+    bool in_section;  /* a level */
+    bool alone;       /* a section that is the usual picture */
     enum gm_identity check; /* of invariants, Casimirs and symmetries */
 };
 /* nodes: of a section what becomes 0, the two that are shown, and what must be positive; of a symmetry the

@@ -21,6 +21,34 @@ const char *gm_kept_texts_add(struct gm_kept_texts *texts, char *text)
     return more[texts->count++] = text;
 }
 
+const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char *given)
+{
+    char text[64];
+    double number;
+    const bool same = given && gm_number_parse(given, &number) && number == value;
+    return gm_kept_texts_add(texts, strdup(same ? given : gm_number_format(value, text, sizeof text)));
+}
+
+static bool set_timing(struct gm_kept_texts *texts, const struct gm_user_system *system,
+                       enum gm_system_word word, double value, struct gm_parameter *row)
+{
+    const struct gm_system_item *item = gm_system_item_of(system, word, 0);
+    row->standard = gm_kept_number(texts, value, system->texts[word]);
+    if (item && !isnan(item->low)) {
+        row->lowest = item->low;
+        row->highest = item->high;
+    }
+    row->help = item && item->text[0] ? item->text : row->help;
+    return row->standard != NULL;
+}
+
+bool gm_written_timing(struct gm_kept_texts *texts, const struct gm_user_system *system, double dt,
+                       double until, struct gm_parameter *dt_row, struct gm_parameter *until_row)
+{
+    return set_timing(texts, system, GM_WORD_DT, dt, dt_row) &&
+           set_timing(texts, system, GM_WORD_UNTIL, until, until_row);
+}
+
 void gm_kept_texts_close(struct gm_kept_texts *texts)
 {
     for (size_t i = 0; i < texts->count; i++) {

@@ -19,6 +19,12 @@ void gm_kept_texts_close(struct gm_kept_texts *texts);
 /* The name with a checksum of the text, which tells two of one name apart; malloc'ed, NULL: no memory. */
 char *gm_written_mark(const char *name, const char *text);
 
+/* A number as it would be typed: the given text where that is this number, NULL: there is none. */
+const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char *given);
+/* The rows of dt and until with these defaults, and what a system's lines say of their ranges and meanings. */
+bool gm_written_timing(struct gm_kept_texts *texts, const struct gm_user_system *system, double dt,
+                       double until, struct gm_parameter *dt_row, struct gm_parameter *until_row);
+
 /* The next word of a list by blanks or commas, cut off where it is longer than the room for it, and the list goes on
    behind it; false at its end, or of NULL. */
 bool gm_listed_word(const char **list, char *word, size_t size);

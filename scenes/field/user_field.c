@@ -630,12 +630,6 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
 
 /* ---- the scene is made ---- */
 
-static const char *number_text(struct user_field *field, double value)
-{
-    char text[64];
-    return gm_kept_texts_add(&field->texts, strdup(gm_number_format(value, text, sizeof text)));
-}
-
 /* What a line of one number says with the file's own values; `usual` where there is none. */
 static double number_of(const struct user_field *field, const double *values, enum gm_system_word word,
                         double usual)
@@ -686,11 +680,13 @@ static bool make_rows(struct user_field *field, char *sentence)
     const char *space = system->texts[GM_WORD_SPACE];
     static const char *const shown[] = {"field", "energy-law", "momentum-law", NULL};
     struct gm_parameter common[COMMON_ROWS] = {
-        [DT] = GM_DT(number_text(field, dt), 1e-9, 1e6),
-        [UNTIL] = GM_UNTIL(number_text(field, until)),
-        [HALF_LENGTH] = GM_HALF_LENGTH(struct lane, half_length, number_text(field, half_length),
-                                       "the ring is −half_length ≤ x < half_length"),
-        [POINTS] = GM_POINTS(struct lane, points, number_text(field, points), least, "of the grid"),
+        [DT] = GM_DT("", 1e-9, 1e6),
+        [UNTIL] = GM_UNTIL(""),
+        [HALF_LENGTH] =
+            GM_HALF_LENGTH(struct lane, half_length, gm_kept_number(&field->texts, half_length, NULL),
+                           "the ring is −half_length ≤ x < half_length"),
+        [POINTS] =
+            GM_POINTS(struct lane, points, gm_kept_number(&field->texts, points, NULL), least, "of the grid"),
         [SHOW] = GM_LAW_ROW(struct lane, show, shown),
     };
     static const char *const boundaries[] = {"ring", "walls", NULL};
@@ -704,9 +700,9 @@ static bool make_rows(struct user_field *field, char *sentence)
             "derivatives: central differences of order 2, or of waves through the nodes");
     }
     if (field->moves) {
-        common[POINTS] =
-            (struct gm_parameter)GM_INTEGER_ROW(struct lane, points, "points", number_text(field, points), 1,
-                                                1e5, "nodes between the ends", .logarithmic = true);
+        common[POINTS] = (struct gm_parameter)GM_INTEGER_ROW(
+            struct lane, points, "points", gm_kept_number(&field->texts, points, NULL), 1, 1e5,
+            "nodes between the ends", .logarithmic = true);
         common[SHOW] = (struct gm_parameter)GM_CHOICE_ROW(
             struct lane, show, "show", "all", gm_mesh_views,
             "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
@@ -722,7 +718,7 @@ static bool make_rows(struct user_field *field, char *sentence)
             "tempered where the field is steeper than at the start");
     }
     memcpy(field->rows, common, field->values * sizeof *common);
-    bool good = true;
+    bool good = gm_written_timing(&field->texts, system, dt, until, &field->rows[DT], &field->rows[UNTIL]);
     for (size_t i = 0; i < parameters && good; i++) {
         const struct gm_system_variable *variable = &system->variables[system->parameters + i];
         const bool ranged = !isnan(variable->low);
@@ -738,7 +734,7 @@ static bool make_rows(struct user_field *field, char *sentence)
             .help = variable->meaning && variable->meaning[0] ? variable->meaning : "a parameter",
             .type = GM_REAL,
             .offset = offsetof(struct lane, values) + i * sizeof(double),
-            .standard = number_text(field, values[system->parameters + i]),
+            .standard = gm_kept_number(&field->texts, values[system->parameters + i], variable->text),
             .lowest = variable->fixed ? variable->value
                       : ranged        ? variable->low
                                       : -1e300,

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/linear/eigenvalues.h"
+#include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
@@ -31,14 +32,9 @@
 #include "scenes/ode/system/studies.h"
 #include "scenes/ode/system/texts.h"
 
-enum {
-    DT,
-    UNTIL,
-    MEMBERS,
-    SPREAD,
-    SHAPE,
-    SHOW, /* then the system's own: GM_SYSTEM_ROWS */
-};
+enum { DT, UNTIL };
+/* behind the system's own */
+enum { MEMBERS, SPREAD, SHAPE, SHOW, COMMON_ROWS };
 enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS = 1 << 14, REMEMBERED = 256 };
 
 /* Whether each row was given, bytes behind the values. */
@@ -438,28 +434,24 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-static const char *number_text(struct gm_system_scene *system_scene, double value)
-{
-    char text[64];
-    return gm_system_kept_text(system_scene, "%s", gm_number_format(value, text, sizeof text));
-}
-
 static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
     system_scene->row_count = GM_SYSTEM_ROWS + parameters + n;
     system_scene->first_start = GM_SYSTEM_ROWS + parameters;
-    system_scene->rows = calloc(system_scene->row_count + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->rows =
+        calloc(system_scene->row_count + COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->common = system_scene->rows ? system_scene->rows + system_scene->row_count : NULL;
     system_scene->variables = calloc(system_scene->row_count, sizeof *system_scene->variables);
     system_scene->initial =
         calloc(1, sizeof *system_scene->initial + (system_scene->row_count) * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
-    static const struct gm_parameter common[GM_SYSTEM_ROWS] = {
-        [DT] = GM_DT("", 1e-30, 1e30),
-        [UNTIL] = GM_UNTIL(""),
+    static const struct gm_parameter timing[GM_SYSTEM_ROWS] = {
+        [DT] = GM_DT("", 1e-30, 1e30), [UNTIL] = GM_UNTIL("")};
+    static const struct gm_parameter common[COMMON_ROWS] = {
         [MEMBERS] =
             GM_INTEGER_ROW(struct gm_system_lane, members, "members", "1", 1, 1e6,
                            "how many start: one, or a disc, a grid or a line of them", .logarithmic = true),
@@ -472,8 +464,9 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     if (good) {
-        memcpy(system_scene->rows, common, sizeof common);
-        memcpy(system_scene->rows + system_scene->row_count, camera, sizeof camera);
+        memcpy(system_scene->rows, timing, sizeof timing);
+        memcpy(system_scene->common, common, sizeof common);
+        memcpy(system_scene->common + COMMON_ROWS, camera, sizeof camera);
         system_scene->initial->owner = system_scene;
     }
     for (size_t row = GM_SYSTEM_ROWS; good && row < system_scene->row_count; row++) {
@@ -496,7 +489,7 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
                                     : "a parameter",
             .type = GM_REAL,
             .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = number_text(system_scene, value),
+            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
             .lowest = variable->fixed ? value
                       : ranged        ? variable->low
                                       : -reach,
@@ -515,8 +508,8 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
 {
     const struct gm_user_system *system = &system_scene->system;
-    gm_parameters_reset(system_scene->rows + GM_SYSTEM_ROWS,
-                        system_scene->row_count + GM_CAMERA_KEYS - GM_SYSTEM_ROWS, system_scene->initial);
+    gm_parameters_reset(system_scene->rows + GM_SYSTEM_ROWS, system_scene->row_count - GM_SYSTEM_ROWS,
+                        system_scene->initial);
     system_scene->initial->members = 1;
     system_scene->radian = radian_time(system_scene->initial);
     double *values = gm_system_start_values(system_scene->initial, NULL);
@@ -538,9 +531,8 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
-    system_scene->rows[DT].standard = number_text(system_scene, dt);
-    system_scene->rows[UNTIL].standard = number_text(system_scene, until);
-    return values && system_scene->rows[DT].standard && system_scene->rows[UNTIL].standard;
+    return values && gm_written_timing(&system_scene->texts, system, dt, until, &system_scene->rows[DT],
+                                       &system_scene->rows[UNTIL]);
 }
 
 /* The ways to look at the state, and those at what the scheme does to the energy. */
@@ -554,7 +546,10 @@ static bool make_shows(struct gm_system_scene *system_scene)
         shows++;
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
-    system_scene->rows[SHOW].choices = system_scene->shows;
+    system_scene->common[SHOW].choices = system_scene->shows;
+    if (system_scene->has_section && gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
+        system_scene->common[SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+    }
     return true;
 }
 
@@ -656,11 +651,11 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
         .initial = system_scene->initial,
         .words = words,
-        .source = typed ? NULL : system->source,
-        .text = system->source,
-        .mark = gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)),
+        .source = typed || !words ? NULL : system->source,
+        .text = words ? system->source : NULL,
+        .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
         .parameters = system_scene->rows,
-        .parameter_count = system_scene->row_count,
+        .parameter_count = system_scene->row_count + COMMON_ROWS,
         .idle = idle,
         .settle = settle,
         .setup = setup,
@@ -674,10 +669,10 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
     if (members &&
-        gm_parameter_set(&system_scene->rows[MEMBERS], system_scene->initial, members) != GM_PARSED) {
+        gm_parameter_set(&system_scene->common[MEMBERS], system_scene->initial, members) != GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
-    system_scene->rows[MEMBERS].standard = members ? members : "1";
+    system_scene->common[MEMBERS].standard = members ? members : "1";
     if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
         (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
         !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||
@@ -719,7 +714,12 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
         return NULL;
     }
     system_scene->system = *system;
-    if (!make(system_scene, name, words, typed, sentence)) {
+    const unsigned long refusals = gm_memory_refusals();
+    bool good = make(system_scene, name, words, typed, sentence);
+    if (gm_memory_refusals() != refusals) { /* a default would be another number */
+        good = gm_refuse(sentence, "not enough memory");
+    }
+    if (!good) {
         gm_system_scene_close(&system_scene->scene);
         return NULL;
     }

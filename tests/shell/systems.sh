@@ -249,7 +249,7 @@ refused 3 'it is a pipe' list pipe.system # which nobody waits for
 refused 1 'no parameter "M"' list toda M=3
 refused 1 'takes parameters with numbers' list toda N
 refused 1 'outside of its range' list toda N=2
-refused 1 'of a system' list kepler --latex
+refused 1 'of a system' list disc --latex
 refused 1 'names of scenes' list nothing
 
 # every one of them runs, is drawn, and is made again without its file

@@ -41,7 +41,7 @@ static void observables_say_what_they_are(void **unused)
         for (size_t i = 0; i < scene->observable_count; i++) {
             const struct gm_observable *observable = &scene->observables[i];
             assert_true(observable->error == (observable->symbol != NULL));
-            assert_true((observable->scale != NULL) == (observable->scale_text != NULL));
+            assert_true((observable->scale || observable->least > 0) == (observable->scale_text != NULL));
             assert_true(observable->error || (!observable->scale && !observable->kept));
         }
     }

@@ -114,7 +114,7 @@ static const char *typeset_name(struct gm_picture *picture, const char *name)
 
 /* ---- the range that is shown ---- */
 
-static const struct gm_seen nothing = {{1, 1, 1}, {0, 0, 0}, 0};
+static const struct gm_seen nothing = {{1, 1, 1}, {0, 0, 0}, 0, false};
 
 static void hold(struct gm_seen *seen, const double *points, size_t count, size_t dimensions)
 {
@@ -186,28 +186,33 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
 
+/* A lane that needs more room than so many times that of the smallest range of its system has left: its panel follows
+   it on a scale of its own, and the others are seen without it. */
+static const double farthest = 2;
+
+static void find_left(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
+{
+    for (size_t i = 0; i < count; i++) {
+        double least = extent(&ranges[i]);
+        for (size_t k = 0; k < count; k++) {
+            const bool seen = ranges[k].high[0] >= ranges[k].low[0];
+            least = seen && is_same(lanes[k], lanes[i]) ? fmin(least, extent(&ranges[k])) : least;
+        }
+        ranges[i].left = extent(&ranges[i]) > fmax(farthest * least, 1e-9);
+    }
+}
+
 /* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
-   but who runs away makes the others at most half as large. */
+   of a lane that has left what it shows itself. */
 static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
                                  const struct gm_seen *ranges)
 {
-    struct gm_seen all = nothing, least = nothing;
-    size_t held = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (is_same(lanes[i], lanes[like])) {
-            const bool better =
-                ranges[i].high[0] >= ranges[i].low[0] && (held == 0 || extent(&ranges[i]) < extent(&least));
+    struct gm_seen all = ranges[like];
+    for (size_t i = 0; i < count && !all.left; i++) {
+        if (!ranges[i].left && is_same(lanes[i], lanes[like])) {
             hold_range(&all, &ranges[i]);
-            least = better ? ranges[i] : least;
-            held++;
         }
     }
-    const double scratch = fmax(0.5 * extent(&least), 1e-9);
-    for (size_t k = 0; k < 3 && held > 1; k++) {
-        all.low[k] = fmax(all.low[k], least.low[k] - scratch);
-        all.high[k] = fmin(all.high[k], least.high[k] + scratch);
-    }
-    all.far = held > 1 ? fmin(all.far, least.far + scratch) : all.far;
     return all;
 }
 
@@ -220,16 +225,24 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
 {
     struct gm_seen *seen = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
+    find_left(lanes, count, ranges);
     for (size_t i = 0; i < count; i++) {
         seen[i] = range_like(lanes, count, i, ranges);
-        hold_range(&all, &seen[i]);
-        least = fmin(least, extent(&seen[i]));
-        most = fmax(most, extent(&seen[i]));
+        if (!seen[i].left) {
+            hold_range(&all, &seen[i]);
+            least = fmin(least, extent(&seen[i]));
+            most = fmax(most, extent(&seen[i]));
+        }
     }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = most > largest_ratio * least ? nothing : all;
+        bool left = true; /* all of the panel */
         for (size_t k = 0; k < count; k++) {
-            if (lanes[k]->shown.panel == lanes[i]->shown.panel) {
+            left = left && (seen[k].left || lanes[k]->shown.panel != lanes[i]->shown.panel);
+        }
+        ranges[i] = left || most > largest_ratio * least ? nothing : all;
+        ranges[i].left = left;
+        for (size_t k = 0; k < count; k++) {
+            if (lanes[k]->shown.panel == lanes[i]->shown.panel && seen[k].left == left) {
                 hold_range(&ranges[i], &seen[k]);
             }
         }
@@ -443,6 +456,38 @@ static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const 
     panel->equal = is_equal(sight, panel);
 }
 
+static bool has_one_scheme(const struct gm_lane *const *lanes, size_t count)
+{
+    for (size_t i = 1; i < count; i++) {
+        if (lanes[i]->scheme != lanes[0]->scheme) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The panel where the walk is; one of all lanes has the name of their scheme. */
+static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *note)
+{
+    struct gm_panel *panel = gm_walk_panel(picture, walk, note);
+    const bool all = walk->count > 1 && gm_panel_count(walk->lanes, walk->count) == 1;
+    panel->title = all && has_one_scheme(walk->lanes, walk->count) ? walk->lane->scheme->title
+                                                                   : typeset_name(picture, panel->title);
+    return panel;
+}
+
+/* What the first graph shows, as it is now, where that graph shows the greatest of every stretch of time. */
+static const char *value_now(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    const struct gm_system_item *item = gm_system_item_of(&own_of(lane)->owner->system, GM_WORD_GRAPH, 0);
+    if (!item || !gm_system_option(item, GM_OPTION_HIGHEST)) {
+        return "";
+    }
+    const size_t series = (size_t)gm_scene_observable(lane->scene, item->name);
+    return gm_picture_text(picture, "%s now %s", gm_scene_observable_at(lane->scene, series)->title,
+                           gm_power_text(picture, gm_lane_observe(lane, series)));
+}
+
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_sight *sight = gm_system_sight(lanes[0]->parameters);
@@ -464,8 +509,8 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             for (size_t i = 0; i < count; i++) {
                 range = lanes[i] == walk.lane ? ranges[i] : range;
             }
-            panel = gm_walk_panel(picture, &walk, "");
-            panel->title = typeset_name(picture, panel->title);
+            panel = add_panel(picture, &walk,
+                              range.left ? "on a scale of its own" : value_now(picture, walk.lane));
             if (sight->dimensions == 3) {
                 const char *names[3];
                 for (size_t k = 0; k < 3; k++) {
@@ -496,9 +541,12 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
     const struct gm_sight *sight = &own_of(lanes[0])->owner->section;
     struct gm_seen range = nothing;
     for (size_t i = 0; i < count; i++) {
+        gm_system_hold_levels(lanes[i], sight, &range);
+    }
+    const bool bounded = range.low[0] <= range.high[0]; /* what is beyond the level has left */
+    for (size_t i = 0; i < count && !bounded; i++) {
         const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
         hold(&range, crossings->values, crossings->count, 2);
-        gm_system_hold_levels(lanes[i], sight, &range);
     }
     for (size_t k = 0; k < 2; k++) {
         const bool empty = range.low[k] > range.high[k];
@@ -544,8 +592,7 @@ static void draw_sections(struct gm_picture *picture, const struct gm_lane *cons
     struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
-            panel = gm_walk_panel(picture, &walk, "");
-            panel->title = typeset_name(picture, panel->title);
+            panel = add_panel(picture, &walk, "");
             set_section(picture, panel, lanes, count);
             gm_system_draw_levels(picture, panel, walk.lane, &own_of(walk.lane)->owner->section);
         }
@@ -644,10 +691,7 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
 {
     const struct gm_system_lane *lane = own_of(lanes[0]);
     const struct gm_system_scene *system_scene = lane->owner;
-    bool one_scheme = true;
-    for (size_t i = 1; i < count; i++) {
-        one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
-    }
+    const bool one_scheme = has_one_scheme(lanes, count);
     const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
     const char *name = gm_system_title(&system_scene->system) ? system_scene->scene.title
                                                               : typeset(picture, system_scene->scene.title);

@@ -21,7 +21,10 @@ struct gm_sight {
     long components[2];    /* an axis is this component of the state; -1: it is none */
 };
 
-enum { GM_SYSTEM_ROWS = 6 /* dt, until, members, spread, shape, show: the others are the system's own */ };
+enum {
+    GM_SYSTEM_ROWS =
+        2 /* dt and until, then the system's own; members, spread, shape and show are behind those */
+};
 enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
 enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and last the modified energy, where there is one */ };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
@@ -32,9 +35,9 @@ struct gm_system_scene {
     struct gm_scene scene;
     struct gm_user_system system;
     struct gm_user_model model;
-    struct gm_parameter *rows;
-    size_t *variables; /* of each row: its number among the system's */
-    size_t row_count, first_start;
+    struct gm_parameter *rows, *common; /* all of them, and those behind the system's own */
+    size_t *variables;                  /* of each row: its number among the system's */
+    size_t row_count, first_start;      /* where the system's own end, and where values of the start begin */
     struct gm_observable *observables;
     struct gm_tape *formulas; /* of each observable */
     struct gm_tape *terms;    /* of each error: the sum of the magnitudes of its terms */

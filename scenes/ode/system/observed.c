@@ -297,6 +297,11 @@ static bool add_energy(struct gm_system_scene *system_scene, const struct gm_pro
     struct gm_observable energy =
         kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
              : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
+    const struct gm_system_item *line = gm_system_item_of(system, GM_WORD_HAMILTONIAN, 0);
+    if (kept && line) {
+        energy.least = gm_system_option_number(line, GM_OPTION_SCALE, 0);
+        energy.scale_text = gm_system_kept_text(system_scene, "%.3g", energy.least);
+    }
     if (lagrangian) {
         energy.evaluate = legendre_energy;
         energy.terms = kept ? legendre_terms : NULL;

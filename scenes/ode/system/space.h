@@ -11,6 +11,7 @@
 struct gm_seen {
     double low[3], high[3]; /* of each coordinate; low > high: nothing */
     double far;             /* the largest distance from the origin */
+    bool left;              /* it has a scale of its own */
 };
 
 /* Sets the panel's axes and draws what stands still: surfaces with the axes through them, or else the box of what

@@ -46,11 +46,23 @@ static bool put_fraction(FILE *text, double value, double unit, const char *call
 
 static void put_number(FILE *text, double value, const char *format, const char *minus)
 {
-    const bool in_pi = strcmp(format, "pi}") == 0, fraction = strcmp(format, "/}") == 0;
+    static const struct {
+        const char *format;
+        double unit;
+        const char *called, *otherwise; /* of a fraction, and behind a number that is none */
+    } units[] = {{"pi}", M_PI, "π", NULL}, {"T}", 2 * M_PI, "T", " T"}, {"/}", 1, "", NULL}};
     fputs(value < 0 ? minus : "", text);
-    if ((in_pi || fraction) && isfinite(value) && value != 0 &&
-        put_fraction(text, value, in_pi ? M_PI : 1, in_pi ? "π" : "")) {
-        return;
+    for (size_t i = 0; i < GM_COUNT(units) && isfinite(value) && value != 0; i++) {
+        if (strcmp(format, units[i].format) != 0) {
+            continue;
+        }
+        if (put_fraction(text, value, units[i].unit, units[i].called)) {
+            return;
+        }
+        if (units[i].otherwise) {
+            fprintf(text, "%.4g%s", fabs(value / units[i].unit), units[i].otherwise);
+            return;
+        }
     }
     fprintf(text, "%.4g", fabs(value));
 }
