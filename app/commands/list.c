@@ -324,11 +324,12 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
         printf("%s\"%s\"", i ? "," : "", entry->schemes[i]->name);
     }
     printf("]");
-    gm_list_file_json(file, entry->scene->room);
+    const char *source = file && file->built_in ? file->built_in->text : entry->scene->room;
+    gm_list_file_json(file, source);
     printf("}\n");
 }
 
-/* `file`: of a room; NULL: it is a scene of the program. */
+/* `file`: that of the scene; NULL: it has none. */
 static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
                        const struct gm_options *options)
 {
@@ -387,6 +388,12 @@ static int refuse_name(const char *word)
     return GM_EXIT_USAGE;
 }
 
+/* Whether a word means a file: a scene of the program hides a file of its name, unless it is made of it. */
+static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *file)
+{
+    return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));
+}
+
 /* The text of the file that a word means. */
 static int list_source(const char *word)
 {
@@ -394,7 +401,7 @@ static int list_source(const char *word)
     char reason[GM_REGULAR_REASON];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
-    while (kind < GM_FILE_MESH && (gm_scene_find(word) || !gm_file_find(kind, word, &file))) {
+    while (kind < GM_FILE_MESH && !find_file(kind, word, &file)) {
         kind++;
     }
     bool known = gm_scene_find(word) || gm_scheme_find(word);
@@ -423,7 +430,8 @@ static int command_list(const struct gm_options *options)
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool is_system = *first && !gm_scene_find(first) && gm_file_find(GM_FILE_SYSTEM, first, &file);
+    const bool is_system =
+        *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
         const enum gm_telling telling = options->json     ? GM_TELL_JSON
                                         : options->latex  ? GM_TELL_LATEX
@@ -448,7 +456,9 @@ static int command_list(const struct gm_options *options)
         return list_markdown(what);
     }
     const struct gm_scene *scene = gm_scene_find(what);
-    const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file);
+    const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file),
+               from_file = room || (scene && (find_file(GM_FILE_SYSTEM, what, &file) ||
+                                              find_file(GM_FILE_ROOM, what, &file)));
     if (room) {
         int status;
         char message[GM_MESSAGE];
@@ -472,7 +482,7 @@ static int command_list(const struct gm_options *options)
         return gm_list_tours(options->json);
     } else if (!scene) {
         return refuse_name(what);
-    } else if (!list_scene(scene, what, room ? &file : NULL, options)) {
+    } else if (!list_scene(scene, what, from_file ? &file : NULL, options)) {
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);

@@ -491,6 +491,11 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
 {
     const struct gm_scene *scene = gm_scene_find(words[0]);
     *status = GM_EXIT_USAGE;
+    if (scene && scene->parameter_count == 0) { /* there was no memory to open its file */
+        *status = GM_EXIT_MEMORY;
+        gm_refuse(message, "not enough memory");
+        return NULL;
+    }
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }

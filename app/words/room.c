@@ -19,7 +19,7 @@
 /* The scenes that were made. */
 struct made {
     struct made *next;
-    char *word, *text, *name;
+    char *word, *text;
     const struct gm_scene *scene;
 };
 static struct made *all;
@@ -30,7 +30,6 @@ static void free_made(struct made *made)
     if (made) {
         free(made->word);
         free(made->text);
-        free(made->name);
         free(made);
     }
 }
@@ -38,35 +37,27 @@ static void free_made(struct made *made)
 static const struct gm_scene *make(struct made *made, const char *word, const struct gm_file *file,
                                    size_t length, int *status, char *message)
 {
-    struct gm_room room;
-    struct gm_fault fault;
+    struct gm_fault fault = {0};
     const unsigned long refusals = gm_memory_refusals();
-    if (!gm_room_read(&room, made->text, length, &fault)) {
+    const char *slash = strrchr(file->path, '/');
+    char *name = strdup(slash ? slash + 1 : file->path);
+    made->word = strdup(word);
+    if (name && made->word) {
+        name[strlen(name) - strlen(gm_file_endings[GM_FILE_ROOM])] = '\0';
+        const struct gm_room_file room = {made->text, length, name, word, file->path, file->built_in};
+        made->scene = gm_user_room_open(&room, &fault, message);
+    }
+    free(name);
+    *status = made->scene || fault.sentence[0] ? GM_EXIT_USAGE : GM_EXIT_FILE;
+    if (!made->scene && gm_memory_refusals() != refusals) {
+        *status = GM_EXIT_MEMORY;
+        gm_refuse(message, "%.300s: not enough memory", file->path);
+    } else if (fault.sentence[0]) {
         size_t line, column;
         gm_text_place(made->text, fault.offset, &line, &column);
-        if (fault.sentence[0] && gm_memory_refusals() == refusals) {
-            gm_refuse(message, "%.150s:%zu:%zu: %.300s", file->path, line, column, fault.sentence);
-            gm_place_show(made->text, length, fault.offset, message);
-        } else {
-            *status = GM_EXIT_MEMORY;
-            gm_refuse(message, "%.300s: not enough memory", file->path);
-        }
-        gm_room_close(&room);
-        return NULL;
+        gm_refuse(message, "%.150s:%zu:%zu: %.300s", file->path, line, column, fault.sentence);
+        gm_place_show(made->text, length, fault.offset, message);
     }
-    const char *slash = strrchr(file->path, '/');
-    made->word = strdup(word);
-    made->name = strdup(slash ? slash + 1 : file->path);
-    if (!made->word || !made->name) {
-        *status = GM_EXIT_MEMORY;
-        gm_refuse(message, "not enough memory");
-        gm_room_close(&room);
-        return NULL;
-    }
-    made->name[strlen(made->name) - strlen(gm_file_endings[GM_FILE_ROOM])] = '\0';
-    *status = GM_EXIT_FILE;
-    made->scene = gm_user_room_open(&room, made->name, word, file->path, file->built_in, message);
-    *status = made->scene ? GM_EXIT_USAGE : *status;
     return made->scene;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
+/* What is looked up in a scene by its key. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,36 +7,6 @@
 
 #include "core/memory.h"
 #include "scenes/common/scene.h"
-
-#define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
-#include "scenes/scenes.def"
-#undef GM_SCENE
-
-static const struct gm_scene *const scenes[] = {
-#define GM_SCENE(name) &gm_scene_##name,
-#include "scenes/scenes.def"
-#undef GM_SCENE
-};
-
-size_t gm_scene_count(void)
-{
-    return GM_COUNT(scenes);
-}
-
-const struct gm_scene *gm_scene_at(size_t index)
-{
-    return scenes[index];
-}
-
-const struct gm_scene *gm_scene_find(const char *name)
-{
-    for (size_t i = 0; i < gm_scene_count(); i++) {
-        if (strcmp(scenes[i]->name, name) == 0) {
-            return scenes[i];
-        }
-    }
-    return NULL;
-}
 
 const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size)
 {

@@ -6,8 +6,8 @@ set -u
 share=$2
 . "$(dirname "$0")/answers.sh"
 
-# numbers FILE: what a run printed, but for the engine, the time, and the names of scene and scheme
-numbers() { sed -E 's/"(engine|scene|scheme)":"[^"]*",//g; s/"seconds":[^,]*,//' "$1"; }
+# numbers FILE: what a run printed, but for the engine, the time, the names of scene and scheme, and the text of a room
+numbers() { sed -E 's/"(engine|scene|scheme)":"[^"]*",//g; s/"seconds":[^,]*,//; s/"room":"([^"\\]|\\.)*",//' "$1"; }
 
 # same NAME COPY WORDS...: both words lead to the same line
 same() {

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All scenes there are, from the list scenes.def. A scene that is a built-in file is opened when it is first asked for,
+   and lives as long as the program. */
+#include <pthread.h>
+#include <string.h>
+
+#include "core/files/files.h"
+#include "scenes/common/scene.h"
+#include "scenes/flow/user_room.h"
+
+#define GM_ROOM_SCENE(name)
+#define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
+#include "scenes/scenes.def"
+#undef GM_SCENE
+#undef GM_ROOM_SCENE
+
+static struct {
+    const struct gm_scene *scene; /* NULL: the file was not opened yet */
+    const char *file;
+} rows[] = {
+#define GM_ROOM_SCENE(name) {NULL, name},
+#define GM_SCENE(name) {&gm_scene_##name, NULL},
+#include "scenes/scenes.def"
+#undef GM_SCENE
+#undef GM_ROOM_SCENE
+};
+static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
+
+/* What stands for a scene that there was no memory for: it opens no lane. */
+static bool refuse(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    (void)parameters;
+    (void)problem;
+    return gm_refuse(sentence, "not enough memory");
+}
+
+static const char *const no_schemes[] = {NULL};
+static const struct gm_scene unavailable = {.name = "",
+                                            .title = "",
+                                            .blurb = "",
+                                            .watch = "",
+                                            .time = "",
+                                            .size = sizeof(struct gm_timing),
+                                            .schemes = no_schemes,
+                                            .setup = refuse};
+
+static const struct gm_scene *open_file(const char *name)
+{
+    const struct gm_built_in *built_in = gm_built_in_find(GM_FILE_ROOM, name);
+    const struct gm_room_file file = {built_in->text, built_in->length, name, NULL, built_in->path, true};
+    struct gm_fault fault;
+    char sentence[GM_MESSAGE];
+    return gm_user_room_open(&file, &fault, sentence);
+}
+
+size_t gm_scene_count(void)
+{
+    return GM_COUNT(rows);
+}
+
+const struct gm_scene *gm_scene_at(size_t index)
+{
+    pthread_mutex_lock(&opening);
+    if (!rows[index].scene) {
+        rows[index].scene = open_file(rows[index].file);
+    }
+    const struct gm_scene *scene = rows[index].scene;
+    pthread_mutex_unlock(&opening);
+    return scene ? scene : &unavailable;
+}
+
+const struct gm_scene *gm_scene_find(const char *name)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        if (strcmp(rows[i].file ? rows[i].file : gm_scene_at(i)->name, name) == 0) {
+            return gm_scene_at(i);
+        }
+    }
+    return NULL;
+}
