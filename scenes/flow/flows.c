@@ -249,34 +249,21 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, c
 
 bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
 {
-    switch (fault) {
-    case GM_BOUNDARY_OK:
-        return true;
-    case GM_BOUNDARY_MEMORY:
-        return gm_refuse(sentence, "not enough memory");
-    case GM_BOUNDARY_NO_INLET:
-        return gm_refuse(sentence, "the mesh has an outlet but no inlet");
-    case GM_BOUNDARY_NO_OUTLET:
-        return gm_refuse(sentence, "the mesh has an inlet but no outlet");
-    case GM_BOUNDARY_SHORT:
-        return gm_refuse(
-            sentence,
-            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)");
-    case GM_BOUNDARY_WHOLE:
-        return gm_refuse(sentence, "the whole boundary is inlet or outlet");
-    case GM_BOUNDARY_IN_HOLE:
-        return gm_refuse(sentence,
-                         "an inlet or an outlet is on the wall of a hole; they must be in the outer wall");
-    case GM_BOUNDARY_UNBALANCED:
-        return gm_refuse(sentence, "all flows are given, and what enters does not leave");
-    case GM_BOUNDARY_PROFILE:
-        return gm_refuse(sentence, "no more enters by the profile of an inlet than leaves by it");
-    case GM_BOUNDARY_BACKWARDS:
-        return gm_refuse(sentence, "the outlets with a given flow take more than enters");
-    case GM_BOUNDARY_OVERFLOW:
-        return gm_refuse(sentence, "what enters or leaves is too much for a number");
-    }
-    return false;
+    static const char *const sentences[] = {
+        [GM_BOUNDARY_MEMORY] = "not enough memory",
+        [GM_BOUNDARY_NO_INLET] = "the mesh has an outlet but no inlet",
+        [GM_BOUNDARY_NO_OUTLET] = "the mesh has an inlet but no outlet",
+        [GM_BOUNDARY_SHORT] =
+            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)",
+        [GM_BOUNDARY_WHOLE] = "the whole boundary is inlet or outlet",
+        [GM_BOUNDARY_IN_HOLE] =
+            "an inlet or an outlet is on the wall of a hole; they must be in the outer wall",
+        [GM_BOUNDARY_UNBALANCED] = "all flows are given, and what enters does not leave",
+        [GM_BOUNDARY_PROFILE] = "no more enters by the profile of an inlet than leaves by it",
+        [GM_BOUNDARY_BACKWARDS] = "the outlets with a given flow take more than enters",
+        [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
+    };
+    return fault == GM_BOUNDARY_OK || gm_refuse(sentence, "%s", sentences[fault]);
 }
 
 const char *gm_flows_idle(const void *parameters, const char *key)
