@@ -53,7 +53,9 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 {
     char title[128];
     snprintf(title, sizeof title, "%s", listed->title);
-    offer(stem, listed->name, gm_text_tame(title));
+    if (!gm_scene_find(listed->name)) { /* those are offered as scenes */
+        offer(stem, listed->name, gm_text_tame(title));
+    }
 }
 
 /* A folder that cannot be opened is for `geomint list` to tell. */

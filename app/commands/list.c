@@ -477,7 +477,8 @@ int gm_command_list(const struct gm_options *options)
     }
     const struct gm_scene *scene = gm_scene_find(what);
     const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file),
-               from_file = room || (scene && find_file(GM_FILE_SYSTEM, what, &file));
+               from_file = room || (scene && (find_file(GM_FILE_SYSTEM, what, &file) ||
+                                              find_file(GM_FILE_ROOM, what, &file)));
     if (room) {
         int status;
         char message[GM_MESSAGE];

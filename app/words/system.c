@@ -268,15 +268,15 @@ static bool open_system(struct making *making)
 static bool open_room(struct making *making)
 {
     struct gm_made_system *made = making->trial->made;
-    struct gm_room room;
+    const struct gm_room_file file = {making->written.text, making->written.length,
+                                      made->name,           making->written.words[0],
+                                      making->file.path,    making->file.built_in};
     struct gm_fault fault;
-    if (!gm_room_read(&room, making->written.text, making->written.length, &fault)) {
-        gm_room_close(&room);
+    made->close = gm_user_room_close;
+    made->scene = gm_user_room_open(&file, &fault, making->message);
+    if (fault.sentence[0]) {
         return refuse_text(making, &fault);
     }
-    made->close = gm_user_room_close;
-    made->scene = gm_user_room_open(&room, made->name, making->written.words[0], making->file.path,
-                                    making->file.built_in, making->message);
     making->trial->status = made->scene ? GM_EXIT_USAGE : GM_EXIT_FILE;
     return made->scene != NULL;
 }
