@@ -96,15 +96,18 @@ static const struct gm_splitting_row blanes_moan_nystrom6 = {
                        KICK(B5), DRIFT(A5), KICK(B6), DRIFT(A6), KICK(B6), DRIFT(A5), KICK(B5), DRIFT(A4),
                        KICK(B4), DRIFT(A3), KICK(B3), DRIFT(A2), KICK(B2), DRIFT(A1), KICK(B1)}}};
 
-#define VERLETS(name)                                                                                        \
-    &(const struct gm_splitting_row)                                                                         \
-    {                                                                                                        \
-        .of_verlet = &gm_composition_##name                                                                  \
-    }
 #define SPLITTING .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT
 #define NYSTROM .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM
 #define SYMPLECTIC (GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR)
 #define SYMMETRIC (SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE)
+
+#define LENGTHS "of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ"
+#define VERLETS(composition, key, words, degree, lengths, source)                                            \
+    {                                                                                                        \
+        .name = key, .title = words, .formula = lengths, .reference = source, SPLITTING,                     \
+        .coefficients = &(const struct gm_splitting_row){.of_verlet = &gm_composition_##composition},        \
+        .order = degree, .claims = SYMMETRIC                                                                 \
+    }
 
 static const struct gm_scheme schemes[] = {
     {
@@ -168,37 +171,15 @@ static const struct gm_scheme schemes[] = {
         .claims = SYMPLECTIC,
         SPLITTING,
     },
-    {
-        .name = "yoshida4",
-        .title = "Yoshida 4",
-        .formula = "three Verlet steps of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
-        .reference =
-            "E. Forest & R.D. Ruth, Physica D 43 (1990) 105; H. Yoshida, Phys. Lett. A 150 (1990) 262",
-        .coefficients = VERLETS(yoshida4),
-        .order = 4,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
-    {
-        .name = "suzuki4",
-        .title = "Suzuki 4",
-        .formula = "five Verlet steps of lengths bh, bh, (1 − 4b)h, bh, bh,  b = 1/(4 − ∛4)",
-        .reference = "M. Suzuki, Phys. Lett. A 146 (1990) 319",
-        .coefficients = VERLETS(suzuki4),
-        .order = 4,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
-    {
-        .name = "mclachlan4",
-        .title = "McLachlan 4",
-        .formula = "five Verlet steps of lengths γ₁h, γ₂h, γ₃h, γ₂h, γ₁h,  γ₁ = 0.28",
-        .reference = "R.I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151",
-        .coefficients = VERLETS(mclachlan4),
-        .order = 4,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
+    VERLETS(yoshida4, "yoshida4", "Yoshida 4", 4,
+            "three Verlet steps of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
+            "E. Forest & R.D. Ruth, Physica D 43 (1990) 105; H. Yoshida, Phys. Lett. A 150 (1990) 262"),
+    VERLETS(suzuki4, "suzuki4", "Suzuki 4", 4,
+            "five Verlet steps of lengths bh, bh, (1 − 4b)h, bh, bh,  b = 1/(4 − ∛4)",
+            "M. Suzuki, Phys. Lett. A 146 (1990) 319"),
+    VERLETS(mclachlan4, "mclachlan4", "McLachlan 4", 4,
+            "five Verlet steps of lengths γ₁h, γ₂h, γ₃h, γ₂h, γ₁h,  γ₁ = 0.28",
+            "R.I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151"),
     {
         .name = "pefrl4",
         .title = "PEFRL 4",
@@ -230,26 +211,10 @@ static const struct gm_scheme schemes[] = {
         .claims = SYMMETRIC,
         NYSTROM,
     },
-    {
-        .name = "yoshida6",
-        .title = "Yoshida 6",
-        .formula = "seven Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
-        .reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262, solution A",
-        .coefficients = VERLETS(yoshida6),
-        .order = 6,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
-    {
-        .name = "kahan-li6",
-        .title = "Kahan-Li 6",
-        .formula = "nine Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
-        .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = VERLETS(kahan_li6),
-        .order = 6,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
+    VERLETS(yoshida6, "yoshida6", "Yoshida 6", 6, "seven Verlet steps " LENGTHS,
+            "H. Yoshida, Phys. Lett. A 150 (1990) 262, solution A"),
+    VERLETS(kahan_li6, "kahan-li6", "Kahan-Li 6", 6, "nine Verlet steps " LENGTHS,
+            "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089"),
     {
         .name = "blanes-moan-nystrom6",
         .title = "Blanes-Moan Nyström 6",
@@ -261,28 +226,11 @@ static const struct gm_scheme schemes[] = {
         .claims = SYMMETRIC,
         NYSTROM,
     },
-    {
-        .name = "suzuki-umeno8",
-        .title = "Suzuki-Umeno 8",
-        .formula = "fifteen Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
-        .reference =
+    VERLETS(suzuki_umeno8, "suzuki-umeno8", "Suzuki-Umeno 8", 8, "fifteen Verlet steps " LENGTHS,
             "M. Suzuki & K. Umeno, in: Computer Simulation Studies in Condensed-Matter Physics VI (1993) 74; "
-            "Hairer, Lubich & Wanner (2006), section V.3.2",
-        .coefficients = VERLETS(suzuki_umeno8),
-        .order = 8,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
-    {
-        .name = "kahan-li8",
-        .title = "Kahan-Li 8",
-        .formula = "seventeen Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
-        .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = VERLETS(kahan_li8),
-        .order = 8,
-        .claims = SYMMETRIC,
-        SPLITTING,
-    },
+            "Hairer, Lubich & Wanner (2006), section V.3.2"),
+    VERLETS(kahan_li8, "kahan-li8", "Kahan-Li 8", 8, "seventeen Verlet steps " LENGTHS,
+            "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089"),
 };
 
 /* Each piece is a stage, which knows those before it. A first force is the last one of the step before. */
