@@ -56,8 +56,9 @@ extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* ta
 extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
 extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
-struct gm_coefficients; /* core/theory/coefficients.h */
-struct gm_law;          /* core/field/multisymplectic.h */
+struct gm_coefficients;  /* core/theory/coefficients.h */
+struct gm_law;           /* core/field/multisymplectic.h */
+struct gm_member_family; /* core/ode/kernel/members.h */
 
 /* Where linear theory bounds the steps of a scheme. */
 struct gm_step_limit {
@@ -109,7 +110,8 @@ struct gm_family {
     /* All that follows is for families that are not loops over a problem's kernels. */
     /* Advances any problem that has the facets, where its kind has no other loop; NULL: none. */
     gm_loop *loop;
-    bool carries_passive; /* loop knows what to do with a passive block */
+    bool carries_passive;                   /* loop knows what to do with a passive block */
+    const struct gm_member_family *members; /* NULL: loop is not that of core/ode/kernel/members.h */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.

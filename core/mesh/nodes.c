@@ -39,13 +39,15 @@ void gm_nodes_add(const struct gm_assembly *assembly, struct gm_places row, stru
 void gm_nodes_add_column(const struct gm_assembly *assembly, struct gm_places row, size_t column,
                          double factor, const double values[4])
 {
-    size_t a[4], i[4], b[4], j[4];
-    const size_t rows = locate(assembly, row, a, i),
-                 columns = locate(assembly, (struct gm_places){column, GM_NOWHERE}, b, j);
-    for (size_t c = 0; c < columns; c++) {
-        const double share = b[c] == 0 ? factor : -factor;
-        for (size_t r = 0; r < rows; r++) {
-            gm_banded_add(assembly->matrix, i[r], j[c], share * values[a[r]]);
+    const size_t e = assembly->element, after = e * assembly->per_node + column;
+    size_t a[4], i[4];
+    const size_t rows = locate(assembly, row, a, i);
+    for (size_t r = 0; r < rows; r++) {
+        if (e > 0) {
+            gm_banded_add(assembly->matrix, i[r], after - assembly->per_node, factor * values[a[r]]);
+        }
+        if (e < assembly->points) {
+            gm_banded_add(assembly->matrix, i[r], after, -factor * values[a[r]]);
         }
     }
 }
@@ -53,12 +55,15 @@ void gm_nodes_add_column(const struct gm_assembly *assembly, struct gm_places ro
 void gm_nodes_add_row(const struct gm_assembly *assembly, size_t row, struct gm_places column,
                       const double values[4])
 {
-    size_t a[4], i[4], b[4], j[4];
-    const size_t rows = locate(assembly, (struct gm_places){row, GM_NOWHERE}, a, i),
-                 columns = locate(assembly, column, b, j);
+    const size_t e = assembly->element, after = e * assembly->per_node + row;
+    size_t b[4], j[4];
+    const size_t columns = locate(assembly, column, b, j);
     for (size_t c = 0; c < columns; c++) {
-        for (size_t r = 0; r < rows; r++) {
-            gm_banded_add(assembly->matrix, i[r], j[c], a[r] == 0 ? values[b[c]] : -values[b[c]]);
+        if (e > 0) {
+            gm_banded_add(assembly->matrix, after - assembly->per_node, j[c], values[b[c]]);
+        }
+        if (e < assembly->points) {
+            gm_banded_add(assembly->matrix, after, j[c], -values[b[c]]);
         }
     }
 }

@@ -625,24 +625,16 @@ static enum gm_status make_aside(const struct gm_task *task, struct gm_members *
     return make_wrong(kick_aside, task, members, progress);
 }
 
-static struct gm_progress advance_one_drift(const struct gm_task *task)
-{
-    return gm_members_advance(task, make_one_drift);
-}
-
-static struct gm_progress advance_aside(const struct gm_task *task)
-{
-    return gm_members_advance(task, make_aside);
-}
-
 static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
 {
     (void)unused;
     struct gm_scheme wrong = changed("logh2");
     struct gm_family family = *wrong.family;
+    struct gm_member_family members = *family.members;
     wrong.family = &family;
     wrong.order = 1;
-    family.loop = advance_one_drift;
+    family.members = &members;
+    members.step = make_one_drift;
     struct gm_certificate certificate = gm_certify(&wrong);
     assert_true(certificate.order_holds);
     assert_true(certificate.claims[12].holds);                                          /* bilinear */
@@ -650,7 +642,7 @@ static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
     assert_false(certificate.claims[1].holds);
     assert_true(certificate.claims[2].measured); /* reversible */
     assert_false(certificate.claims[2].holds);
-    family.loop = advance_aside;
+    members.step = make_aside;
     certificate = gm_certify(&wrong);
     assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
     assert_false(certificate.claims[12].holds);
