@@ -47,6 +47,7 @@ enum { GM_MOST_OF_FORM = 8 }; /* components of a state that is s itself */
 /* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries, and may be the same. */
 struct gm_wave {
     double (*potential)(const struct gm_problem *problem, double u); /* V */
+    double (*slope)(const struct gm_problem *problem, double u);     /* V' */
     double (*curvature)(const struct gm_problem *problem, double u); /* V'' */
     void (*slopes)(const struct gm_problem *problem, const double *u, double *slope, size_t count);
     /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */
@@ -67,16 +68,20 @@ struct gm_dispersive {
     bool complex_valued;
     void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count); /* g */
+    /* The derivative of g at `base` along f; all arrays hold `count` real parts, then the imaginary ones. */
+    void (*linearised)(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count);
     /* V with V' = g */
     double (*potential)(const struct gm_problem *problem, double re, double im);
-    size_t component; /* of s: the field, or its real part, behind which the imaginary one stands */
-    /* S'' at `count` points, as gm_form has it. */
-    void (*hessians)(const void *parameters, const double *s, double *hessian, size_t count);
     /* What a step of the box from `now` to `next` leaves of the local law of mass or charge, for every cell
-       (real parts, then imaginary ones); `means` of the solution in the cells. The faces are those of the
-       solution as a tangent, which it is where g is of degree 3 and S'' is that at means/sqrt 3. */
-    void (*content)(const struct gm_problem *problem, double dt, const double *means, const double *now,
+       (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are scratch. */
+    void (*content)(const struct gm_problem *problem, double dt, double *means, const double *now,
                     const double *next, struct gm_faces *faces, double *residual);
+    /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
+       parts, then imaginary ones), from the linearised box equations that are not the field's own; `base`
+       holds the means of the solution in the cells. */
+    void (*complete)(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces);
 };
 
 /* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second

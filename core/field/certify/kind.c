@@ -158,7 +158,7 @@ static bool is_explicit_for_kdv(const struct gm_scheme *scheme)
 
 static bool is_explicit_for_nls(const struct gm_scheme *scheme)
 {
-    return scheme->family == &gm_family_nodes;
+    return scheme->family == &gm_family_schroedinger_nodes;
 }
 
 /* An equation with an exact solution to start from, the runs that the order is measured by, and what else is measured;

@@ -10,10 +10,10 @@
    et al. (2018) is another one.) */
 #include <complex.h>
 #include <math.h>
-#include <string.h>
 
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
+#include "core/linear/ring.h"
 
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};
@@ -34,18 +34,57 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
     }
 }
 
+/* 2 |m|^2 f + m^2 conj f */
+static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count)
+{
+    (void)problem;
+    for (size_t i = 0; i < count; i++) {
+        const double re = base[i], im = base[count + i], f_re = f[i], f_im = f[count + i];
+        const double square = 2 * (re * re + im * im), twice_re = re * re - im * im, twice_im = 2 * re * im;
+        g[i] = square * f_re + twice_re * f_re + twice_im * f_im;
+        g[count + i] = square * f_im + twice_im * f_re - twice_re * f_im;
+    }
+}
+
 enum { P, Q, V, W, DIMENSION };
 
-static void hessians(const void *parameters, const double *s, double *hessian, size_t count)
+/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme, but that on an even
+   number of points their alternating parts, of -D_x v and -D_x w and the force, are that of v and w. */
+static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces)
 {
-    (void)parameters;
-    memset(hessian, 0, DIMENSION * DIMENSION * count * sizeof *hessian);
-    for (size_t i = 0; i < count; i++) {
-        const double p = s[P * count + i], q = s[Q * count + i];
-        hessian[(P * DIMENSION + P) * count + i] = 3 * p * p + q * q;
-        hessian[(P * DIMENSION + Q) * count + i] = hessian[(Q * DIMENSION + P) * count + i] = 2 * p * q;
-        hessian[(Q * DIMENSION + Q) * count + i] = p * p + 3 * q * q;
-        hessian[(V * DIMENSION + V) * count + i] = hessian[(W * DIMENSION + W) * count + i] = 1;
+    (void)dt;
+    const size_t points = problem->line.points;
+    double alternating[2] = {0};
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const size_t r = i + 1 < points ? i + 1 : 0;
+        const double at[2] = {base[i], base[points + i]};
+        const double mean[2] = {(now[i] + now[r] + next[i] + next[r]) / 4,
+                                (now[points + i] + now[points + r] + next[points + i] + next[points + r]) /
+                                    4};
+        double force[2];
+        linearised(problem, at, mean, force, 1);
+        for (size_t part = 0; part < 2; part++) {
+            alternating[part] += (i % 2 ? -force[part] : force[part]) / (double)points;
+        }
+    }
+    for (size_t part = 0; part < 2; part++) {
+        const double *f = now + part * points, *g = next + part * points;
+        double *slope = faces->scratch;
+        for (size_t i = 0; i < points; i++) {
+            const size_t r = i + 1 < points ? i + 1 : 0;
+            faces->lower[i * DIMENSION + P + part] = (f[i] + f[r]) / 2;
+            faces->upper[i * DIMENSION + P + part] = (g[i] + g[r]) / 2;
+            slope[i] = (f[r] + g[r] - f[i] - g[i]) / (2 * problem->line.dx);
+        }
+        gm_ring_unaverage(slope, points);
+        for (size_t i = 0; i <= points; i++) {
+            const size_t at = i < points ? i : 0;
+            faces->sides[i * DIMENSION + P + part] = (f[at] + g[at]) / 2;
+            const double free = problem->line.dx / 2 * alternating[part];
+            faces->sides[i * DIMENSION + V + part] = slope[at] + (at % 2 ? -free : free);
+        }
     }
 }
 
@@ -56,12 +95,16 @@ static double potential(const struct gm_problem *problem, double re, double im)
     return square * square / 4;
 }
 
-/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge */
-static void content(const struct gm_problem *problem, double dt, const double *means, const double *now,
+/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is what the derivative
+   of g at m/sqrt 3 makes of m, so that the solution itself can be completed as a tangent. */
+static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
                     const double *next, struct gm_faces *faces, double *residual)
 {
-    (void)means, (void)now, (void)next;
     const size_t points = problem->line.points;
+    for (size_t i = 0; i < 2 * points; i++) {
+        means[i] /= sqrt(3);
+    }
+    complete(problem, dt, means, now, next, faces);
     for (size_t i = 0; i < points; i++) {
         const double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
         const double *left = faces->sides + i * DIMENSION, *right = left + DIMENSION;
@@ -134,16 +177,16 @@ double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static const struct gm_form form = {.dimension = DIMENSION, .m = m, .k = k};
+static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
                                                 .dispersion = dispersion,
                                                 .complex_valued = true,
                                                 .nonlinear = nonlinear,
+                                                .linearised = linearised,
                                                 .potential = potential,
                                                 .content = content,
-                                                .component = P,
-                                                .hessians = hessians};
+                                                .complete = complete};
 
 const struct gm_problem gm_problem_nls = {
     .name = "nonlinear Schrödinger",

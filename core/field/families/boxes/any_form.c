@@ -93,6 +93,36 @@ static size_t recall(struct gm_collocation *work, const double *memory)
     return (size_t)memory[KNOWN];
 }
 
+/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them: from values at
+   the nodes they would differ by an error of the grid, which would change its sign from step to step for ever. */
+static void integrate_potentials(struct gm_collocation *work)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = work->r, d = work->d;
+    const double dx = work->problem->line.dx;
+    gm_collocation_gradients(work, work->low, work->gradient, r * points);
+    for (size_t p = 0; p < form->potential_count; p++) {
+        const size_t component = form->potentials[p].component, row = form->potentials[p].row;
+        const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
+        double *to = work->low + component * r * points, left = 0;
+        for (size_t k = 0; k < work->rank; k++) {
+            left += work->basis[component][k] * work->y[k * points];
+        }
+        for (size_t i = 0; i < points; i++) {
+            double rise = 0;
+            for (size_t m = 0; m < r; m++) {
+                to[m * points + i] = left;
+                for (size_t l = 0; l < r; l++) {
+                    to[m * points + i] += dx * tableau->a[m][l] * over * slope[l * points + i];
+                }
+                rise += dx * tableau->b[m] * over * slope[m * points + i];
+            }
+            left += rise;
+        }
+    }
+}
+
 /* The polynomial through the past values, at the step to come. */
 static void extrapolate(double *const *past, size_t steps, double *to, size_t count)
 {
@@ -235,8 +265,7 @@ static enum gm_status start(const struct gm_task *task)
         return GM_OK;
     }
     gm_collocation_to_stages(work, task->y, false, work->low);
-    gm_collocation_gradients(work, work->low, work->gradient, work->r * work->points);
-    gm_collocation_integrate(work);
+    integrate_potentials(work);
     if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
         settle(work, task->dt);
     }
@@ -298,39 +327,25 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-double gm_any_form_integral(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            const double *remembered,
-                            double (*density)(const struct gm_problem *problem, const double *s,
-                                              const double *slope))
-{
-    struct gm_collocation *work = remembered ? gm_collocation_open(problem, scheme) : NULL;
-    if (!work) {
-        return NAN;
-    }
-    const size_t count = work->r * work->points;
-    const double *stages = gm_any_form_stages(remembered);
-    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-    gm_collocation_slopes(work, stages, work->high);
-    for (size_t at = 0; at < count; at++) {
-        for (size_t c = 0; c < work->d; c++) {
-            s[c] = stages[c * count + at];
-            slope[c] = work->high[c * count + at];
-        }
-        sum += work->tableau->b[at / work->points] * density(problem, s, slope);
-    }
-    gm_collocation_close(work);
-    return problem->line.dx * sum;
-}
-
-static double wave_density(const struct gm_problem *problem, const double *s, const double *slope)
-{
-    return (s[1] * s[1] + slope[0] * slope[0]) / 2 + gm_field_of(problem)->wave->potential(problem, s[0]);
-}
-
+/* u_t^2/2 + u_x^2/2 + V(u) at the stages of the cells, with the slopes that the boxes have there. */
 static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *remembered)
 {
-    return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
+    (void)y;
+    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    if (!work) {
+        return NAN;
+    }
+    const size_t points = work->points, count = work->r * points;
+    const double *u = gm_any_form_stages(remembered), *v = u + count;
+    double sum = 0, *slope = work->high;
+    gm_collocation_slopes(work, u, slope);
+    for (size_t at = 0; at < count; at++) {
+        sum += work->tableau->b[at / points] * ((v[at] * v[at] + slope[at] * slope[at]) / 2 +
+                                                gm_field_of(problem)->wave->potential(problem, u[at]));
+    }
+    gm_collocation_close(work);
+    return problem->line.dx * sum;
 }
 
 /* ---- the discrete multisymplectic law ---- */
@@ -352,6 +367,19 @@ static bool one_step(const void *context, const double *from, double *to)
     }
     memcpy(to, base->made + ARRAYS, size);
     return true;
+}
+
+/* From [component][stage][cell] to faces. */
+static void to_face(const struct gm_collocation *work, const double *stages, double *face)
+{
+    const size_t r = work->r, d = work->d, points = work->points;
+    for (size_t i = 0; i < points; i++) {
+        for (size_t m = 0; m < r; m++) {
+            for (size_t c = 0; c < d; c++) {
+                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
+            }
+        }
+    }
 }
 
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)
@@ -382,22 +410,24 @@ static void advance_tangent(const struct gm_law *law, size_t k, struct gm_faces 
     }
     struct gm_progress uncounted = {.status = GM_OK};
     guess(work, recall(work, law->memory));
-    bool good = gm_collocation_step(work, law->dt, &uncounted) == GM_OK;
-    memcpy(work->low, tangent, low * sizeof *tangent);
-    good = good && gm_collocation_tangent(work, law->dt);
-    if (!good) {
+    if (gm_collocation_step(work, law->dt, &uncounted) != GM_OK || !gm_collocation_linearise(work, law->dt)) {
         gm_arena_leave(law->arena);
     }
-    if (law->by_differences) {
-        memcpy(work->high, next, low * sizeof *next);
+    memcpy(work->low, tangent, low * sizeof *tangent);
+    gm_collocation_tangent(work, law->dt);
+    to_face(work, tangent, faces->lower);
+    to_face(work, law->by_differences ? next : work->high, faces->upper);
+    for (size_t i = 0; i <= points; i++) {
+        for (size_t j = 0; j < r; j++) {
+            double *side = faces->sides + (i * r + j) * d;
+            for (size_t c = 0; c < d; c++) {
+                for (size_t a = 0; a < work->rank; a++) {
+                    side[c] +=
+                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
+                }
+            }
+        }
     }
-    gm_collocation_faces(work, faces);
-}
-
-struct gm_collocation *gm_any_form_box(const struct gm_law *law)
-{
-    static const struct gm_scheme box = {.coefficients = &midpoint};
-    return gm_arena_keep(law->arena, gm_collocation_open(law->problem, &box), gm_collocation_close);
 }
 
 static double form(const struct gm_law *law)

@@ -16,6 +16,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -23,10 +24,15 @@
 
 /* ---- the workspace ---- */
 
-/* NULL: memory is short; while a workspace is opened, that leaves the body. */
-static double *take(const struct gm_collocation *work, size_t count)
+static void close_factors(struct gm_collocation_factors *factors)
 {
-    return gm_arena_take(work->arena, count, sizeof(double));
+    if (factors->opened) {
+        gm_ring_band_close(&factors->sides);
+    }
+    free(factors->cells);
+    free(factors->pivots);
+    free(factors->scales);
+    *factors = (struct gm_collocation_factors){0};
 }
 
 static bool open_factors(const struct gm_collocation *work, struct gm_collocation_factors *factors,
@@ -34,13 +40,19 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 {
     const size_t rows = work->stages + work->sides, columns = rows + work->sides;
     const size_t cells = shared ? 1 : work->points;
+    if (factors->opened) {
+        return true;
+    }
+    *factors = (struct gm_collocation_factors){
+        .cells = malloc(cells * rows * columns * sizeof(double)),
+        .pivots = malloc(cells * work->stages * sizeof(size_t)),
+        .scales = malloc(cells * work->sides * sizeof(double)),
+        .shared = shared,
+    };
+    factors->opened = factors->cells && factors->pivots && factors->scales &&
+                      gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
     if (!factors->opened) {
-        factors->shared = shared;
-        factors->cells = take(work, cells * rows * columns);
-        factors->pivots = gm_arena_take(work->arena, cells * work->stages, sizeof *factors->pivots);
-        factors->scales = take(work, cells * work->sides);
-        factors->opened = factors->cells && factors->pivots && factors->scales &&
-                          gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
+        close_factors(factors);
     }
     return factors->opened;
 }
@@ -48,13 +60,14 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 void gm_collocation_close(void *workspace)
 {
     struct gm_collocation *work = workspace;
-    struct gm_collocation_factors *const factors[] = {&work->constant, &work->newton};
-    for (size_t i = 0; i < GM_COUNT(factors); i++) {
-        if (factors[i]->opened) {
-            gm_ring_band_close(&factors[i]->sides);
-        }
+    if (work->fourier) {
+        gm_fourier_close(work->fourier);
     }
-    gm_arena_close(work->arena);
+    close_factors(&work->constant);
+    close_factors(&work->newton);
+    free(work->waves);
+    free(work->memory);
+    free(work);
 }
 
 /* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come first, each by itself. */
@@ -147,62 +160,66 @@ static void invert(struct gm_collocation *work)
     work->rest = round(work->rest);
 }
 
-static void close_fourier(void *fourier)
-{
-    gm_fourier_close(fourier);
-}
-
-static void open_arrays(struct gm_arena *arena, void *data)
-{
-    struct gm_collocation *work = data;
-    const size_t points = work->points, level = work->d * work->r * points;
-    const size_t stages = work->stages * points, sides = work->sides * points;
-    work->low = take(work, level);
-    work->high = take(work, level);
-    work->z = take(work, stages);
-    work->first_z = take(work, stages);
-    work->y = take(work, sides);
-    work->first_y = take(work, sides);
-    for (size_t k = 0; k < GM_COLLOCATION_PAST; k++) {
-        work->past_z[k] = take(work, stages);
-        work->past_y[k] = take(work, sides);
-    }
-    work->gradient = take(work, stages);
-    work->hessian = take(work, work->d * stages);
-    work->right = take(work, stages + sides);
-    work->scratch = take(work, sides + 2 * points);
-    work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
-    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
-}
-
 void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_field *field = gm_field_of(problem);
     const struct gm_form *form = field->form;
-    struct gm_arena *arena = gm_arena_open();
-    struct gm_collocation *work = arena ? gm_arena_take(arena, 1, sizeof *work) : NULL;
+    struct gm_collocation *work = calloc(1, sizeof *work);
     if (!work) {
-        gm_arena_close(arena);
         return NULL;
     }
-    work->arena = arena;
+    const size_t d = form->dimension, points = problem->line.points;
     work->problem = problem;
     work->tableau = scheme->coefficients;
-    work->points = problem->line.points;
-    work->d = form->dimension;
-    work->state = field->wave ? 1 : work->d;
+    work->points = points;
+    work->d = d;
+    work->state = field->wave ? 1 : d;
     work->r = work->tableau->r;
     work->jump[0] = problem->line.jump;
-    for (size_t c = 0; form->jump && c < work->d; c++) {
+    for (size_t c = 0; form->jump && c < d; c++) {
         work->jump[c] = form->jump[c];
     }
     find_range(work, form);
     invert(work);
-    work->stages = work->d * work->r * work->r;
+    const size_t q = work->r * work->r;
+    work->stages = d * q;
     work->sides = work->r * work->rank;
-    if (!gm_arena_run(arena, open_arrays, work)) {
-        gm_arena_close(arena);
+    struct {
+        double **array;
+        size_t numbers;
+    } arrays[] = {
+        {&work->low, d * work->r},
+        {&work->high, d * work->r},
+        {&work->z, work->stages},
+        {&work->past_z[0], work->stages},
+        {&work->past_z[1], work->stages},
+        {&work->past_z[2], work->stages},
+        {&work->first_z, work->stages},
+        {&work->gradient, work->stages},
+        {&work->hessian, d * work->stages},
+        {&work->right, work->stages + work->sides},
+        {&work->y, work->sides},
+        {&work->past_y[0], work->sides},
+        {&work->past_y[1], work->sides},
+        {&work->past_y[2], work->sides},
+        {&work->first_y, work->sides},
+        {&work->scratch, work->sides + 2},
+    };
+    size_t numbers = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        numbers += arrays[i].numbers;
+    }
+    work->memory = calloc(numbers * points, sizeof(double));
+    work->waves = malloc(work->r * points * sizeof *work->waves);
+    work->fourier = gm_fourier_open(points);
+    if (!work->memory || !work->waves || !work->fourier) {
+        gm_collocation_close(work);
         return NULL;
+    }
+    numbers = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        *arrays[i].array = work->memory + numbers * points;
+        numbers += arrays[i].numbers;
     }
     return work;
 }
@@ -229,8 +246,7 @@ static void find_hessians(const struct gm_collocation *work, const double *s, do
 {
     const struct gm_field *field = gm_field_of(work->problem);
     if (!field->wave) {
-        (field->dispersive ? field->dispersive->hessians : field->form->hessians)(work->problem->parameters,
-                                                                                  s, hessian, count);
+        field->form->hessians(work->problem->parameters, s, hessian, count);
         return;
     }
     memset(hessian, 0, 9 * count * sizeof *hessian);
@@ -742,13 +758,15 @@ enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struc
     return status;
 }
 
-bool gm_collocation_tangent(struct gm_collocation *work, double dt)
+bool gm_collocation_linearise(struct gm_collocation *work, double dt)
+{
+    find_hessians(work, work->z, work->hessian, work->r * work->r * work->points);
+    return factor(work, &work->newton, false, dt);
+}
+
+void gm_collocation_tangent(struct gm_collocation *work, double dt)
 {
     const size_t d = work->d, count = work->r * work->r * work->points;
-    find_hessians(work, work->z, work->hessian, count);
-    if (!factor(work, &work->newton, false, dt)) {
-        return false;
-    }
     memset(work->z, 0, work->stages * work->points * sizeof(double));
     memset(work->y, 0, work->sides * work->points * sizeof(double));
     for (int again = 0; again < 3; again++) {
@@ -768,38 +786,6 @@ bool gm_collocation_tangent(struct gm_collocation *work, double dt)
         add_changes(work);
     }
     find_high(work);
-    return true;
-}
-
-/* From [component][stage][cell] to a face. */
-static void to_face(const struct gm_collocation *work, const double *stages, double *face)
-{
-    const size_t r = work->r, d = work->d, points = work->points;
-    for (size_t i = 0; i < points; i++) {
-        for (size_t m = 0; m < r; m++) {
-            for (size_t c = 0; c < d; c++) {
-                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
-            }
-        }
-    }
-}
-
-void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces)
-{
-    const size_t points = work->points, d = work->d, r = work->r;
-    to_face(work, work->low, faces->lower);
-    to_face(work, work->high, faces->upper);
-    for (size_t i = 0; i <= points; i++) {
-        for (size_t j = 0; j < r; j++) {
-            double *side = faces->sides + (i * r + j) * d;
-            for (size_t c = 0; c < d; c++) {
-                for (size_t a = 0; a < work->rank; a++) {
-                    side[c] +=
-                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
-                }
-            }
-        }
-    }
 }
 
 /* ---- nodes and stages ---- */
@@ -823,33 +809,6 @@ void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes
         for (size_t c = 0; c < work->state; c++) {
             add(work->y + at * work->points, nodes + c * work->points, work->basis[c][at % work->rank],
                 work->points);
-        }
-    }
-}
-
-void gm_collocation_integrate(struct gm_collocation *work)
-{
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    const struct gm_collocation_tableau *tableau = work->tableau;
-    const size_t points = work->points, r = work->r, d = work->d;
-    const double dx = work->problem->line.dx;
-    for (size_t p = 0; p < form->potential_count; p++) {
-        const size_t component = form->potentials[p].component, row = form->potentials[p].row;
-        const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
-        double *to = work->low + component * r * points, left = 0;
-        for (size_t k = 0; k < work->rank; k++) {
-            left += work->basis[component][k] * work->y[k * points];
-        }
-        for (size_t i = 0; i < points; i++) {
-            double rise = 0;
-            for (size_t m = 0; m < r; m++) {
-                to[m * points + i] = left;
-                for (size_t l = 0; l < r; l++) {
-                    to[m * points + i] += dx * tableau->a[m][l] * over * slope[l * points + i];
-                }
-                rise += dx * tableau->b[m] * over * slope[m * points + i];
-            }
-            left += rise;
         }
     }
 }

@@ -4,8 +4,7 @@
 #ifndef GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 #define GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 
-#include "core/arena.h"
-#include "core/field/multisymplectic.h"
+#include "core/field/field.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
 #include "core/linear/ring_blocks.h"
@@ -57,9 +56,9 @@ struct gm_collocation {
     struct gm_fourier *fourier;
     struct gm_collocation_factors constant, newton; /* S'' at s = 0; at z */
     double constant_dt;                             /* 0: `constant` is not made */
-    bool needs_newton;      /* `constant` did not serve a step; for steps of their own memory */
-    double *scratch;        /* [side], and two more */
-    struct gm_arena *arena; /* of all of it */
+    bool needs_newton; /* `constant` did not serve a step; for steps of their own memory */
+    double *scratch;   /* [side], and two more */
+    double *memory;
 };
 
 /* As the family's workspace; NULL when memory is short. */
@@ -69,11 +68,10 @@ void gm_collocation_close(void *workspace);
 /* One step from `low` to `high`, with the guess in z and y, which become the solution. GM_NO_CONVERGENCE. */
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress);
 
-/* A step of a tangent, of the equations linearised at z: from its `low` to its `high`, z and y. False where they
-   are singular, or memory is short. */
-bool gm_collocation_tangent(struct gm_collocation *work, double dt);
-/* Fills in the faces of such a step. */
-void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces);
+/* Makes the equations of a tangent at z; then from `low` of a tangent to `high`, z and y of it. False where
+   they are singular, or memory is short. */
+bool gm_collocation_linearise(struct gm_collocation *work, double dt);
+void gm_collocation_tangent(struct gm_collocation *work, double dt);
 
 /* grad S at `count` points, [component * count + point]. */
 void gm_collocation_gradients(const struct gm_collocation *work, const double *s, double *gradient,
@@ -83,10 +81,6 @@ void gm_collocation_gradients(const struct gm_collocation *work, const double *s
    to their second derivatives there, where a cell has several; and back. */
 void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, bool second, double *stages);
 void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes);
-/* Potentials in `low` from their slopes, which are in `gradient`, and their first sides in y, cell after cell by
-   collocation, as the stages of every step have them: from values at the nodes they would differ by an error of the grid,
-   which would change its sign from step to step for ever. */
-void gm_collocation_integrate(struct gm_collocation *work);
 /* The slopes of values at the stages, there. */
 void gm_collocation_slopes(struct gm_collocation *work, const double *stages, double *slopes);
 /* basis' s at the nodes, as a guess of y. */

@@ -8,7 +8,7 @@
    U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255; A.L. Islas, D.A. Karpeev & C.M. Schober,
    J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by recursions; the rest is
    iterated to round-off, and where that is slow or diverges solved by Newton's method. */
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 
 #include <complex.h>
 #include <math.h>
@@ -18,10 +18,10 @@
 #include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
-/* Arrays of real parts, each followed by its imaginary parts, behind the work. */
+/* Arrays of real parts, each followed by its imaginary parts; the first member is the one that closes. */
 static double *array(const struct gm_two_step_work *work, size_t which)
 {
-    return (double *)(void *)(work + 1) + 2 * which * work->points;
+    return work->memory + 2 * which * work->points;
 }
 
 enum { NOW, NEXT, RIGHT, MEAN, FORCE, GUESS, SLOPES, ARRAYS = SLOPES + 2 };
@@ -33,17 +33,22 @@ static size_t parts_of(const struct gm_dispersive *equation)
 
 void *gm_dispersive_open(const struct gm_problem *problem)
 {
-    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
-    const size_t points = problem->line.points;
-    struct gm_two_step_work *work = calloc(1, sizeof *work + 2 * ARRAYS * points * sizeof(double));
-    /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
-       on both sides, or one point more on the right. */
-    if (!work ||
-        !gm_ring_newton_open(&work->newton, points, parts_of(equation), (size_t)equation->power - 1)) {
+    struct gm_two_step_work *work = calloc(1, sizeof *work);
+    double *memory = calloc(2 * ARRAYS * problem->line.points, sizeof *memory);
+    if (!work || !memory) {
         free(work);
+        free(memory);
         return NULL;
     }
-    work->points = points;
+    work->points = problem->line.points;
+    work->memory = memory;
+    /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
+       on both sides, or one point more on the right. */
+    if (!gm_ring_newton_open(&work->newton, work->points, parts_of(gm_field_of(problem)->dispersive),
+                             (size_t)gm_field_of(problem)->dispersive->power - 1)) {
+        gm_two_step_close(work);
+        return NULL;
+    }
     return work;
 }
 
@@ -75,15 +80,16 @@ static void add_power(double *out, const double *f, size_t points, int power, do
     }
 }
 
-/* The equations of a step, a A^p f/dt + b D^p f/2 + Q g = right. */
+/* The equations of a step, or of one of the linearised scheme: a A^p f/dt + b D^p f/2 + Q g = right. */
 struct equations {
     const struct gm_two_step_work *work;
     const struct gm_problem *problem;
     double mean[2], difference; /* a/(2^p dt), real and imaginary part, and b/(2 dx^p) */
+    const double *base; /* means of a solution in the cells: the scheme linearised there; NULL: the scheme */
 };
 
 static struct equations equations_of(const struct gm_two_step_work *work, const struct gm_problem *problem,
-                                     double dt)
+                                     double dt, const double *base)
 {
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const double half = pow(0.5, equation->power) / dt;
@@ -92,6 +98,7 @@ static struct equations equations_of(const struct gm_two_step_work *work, const 
         .problem = problem,
         .mean = {half * equation->factor[0], half * equation->factor[1]},
         .difference = equation->dispersion(problem) / (2 * pow(problem->line.dx, equation->power)),
+        .base = base,
     };
 }
 
@@ -105,7 +112,12 @@ static void explicit_part(const struct equations *equations, const double *next)
     memset(mean, 0, 2 * points * sizeof *mean);
     add_power(mean, array(work, NOW), points, 1, 1, 0.25, 0);
     add_power(mean, next, points, 1, 1, 0.25, 0);
-    gm_field_of(problem)->dispersive->nonlinear(problem, mean, mean + points, force, force + points, points);
+    if (equations->base) {
+        gm_field_of(problem)->dispersive->linearised(problem, equations->base, mean, force, points);
+    } else {
+        gm_field_of(problem)->dispersive->nonlinear(problem, mean, mean + points, force, force + points,
+                                                    points);
+    }
     memcpy(mean, array(work, RIGHT), 2 * points * sizeof *mean);
     if (gm_field_of(problem)->dispersive->derivative) {
         /* A D: (f_{i+2} - f_i) / (2 dx) */
@@ -161,22 +173,21 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const size_t points = work->points, parts = parts_of(equation);
     const int p = equation->power;
-    const size_t d = gm_field_of(problem)->form->dimension, first = equation->component;
-    double *at = array(work, MEAN);
+    double *at = array(work, MEAN), *unit = array(work, FORCE);
     double *const slopes[2] = {array(work, SLOPES), array(work, SLOPES + 1)};
-    memset(at, 0, 2 * points * sizeof *at);
-    add_power(at, array(work, NOW), points, 1, 1, 0.25, 0);
-    add_power(at, array(work, NEXT), points, 1, 1, 0.25, 0);
-    for (size_t i = 0; i < points; i++) {
-        double s[GM_MOST_OF_FORM] = {0}, hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
-        for (size_t part = 0; part < parts; part++) {
-            s[first + part] = at[part * points + i];
+    if (equations->base) {
+        memcpy(at, equations->base, 2 * points * sizeof *at);
+    } else {
+        memset(at, 0, 2 * points * sizeof *at);
+        add_power(at, array(work, NOW), points, 1, 1, 0.25, 0);
+        add_power(at, array(work, NEXT), points, 1, 1, 0.25, 0);
+    }
+    for (size_t part = 0; part < parts; part++) {
+        memset(unit, 0, 2 * points * sizeof *unit);
+        for (size_t i = 0; i < points; i++) {
+            unit[part * points + i] = 1;
         }
-        equation->hessians(problem->parameters, s, hessian, 1);
-        for (size_t entry = 0; entry < parts * parts; entry++) {
-            const size_t part = entry / parts, column = entry % parts;
-            slopes[column][part * points + i] = hessian[(first + part) * d + first + column];
-        }
+        equation->linearised(problem, at, unit, slopes[part], points);
     }
     for (size_t i = 0; i < points; i++) {
         const size_t row = i + 1 < points ? i + 1 : 0;
@@ -202,15 +213,16 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     }
 }
 
-/* One step from NOW to NEXT. */
+/* One step from NOW to NEXT; with `base`, means of a solution in the cells, of the linearised scheme. */
 static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_problem *problem,
-                                const struct gm_ring_roots *ring, double dt, struct gm_progress *progress)
+                                const struct gm_ring_roots *ring, double dt, const double *base,
+                                struct gm_progress *progress)
 {
     enum { MOST = 40 }; /* Newton's method costs about 25 of them for a real field, 80 for a complex one */
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const size_t points = work->points, count = 2 * points;
     const int p = equation->power;
-    struct equations self = equations_of(work, problem, dt);
+    struct equations self = equations_of(work, problem, dt, base);
     double *now = array(work, NOW), *next = array(work, NEXT), *right = array(work, RIGHT);
     double *mean = array(work, MEAN);
     memset(right, 0, count * sizeof *right);
@@ -260,6 +272,21 @@ static bool make_ring(struct gm_ring_roots *ring, const struct gm_problem *probl
                               equation->dispersion(problem) / 2, problem->line.dx);
 }
 
+enum gm_status gm_dispersive_tangent(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                     double dt, const double *base, const double *now, double *next)
+{
+    const size_t size = 2 * work->points * sizeof(double);
+    struct gm_ring_roots ring;
+    struct gm_progress progress = {.status = GM_OK};
+    if (!make_ring(&ring, problem, dt)) {
+        return GM_NO_CONVERGENCE;
+    }
+    memcpy(array(work, NOW), now, size);
+    const enum gm_status status = make_step(work, problem, &ring, dt, base, &progress);
+    memcpy(next, array(work, NEXT), size);
+    return status;
+}
+
 struct gm_progress gm_dispersive_advance(const struct gm_task *task)
 {
     struct gm_two_step_work *work = task->workspace;
@@ -279,7 +306,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     }
     for (int64_t k = 0; k < task->steps; k++) {
         memcpy(now, next, 2 * size);
-        progress.status = make_step(work, task->problem, &ring, task->dt, &progress);
+        progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
         if (!equation->complex_valued) {
             /* what rounding leaves of an imaginary part */
             memset(next + points, 0, size);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The laws of the box for equations of first order in time. The multisymplectic one: two tangents are advanced by
-   a step, and the variables that elimination left out follow from it as one of collocation at one point. Those of
-   energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36): the product of the scheme's equation with
-   D_t A_x s, or D_x A_t s, is a difference in time and one in space but for S, and of S but for what is not
-   quadratic in it, V. */
+/* The laws of the box for equations of first order in time. The multisymplectic one: two tangents are advanced
+   by a step, and the variables that elimination left out follow from the box equations that hold them
+   (gm_dispersive). Those of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36): the product of
+   the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in space but for S, and
+   of S but for what is not quadratic in it, V. */
 #include "core/field/families/dispersive/form.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "core/field/families/boxes/any_form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
@@ -36,13 +36,15 @@ static bool one_step(const void *context, const double *from, double *to)
     return good;
 }
 
-/* The means of two levels of a field in the cells between them. */
-static void find_means(const struct gm_problem *problem, const double *now, const double *next, double *means)
+static void cell_means(const struct base *base)
 {
-    const size_t points = problem->line.points;
-    for (size_t at = 0; at < field_of(problem); at++) {
-        const size_t right = (at + 1) % points == 0 ? at + 1 - points : at + 1;
-        means[at] = (now[at] + now[right] + next[at] + next[right]) / 4;
+    const size_t points = base->law->problem->line.points;
+    for (size_t part = 0; part < 2; part++) {
+        const double *now = base->now + part * points, *next = base->next + part * points;
+        for (size_t i = 0; i < points; i++) {
+            const size_t r = i + 1 < points ? i + 1 : 0;
+            base->cells[part * points + i] = (now[i] + now[r] + next[i] + next[r]) / 4;
+        }
     }
 }
 
@@ -56,37 +58,8 @@ static struct base base_of(const struct gm_law *law)
     if (!one_step(&base, now, base.next)) {
         gm_arena_leave(law->arena);
     }
-    find_means(law->problem, now, base.next, base.cells);
+    cell_means(&base);
     return base;
-}
-
-/* The faces of a tangent from `now`, of the equations linearised at `cells`, as collocation at one point, which
-   the box is, has them; with `next` what the field is at the upper face. */
-static void find_faces(const struct gm_law *law, const double *cells, const double *now, const double *next,
-                       struct gm_faces *faces)
-{
-    const struct gm_problem *problem = law->problem;
-    struct gm_collocation *work = gm_any_form_box(law);
-    const size_t points = work->points, first = gm_field_of(problem)->dispersive->component * points;
-    const double zero[GM_MOST_OF_FORM] = {0};
-    double hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
-    memcpy(work->z + first, cells, field_of(problem) * sizeof *cells);
-    find_means(problem, now, now, work->low + first);
-    /* the slopes of potentials are linear in s */
-    gm_field_of(problem)->dispersive->hessians(problem->parameters, zero, hessian, 1);
-    for (size_t at = 0; at < work->d * work->d; at++) {
-        for (size_t i = 0; i < points; i++) {
-            work->gradient[at / work->d * points + i] += hessian[at] * work->low[at % work->d * points + i];
-        }
-    }
-    gm_collocation_integrate(work);
-    if (!gm_collocation_tangent(work, law->dt)) {
-        gm_arena_leave(law->arena);
-    }
-    if (next) {
-        find_means(problem, next, next, work->high + first);
-    }
-    gm_collocation_faces(work, faces);
 }
 
 static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
@@ -99,10 +72,14 @@ static void advance_tangent(const struct gm_law *law, size_t which, struct gm_fa
         gm_tangent_start(now + at, points, 2 + (double)which,
                          0.3 + 0.4 * (double)which + (double)(at / points));
     }
-    if (law->by_differences && !gm_differentiate(one_step, &base, field, base.now, now, field, next)) {
+    const bool good =
+        law->by_differences
+            ? gm_differentiate(one_step, &base, field, base.now, now, field, next)
+            : gm_dispersive_tangent(law->work, problem, law->dt, base.cells, now, next) == GM_OK;
+    if (!good) {
         gm_arena_leave(law->arena);
     }
-    find_faces(law, base.cells, now, law->by_differences ? next : NULL, faces);
+    gm_field_of(problem)->dispersive->complete(problem, law->dt, base.cells, now, next, faces);
 }
 
 static struct gm_lattice cells_of(const struct gm_law *law)
@@ -145,11 +122,6 @@ static void find_residual(const struct gm_law *law, void *data)
     if (local->law == GM_LAW_OF_CONTENT) {
         const struct gm_lattice cells = cells_of(law);
         struct gm_faces faces = gm_faces_of(law, &cells);
-        double *scaled = gm_arena_take(law->arena, field_of(problem), sizeof *scaled);
-        for (size_t i = 0; i < field_of(problem); i++) {
-            scaled[i] = base.cells[i] / sqrt(3);
-        }
-        find_faces(law, scaled, base.now, base.next, &faces);
         gm_field_of(problem)->dispersive->content(problem, law->dt, base.cells, base.now, base.next, &faces,
                                                   local->residual);
         return;

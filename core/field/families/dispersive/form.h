@@ -4,11 +4,11 @@
 
 #include "core/field/multisymplectic.h"
 
-/* The box for equations of first order in time: its loop, its work, which gm_two_step_close closes, and its
-   gm_family.form. */
-struct gm_progress gm_dispersive_advance(const struct gm_task *task);
-void *gm_dispersive_open(const struct gm_problem *problem);
+/* gm_family.form of the box for equations of first order in time. */
 double gm_dispersive_form(const struct gm_law *law);
+
+/* gm_family.form of the schemes of nodes. */
+double gm_nodes_form(const struct gm_law *law);
 
 /* What the next step of the box leaves of a local law in every cell,
        energy     [V(b) - V(a) - (b - a) V'((a + b)/2)] / dt    from a = A_x f^n to b = A_x f^{n+1}

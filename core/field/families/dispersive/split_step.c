@@ -23,22 +23,27 @@ struct work {
 
 static void workspace_close(void *workspace)
 {
-    gm_fourier_close(((struct work *)workspace)->fourier);
-    free(workspace);
+    struct work *work = workspace;
+    gm_fourier_close(work->fourier);
+    free(work->psi);
+    free(work);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work + 4 * points * sizeof(double));
-    struct gm_fourier *fourier = work ? gm_fourier_open(points) : NULL;
-    if (!fourier) {
-        free(work);
+    struct work *work = calloc(1, sizeof *work);
+    if (!work) {
         return NULL;
     }
-    *work = (struct work){.points = points, .fourier = fourier, .psi = (double *)(work + 1)};
-    work->turns = work->psi + 2 * points;
+    work->points = problem->line.points;
+    work->psi = calloc(4 * work->points, sizeof *work->psi);
+    work->turns = work->psi + 2 * work->points;
+    work->fourier = gm_fourier_open(work->points);
+    if (!work->psi || !work->fourier) {
+        workspace_close(work);
+        return NULL;
+    }
     return work;
 }
 

@@ -3,35 +3,21 @@
    schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
        Euler box   v = D_t^- u,   w = D_x^- u
        midpoint    w = D_0 u
-   The box is collocation at one point (boxes/collocation.c), which has all of them. */
+       box         A_x W = D_x A_t u                           W = A_t w, at the sides of the cells
+                   A_t V = D_t A_x u   in the first row        V = A_x v, at the levels
+                   D_t V = D_x W - V'' u   in both rows
+   In the box V at the last level is right only if the step was one of the box. */
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/two_step.h"
+#include "core/field/families/waves/levels.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
-
-/* Where the state holds two levels, a step is made aside. */
-struct gm_levels gm_levels_of(const struct gm_law *law)
-{
-    const struct gm_two_step_row *row = law->scheme->coefficients;
-    const size_t points = law->problem->line.points, size = gm_wave_size(points);
-    const bool at_start = law->y[2 * points] != -law->dt, centred = row->law == GM_LAW_CENTRED;
-    double *out = gm_arena_take(law->arena, size + 2 * points, sizeof *out), *v = out + size;
-    if (!gm_law_step(law, at_start ? 2 : 1, law->y, centred ? law->memory : NULL, out, centred ? v : NULL)) {
-        gm_arena_leave(law->arena);
-    }
-    struct gm_levels levels = {.past = at_start ? law->y : law->y + points, .now = out + points, .next = out};
-    if (centred) {
-        levels.v_past = at_start ? law->memory : law->memory + points;
-        levels.v_now = v + points;
-        levels.v_next = v;
-    }
-    return levels;
-}
+#include "core/linear/ring.h"
 
 enum { U, V, W, DIMENSION };
 
@@ -44,6 +30,7 @@ struct tangent {
 struct base {
     const struct gm_law *law;
     struct gm_levels levels;
+    double *earlier, *later; /* V'' in the cells of both rows */
     double *y, *memory_out;
 };
 
@@ -94,6 +81,58 @@ static void linearised_centred(const struct base *base, const struct tangent *a)
     }
 }
 
+/* The linearised nine-point scheme at node i: A_x' D_t A_x and D_x' A_t D_x of three levels, and V'' in four
+   cells. */
+static double nine_points(const struct base *base, const struct tangent *a, size_t i)
+{
+    const size_t points = base->law->problem->line.points, l = left_of(i, points), r = right_of(i, points);
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
+    const double *p = a->past, *n = a->now, *f = a->next;
+    const double in_time = f[r] + 2 * f[i] + f[l] - 2 * (n[r] + 2 * n[i] + n[l]) + p[r] + 2 * p[i] + p[l];
+    const double in_space = f[r] - 2 * f[i] + f[l] + 2 * (n[r] - 2 * n[i] + n[l]) + p[r] - 2 * p[i] + p[l];
+    const double force =
+        base->later[i] * (n[i] + n[r] + f[i] + f[r]) + base->later[l] * (n[i] + n[l] + f[i] + f[l]) +
+        base->earlier[i] * (p[i] + p[r] + n[i] + n[r]) + base->earlier[l] * (p[i] + p[l] + n[i] + n[l]);
+    return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
+}
+
+/* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
+static bool solve_box(const struct base *base, const struct tangent *a, struct gm_ring_band *band)
+{
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
+    const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);
+    double *right = a->v_next; /* no scheme of cells keeps u_t */
+    for (size_t i = 0; i < points; i++) {
+        const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
+        gm_ring_band_add(band, i, 0, -1, 0, in_time - in_space + before);
+        gm_ring_band_add(band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
+        gm_ring_band_add(band, i, 0, 1, 0, in_time - in_space + after);
+    }
+    const bool good = gm_ring_band_factor(band);
+    for (int k = 0; good && k < 3; k++) {
+        for (size_t i = 0; i < points; i++) {
+            right[i] = -nine_points(base, a, i);
+        }
+        gm_ring_band_solve(band, right);
+        for (size_t i = 0; i < points; i++) {
+            a->next[i] += right[i];
+        }
+    }
+    return good;
+}
+
+static bool linearised_box(const struct base *base, const struct tangent *a)
+{
+    struct gm_ring_band band;
+    if (!gm_ring_band_open(&band, base->law->problem->line.points, 1, 1)) {
+        return false;
+    }
+    const bool good = solve_box(base, a, &band);
+    gm_ring_band_close(&band);
+    return good;
+}
+
 /* gm_map: u at two levels, with u_t if the scheme keeps it, to the next level of the same. */
 static bool one_step(const void *context, const double *from, double *to)
 {
@@ -110,7 +149,7 @@ static bool one_step(const void *context, const double *from, double *to)
     return good;
 }
 
-static void by_own_steps(const struct base *base, const struct tangent *a)
+static bool by_own_steps(const struct base *base, const struct tangent *a)
 {
     const struct gm_levels *of = &base->levels;
     const size_t points = base->law->problem->line.points, size = points * sizeof(double);
@@ -123,11 +162,11 @@ static void by_own_steps(const struct base *base, const struct tangent *a)
         memcpy(from + k * points, from_levels[k], size);
         memcpy(direction + k * points, directions[k], size);
     }
-    if (!gm_differentiate(one_step, base, levels * points, from, direction, levels / 2 * points, slope)) {
-        gm_arena_leave(base->law->arena);
-    }
+    const bool good =
+        gm_differentiate(one_step, base, levels * points, from, direction, levels / 2 * points, slope);
     memcpy(a->next, slope, size);
     memcpy(a->v_next, slope + points, levels == 4 ? size : 0);
+    return good;
 }
 
 struct nodes {
@@ -154,6 +193,72 @@ static void complete_node(const void *tangent, size_t node, double *levels)
     }
 }
 
+/* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
+   alternating part free; the acceleration, which like A_t V = D_t A_x u has none, determines it. */
+static void side_slopes(const struct gm_grid1 *grid, const double *before, const double *after,
+                        const double *curvature, double *w)
+{
+    const size_t points = grid->points;
+    double alternating = 0;
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = right_of(i, points);
+        const double force = curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
+        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * grid->dx);
+        alternating += i % 2 ? -force : force;
+    }
+    gm_ring_unaverage(w, points);
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const double part = grid->dx / 2 * alternating / (double)points;
+        w[i] -= i % 2 ? -part : part;
+    }
+}
+
+/* D_t V in cell i */
+static double acceleration(const struct gm_grid1 *grid, const double *before, const double *after,
+                           const double *curvature, const double *w, size_t i)
+{
+    const size_t r = right_of(i, grid->points);
+    return (w[r] - w[i]) / grid->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
+}
+
+static void complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
+{
+    const struct gm_grid1 *grid = &base->law->problem->line;
+    const size_t points = grid->points;
+    const double dt = base->law->dt;
+    double *w = a->v_past, *w_later = a->v_now; /* no scheme of cells keeps u_t */
+    side_slopes(grid, a->past, a->now, base->earlier, w);
+    side_slopes(grid, a->now, a->next, base->later, w_later);
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = right_of(i, points);
+        double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
+        lower[U] = (a->now[i] + a->now[r]) / 2;
+        upper[U] = (a->next[i] + a->next[r]) / 2;
+        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / dt +
+                   dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
+        upper[V] = lower[V] + dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
+    }
+    for (size_t i = 0; i <= points; i++) {
+        const size_t at = i < points ? i : 0;
+        double *side = faces->sides + i * DIMENSION;
+        side[U] = (a->now[at] + a->next[at]) / 2;
+        side[W] = w_later[at];
+    }
+}
+
+/* V'' in the cells between two levels. */
+static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
+                            double *curvature)
+{
+    const struct gm_grid1 *grid = &problem->line;
+    for (size_t i = 0; i < grid->points; i++) {
+        const size_t r = right_of(i, grid->points);
+        const double jump = r == 0 ? grid->jump : 0;
+        curvature[i] =
+            gm_field_of(problem)->wave->curvature(problem, (p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
+    }
+}
+
 static enum gm_wave_law law_of(const struct gm_law *law)
 {
     return ((const struct gm_two_step_row *)law->scheme->coefficients)->law;
@@ -161,87 +266,55 @@ static enum gm_wave_law law_of(const struct gm_law *law)
 
 static struct base base_of(const struct gm_law *law)
 {
-    const size_t points = law->problem->line.points;
-    double *memory_out = gm_arena_take(law->arena, 2 * points + 2 * gm_wave_size(points), sizeof *memory_out);
-    return (struct base){law, gm_levels_of(law), memory_out + 2 * points, memory_out};
+    const struct gm_problem *problem = law->problem;
+    const size_t points = problem->line.points;
+    struct base base = {.law = law, .levels = gm_levels_of(law)};
+    base.earlier = gm_arena_take(law->arena, 4 * points + 2 * gm_wave_size(points), sizeof *base.earlier);
+    base.later = base.earlier + points;
+    base.memory_out = base.later + points;
+    base.y = base.memory_out + 2 * points;
+    if (law_of(law) == GM_LAW_CELLS) {
+        cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
+        cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
+    }
+    return base;
 }
 
-static struct tangent tangent_on(const struct gm_law *law)
-{
-    const size_t points = law->problem->line.points;
-    double *u = gm_arena_take(law->arena, 6 * points, sizeof *u), *v = u + 3 * points;
-    return (struct tangent){u, u + points, u + 2 * points, v, v + points, v + 2 * points};
-}
-
-/* Tangent 0 or 1 of a scheme of nodes, a step ahead. */
+/* Tangent 0 or 1, a step ahead. */
 static struct tangent tangent_of(const struct base *base, size_t which)
 {
-    const struct gm_law *law = base->law;
-    const bool centred = law_of(law) == GM_LAW_CENTRED;
-    const size_t points = law->problem->line.points;
+    const enum gm_wave_law kind = law_of(base->law);
+    const size_t points = base->law->problem->line.points;
     const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
-    const struct tangent a = tangent_on(law);
+    double *u = gm_arena_take(base->law->arena, 6 * points, sizeof *u), *v = u + 3 * points;
+    const struct tangent a = {u, u + points, u + 2 * points, v, v + points, v + 2 * points};
     gm_tangent_start(a.past, points, waves, phase);
     gm_tangent_start(a.now, points, waves, 2 * phase - M_PI / 2);
-    if (centred) {
+    if (kind == GM_LAW_CENTRED) {
         gm_tangent_start(a.v_past, points, waves, 3 * phase);
         gm_tangent_start(a.v_now, points, waves, 5 * phase);
     }
-    if (law->by_differences) {
-        by_own_steps(base, &a);
-    } else if (centred) {
+    bool good = true;
+    if (base->law->by_differences) {
+        good = by_own_steps(base, &a);
+    } else if (kind == GM_LAW_CELLS) {
+        good = linearised_box(base, &a);
+    } else if (kind == GM_LAW_CENTRED) {
         linearised_centred(base, &a);
     } else {
         linearised_nodes(base, &a);
     }
+    if (!good) {
+        gm_arena_leave(base->law->arena);
+    }
     return a;
 }
 
-/* The means of two levels in the cells between them. */
-static void find_means(size_t points, double jump, const double *p, const double *q, double *means)
-{
-    for (size_t i = 0; i < points; i++) {
-        const size_t r = right_of(i, points);
-        means[i] = (p[i] + p[r] + q[i] + q[r] + (r == 0 ? 2 * jump : 0)) / 4;
-    }
-}
-
-/* A step of the box as collocation at one point, from `low` of a tangent, between two levels of the solution. */
-static void step_in_cells(const struct gm_law *law, struct gm_collocation *work, const double *p,
-                          const double *q)
-{
-    find_means(work->points, law->problem->line.jump, p, q, work->z);
-    if (!gm_collocation_tangent(work, law->dt)) {
-        gm_arena_leave(law->arena);
-    }
-}
-
-/* A tangent of the box: a step finds its second level of nodes, the next one its faces. */
 static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
 {
     const struct base base = base_of(law);
-    const struct gm_levels *levels = &base.levels;
-    const struct tangent a = tangent_on(law);
-    const size_t points = law->problem->line.points;
-    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
-    struct gm_collocation *work = gm_any_form_box(law);
-    gm_tangent_start(a.past, points, waves, phase);
-    find_means(points, 0, a.past, a.past, work->low + U * points);
-    gm_tangent_start(work->low + V * points, points, waves, 2 * phase - M_PI / 2);
-    step_in_cells(law, work, levels->past, levels->now);
-    for (size_t i = 0; i < points; i++) {
-        a.now[i] = -a.past[i];
-        for (size_t k = 0; k < work->rank; k++) {
-            a.now[i] += 2 * work->basis[U][k] * work->y[k * points + i];
-        }
-    }
-    memcpy(work->low, work->high, DIMENSION * points * sizeof(double));
-    step_in_cells(law, work, levels->now, levels->next);
-    if (law->by_differences) {
-        by_own_steps(&base, &a);
-        find_means(points, 0, a.next, a.next, work->high + U * points);
-    }
-    gm_collocation_faces(work, faces);
+    const struct tangent a = tangent_of(&base, which);
+    complete_cells(&base, &a, faces);
 }
 
 double gm_wave_form(const struct gm_law *law)
