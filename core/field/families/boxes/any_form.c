@@ -327,25 +327,39 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-/* u_t^2/2 + u_x^2/2 + V(u) at the stages of the cells, with the slopes that the boxes have there. */
-static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
-                          const double *remembered)
+double gm_any_form_integral(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            const double *remembered,
+                            double (*density)(const struct gm_problem *problem, const double *s,
+                                              const double *slope))
 {
-    (void)y;
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    struct gm_collocation *work = remembered ? gm_collocation_open(problem, scheme) : NULL;
     if (!work) {
         return NAN;
     }
-    const size_t points = work->points, count = work->r * points;
-    const double *u = gm_any_form_stages(remembered), *v = u + count;
-    double sum = 0, *slope = work->high;
-    gm_collocation_slopes(work, u, slope);
+    const size_t count = work->r * work->points;
+    const double *stages = gm_any_form_stages(remembered);
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    gm_collocation_slopes(work, stages, work->high);
     for (size_t at = 0; at < count; at++) {
-        sum += work->tableau->b[at / points] * ((v[at] * v[at] + slope[at] * slope[at]) / 2 +
-                                                gm_field_of(problem)->wave->potential(problem, u[at]));
+        for (size_t c = 0; c < work->d; c++) {
+            s[c] = stages[c * count + at];
+            slope[c] = work->high[c * count + at];
+        }
+        sum += work->tableau->b[at / work->points] * density(problem, s, slope);
     }
     gm_collocation_close(work);
     return problem->line.dx * sum;
+}
+
+static double wave_density(const struct gm_problem *problem, const double *s, const double *slope)
+{
+    return (s[1] * s[1] + slope[0] * slope[0]) / 2 + gm_field_of(problem)->wave->potential(problem, s[0]);
+}
+
+static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
+                          const double *remembered)
+{
+    return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
 }
 
 /* ---- the discrete multisymplectic law ---- */
@@ -369,19 +383,6 @@ static bool one_step(const void *context, const double *from, double *to)
     return true;
 }
 
-/* From [component][stage][cell] to faces. */
-static void to_face(const struct gm_collocation *work, const double *stages, double *face)
-{
-    const size_t r = work->r, d = work->d, points = work->points;
-    for (size_t i = 0; i < points; i++) {
-        for (size_t m = 0; m < r; m++) {
-            for (size_t c = 0; c < d; c++) {
-                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
-            }
-        }
-    }
-}
-
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
     const size_t low = of_level(law->work), size = memory(law->problem, law->scheme);
@@ -393,40 +394,34 @@ static void differentiate(const struct gm_law *law, const double *tangent, doubl
     }
 }
 
-/* Advances a tangent from s at the stages and finds its faces. */
-static void advance_tangent(const struct gm_law *law, size_t k, struct gm_faces *faces)
+/* Advances tangents from s at the stages. */
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     struct gm_collocation *work = law->work;
-    const size_t low = of_level(work), points = work->points, d = work->d, r = work->r;
-    const double waves = 2 + (double)k;
-    double *tangent = gm_arena_take(law->arena, 2 * low, sizeof *tangent), *next = tangent + low;
-    for (size_t at = 0; at < d * r; at++) {
-        gm_tangent_start(tangent + at * points, points, waves,
-                         0.3 + 0.4 * (double)k + (double)(at / r) +
-                             2 * M_PI * waves * work->tableau->c[at % r] / (double)points);
+    const size_t low = of_level(work), points = work->points, r = work->r;
+    double *tangents = gm_arena_take(law->arena, 4 * low, sizeof *tangents), *next = tangents + 2 * low;
+    for (size_t at = 0; at < 2 * work->d * r; at++) {
+        const size_t k = at / (work->d * r), row = at % (work->d * r);
+        const double waves = 2 + (double)k;
+        gm_tangent_start(tangents + at * points, points, waves,
+                         0.3 + 0.4 * (double)k + (double)(row / r) +
+                             2 * M_PI * waves * work->tableau->c[row % r] / (double)points);
     }
-    if (law->by_differences) {
-        differentiate(law, tangent, next);
+    for (size_t k = 0; k < 2 && law->by_differences; k++) {
+        differentiate(law, tangents + k * low, next + k * low);
     }
     struct gm_progress uncounted = {.status = GM_OK};
     guess(work, recall(work, law->memory));
     if (gm_collocation_step(work, law->dt, &uncounted) != GM_OK || !gm_collocation_linearise(work, law->dt)) {
         gm_arena_leave(law->arena);
     }
-    memcpy(work->low, tangent, low * sizeof *tangent);
-    gm_collocation_tangent(work, law->dt);
-    to_face(work, tangent, faces->lower);
-    to_face(work, law->by_differences ? next : work->high, faces->upper);
-    for (size_t i = 0; i <= points; i++) {
-        for (size_t j = 0; j < r; j++) {
-            double *side = faces->sides + (i * r + j) * d;
-            for (size_t c = 0; c < d; c++) {
-                for (size_t a = 0; a < work->rank; a++) {
-                    side[c] +=
-                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
-                }
-            }
+    for (size_t k = 0; k < 2; k++) {
+        memcpy(work->low, tangents + k * low, low * sizeof *tangents);
+        gm_collocation_tangent(work, law->dt);
+        if (law->by_differences) {
+            memcpy(work->high, next + k * low, low * sizeof *next);
         }
+        gm_collocation_faces(work, &faces[k]);
     }
 }
 
@@ -436,7 +431,7 @@ static double form(const struct gm_law *law)
     const struct gm_collocation_tableau *tableau = work->tableau;
     const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
                                      law->problem->line.dx, law->dt};
-    return gm_lattice_law(law, &cells, advance_tangent);
+    return gm_lattice_law(law, &cells, advance_tangents);
 }
 
 #define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
