@@ -173,6 +173,11 @@ static void open_arrays(struct gm_arena *arena, void *data)
     work->scratch = take(work, sides + 2 * points);
     work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
     work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
+    /* these a run does not do without, whose numbers would else depend on memory; those of Newton's method are many */
+    if (gm_field_of(work->problem)->form->potential_count == 0 &&
+        !open_factors(work, &work->constant, true)) {
+        gm_arena_leave(arena);
+    }
 }
 
 void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
