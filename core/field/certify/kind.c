@@ -255,7 +255,7 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
     if (!gm_scheme_fits(certificate->scheme, problem)) {
         return;
     }
-    const bool explicit = certificate->scheme->family == &gm_family_nodes;
+    const bool explicit = certificate->scheme->family == &gm_family_schroedinger_nodes;
     double error[2] = {NAN, NAN};
     for (size_t k = 0; k < 2; k++) {
         const size_t points = 300u << k;

@@ -23,7 +23,7 @@
 static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
-static const struct gm_collocation_tableau gauss4 = {
+const struct gm_collocation_tableau gm_collocation_gauss4 = {
     2,
     {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
     {0.5, 0.5},
@@ -49,7 +49,7 @@ static size_t of_level(const struct gm_collocation *work)
     return work->d * work->r * work->points;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+size_t gm_any_form_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const size_t r = ((const struct gm_collocation_tableau *)scheme->coefficients)->r,
                  d = gm_field_of(problem)->form->dimension;
@@ -248,7 +248,7 @@ static void start_wave(struct gm_collocation *work, const double *levels)
 }
 
 /* s at the stages, once; for another dt the steps before are forgotten. */
-static enum gm_status start(const struct gm_task *task)
+enum gm_status gm_any_form_start(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     if (task->memory_out[KNOWN] > 0) {
@@ -299,7 +299,7 @@ static void find_state(struct gm_collocation *work, double dt, double *state)
     }
 }
 
-static struct gm_progress advance(const struct gm_task *task)
+struct gm_progress gm_any_form_advance(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
@@ -351,17 +351,6 @@ double gm_any_form_integral(const struct gm_problem *problem, const struct gm_sc
     return problem->line.dx * sum;
 }
 
-static double wave_density(const struct gm_problem *problem, const double *s, const double *slope)
-{
-    return (s[1] * s[1] + slope[0] * slope[0]) / 2 + gm_field_of(problem)->wave->potential(problem, s[0]);
-}
-
-static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
-                          const double *remembered)
-{
-    return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
-}
-
 /* ---- the discrete multisymplectic law ---- */
 
 /* Memories before and after a step, and a state that is not looked at. */
@@ -385,7 +374,7 @@ static bool one_step(const void *context, const double *from, double *to)
 
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
-    const size_t low = of_level(law->work), size = memory(law->problem, law->scheme);
+    const size_t low = of_level(law->work), size = gm_any_form_memory(law->problem, law->scheme);
     double *given = gm_arena_take(law->arena, 2 * size + law->problem->n, sizeof *given);
     const struct base base = {law, given, given + size, given + 2 * size};
     memcpy(given, law->memory, size * sizeof *given);
@@ -425,7 +414,7 @@ static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
     }
 }
 
-static double form(const struct gm_law *law)
+double gm_any_form_law(const struct gm_law *law)
 {
     const struct gm_collocation *work = law->work;
     const struct gm_collocation_tableau *tableau = work->tableau;
@@ -442,36 +431,25 @@ static double form(const struct gm_law *law)
     }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "gauss-box3",
-        .title = "Gauss box, r = s = 2",
-        .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
-        .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
-        .family = &gm_family_any_form,
-        .coefficients = &gauss4,
-        .order = 3,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-    },
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
         &midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
+        3),
     BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };
 
 const struct gm_family gm_family_any_form = {
     .kind = &gm_kind_field,
-    .title = "multisymplectic Gauss collocation",
+    .title = "multisymplectic boxes of all components",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
-    .memory = memory,
-    .start = start,
+    .loop = gm_any_form_advance,
+    .memory = gm_any_form_memory,
+    .start = gm_any_form_start,
     .workspace_open = gm_collocation_open,
     .workspace_close = gm_collocation_close,
-    .form = form,
-    .wave_energy = wave_energy,
+    .form = gm_any_form_law,
 };

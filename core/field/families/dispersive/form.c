@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/field/families/dispersive/box.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 

@@ -8,18 +8,13 @@
                    stable for dt < dx^3/(4 mu)
        midpoint    (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0
                    stable for dt < dx^3/mu
-   Nonlinear Schroedinger, psi = p + i q, with the state p^{n-1} and q^n:
-       Euler box   (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
-                   (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
-                   stable for dt < dx^2/2
-   There is no midpoint scheme for Schroedinger's equation: its second solution, of alternating sign in time,
-   grows, and a soliton of amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the
-   limit of linear theory.
+   Nonlinear Schroedinger: schroedinger_nodes.c has its Euler box, and here is the law of both.
    B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). */
 #include <math.h>
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -100,50 +95,6 @@ static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *pr
         next[i] = now[i] - dt / (2 * problem->line.dx) *
                                (work->force[shifted(i, 1, points)] - work->force[shifted(i, -1, points)]);
     }
-}
-
-/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; false where no real p' is left. */
-static bool nls_first(const struct gm_grid1 *grid, double dt, double *p, const double *q)
-{
-    for (size_t i = 0; i < grid->points; i++) {
-        const double free = p[i] - dt * (second(q, i, 1, grid) + q[i] * q[i] * q[i]);
-        const double discriminant = 1 + 4 * dt * q[i] * free;
-        if (discriminant < 0) {
-            return false;
-        }
-        p[i] = 2 * free / (1 + sqrt(discriminant));
-    }
-    return true;
-}
-
-static void nls_second(const struct gm_grid1 *grid, double dt, const double *p, double *q)
-{
-    for (size_t i = 0; i < grid->points; i++) {
-        q[i] += dt * (second(p, i, 1, grid) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
-    }
-}
-
-static struct gm_progress nls_advance(const struct gm_task *task)
-{
-    const struct gm_grid1 *grid = &task->problem->line;
-    double *p = task->out, *q = p + grid->points;
-    struct gm_progress progress = {.status = GM_OK};
-    memcpy(p, task->y, 2 * grid->points * sizeof *p);
-    for (int64_t k = 0; k < task->steps; k++) {
-        progress.iterations++;
-        if (!nls_first(grid, task->dt, p, q)) {
-            progress.status = GM_NO_CONVERGENCE;
-            return progress;
-        }
-        nls_second(grid, task->dt, p, q);
-        progress.evaluations++;
-        if (!gm_field_within(p, 2 * grid->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-            return progress;
-        }
-        progress.done++;
-    }
-    return progress;
 }
 
 /* Schroedinger: a tangent of the solution p^{n-1}, q^n becomes that of p^n, q^{n+1}. */
@@ -323,7 +274,7 @@ static void mirror(double *u, size_t points)
     }
 }
 
-static double form(const struct gm_law *law)
+double gm_nodes_form(const struct gm_law *law)
 {
     const struct gm_problem *problem = law->problem;
     const size_t points = problem->line.points, size = points * sizeof(double);
@@ -386,30 +337,15 @@ static const struct gm_scheme schemes[] = {
         .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
     },
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula = "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_nodes,
-        .order = 1,
-        .needs = GM_NEEDS_FORM | GM_NEEDS_NLS,
-        .claims = GM_MULTISYMPLECTIC,
-    },
 };
-
-static struct gm_progress advance(const struct gm_task *task)
-{
-    return task->scheme->coefficients ? gm_two_step_advance(task) : nls_advance(task);
-}
 
 const struct gm_family gm_family_nodes = {
     .kind = &gm_kind_field,
     .title = "multisymplectic schemes of nodes",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
+    .loop = gm_two_step_advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,
-    .form = form,
+    .form = gm_nodes_form,
 };
