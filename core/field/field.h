@@ -47,7 +47,6 @@ enum { GM_MOST_OF_FORM = 8 }; /* components of a state that is s itself */
 /* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries, and may be the same. */
 struct gm_wave {
     double (*potential)(const struct gm_problem *problem, double u); /* V */
-    double (*slope)(const struct gm_problem *problem, double u);     /* V' */
     double (*curvature)(const struct gm_problem *problem, double u); /* V'' */
     void (*slopes)(const struct gm_problem *problem, const double *u, double *slope, size_t count);
     /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */

@@ -81,27 +81,27 @@ struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *c
 }
 
 double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
-                      void (*advance)(const struct gm_law *law, size_t tangent, struct gm_faces *faces))
+                      void (*advance)(const struct gm_law *law, struct gm_faces faces[2]))
 {
     const struct gm_form *field = gm_field_of(law->problem)->form;
     const size_t d = field->dimension;
-    struct gm_faces a = gm_faces_of(law, cells), b = gm_faces_of(law, cells);
+    struct gm_faces faces[2] = {gm_faces_of(law, cells), gm_faces_of(law, cells)};
+    const struct gm_faces *a = &faces[0], *b = &faces[1];
     double largest = 0;
-    advance(law, 0, &a);
-    advance(law, 1, &b);
+    advance(law, faces);
     for (size_t i = 0; i < cells->points; i++) {
         double residual = 0;
         for (size_t m = 0; m < cells->r; m++) {
             const size_t at = (i * cells->r + m) * d;
             residual += cells->space[m] / cells->dt *
-                        (form_at(d, field->m, a.upper + at, b.upper + at) -
-                         form_at(d, field->m, a.lower + at, b.lower + at));
+                        (form_at(d, field->m, a->upper + at, b->upper + at) -
+                         form_at(d, field->m, a->lower + at, b->lower + at));
         }
         for (size_t j = 0; j < cells->s; j++) {
             const size_t left = (i * cells->s + j) * d, right = left + cells->s * d;
             residual += cells->time[j] / cells->dx *
-                        (form_at(d, field->k, a.sides + right, b.sides + right) -
-                         form_at(d, field->k, a.sides + left, b.sides + left));
+                        (form_at(d, field->k, a->sides + right, b->sides + right) -
+                         form_at(d, field->k, a->sides + left, b->sides + left));
         }
         largest = gm_larger(fabs(residual), largest);
     }

@@ -50,10 +50,10 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
 /* The faces of one tangent, all 0, of the arena. */
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
 
-/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts tangent 0 or 1, makes a
-   step, and fills in its faces. */
+/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents, makes a
+   step, and fills in their faces. */
 double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
-                      void (*advance)(const struct gm_law *law, size_t tangent, struct gm_faces *faces));
+                      void (*advance)(const struct gm_law *law, struct gm_faces faces[2]));
 
 /* Fills in a tangent at a node at the three levels n - 1, n, n + 1, [level * dimension + component]. */
 typedef void gm_complete_node(const void *tangent, size_t node, double *s);

@@ -32,12 +32,6 @@ static double potential(const struct gm_problem *problem, double u)
     return 1 - cos(u);
 }
 
-static double slope(const struct gm_problem *problem, double u)
-{
-    (void)problem;
-    return sin(u);
-}
-
 static double curvature(const struct gm_problem *problem, double u)
 {
     (void)problem;
@@ -85,7 +79,6 @@ static void no_slopes(const struct gm_problem *problem, const double *u, double 
 
 static const struct gm_wave sine_gordon = {
     .potential = potential,
-    .slope = slope,
     .curvature = curvature,
     .slopes = slopes,
     .quotient = quotient,
@@ -94,7 +87,6 @@ static const struct gm_wave sine_gordon = {
 
 static const struct gm_wave linear = {
     .potential = none,
-    .slope = none,
     .curvature = none,
     .slopes = no_slopes,
     .quotient = none_between,

@@ -130,7 +130,6 @@ static double quotient_slope(const struct gm_problem *problem, double a, double 
 
 static const struct gm_wave formulas = {
     .potential = potential,
-    .slope = slope,
     .curvature = curvature,
     .slopes = slopes,
     .quotient = quotient,

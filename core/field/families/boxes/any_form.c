@@ -23,7 +23,7 @@
 static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
-static const struct gm_collocation_tableau gauss4 = {
+const struct gm_collocation_tableau gm_collocation_gauss4 = {
     2,
     {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
     {0.5, 0.5},
@@ -49,7 +49,7 @@ static size_t of_level(const struct gm_collocation *work)
     return work->d * work->r * work->points;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+size_t gm_any_form_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const size_t r = ((const struct gm_collocation_tableau *)scheme->coefficients)->r,
                  d = gm_field_of(problem)->form->dimension;
@@ -248,7 +248,7 @@ static void start_wave(struct gm_collocation *work, const double *levels)
 }
 
 /* s at the stages, once; for another dt the steps before are forgotten. */
-static enum gm_status start(const struct gm_task *task)
+enum gm_status gm_any_form_start(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     if (task->memory_out[KNOWN] > 0) {
@@ -299,7 +299,7 @@ static void find_state(struct gm_collocation *work, double dt, double *state)
     }
 }
 
-static struct gm_progress advance(const struct gm_task *task)
+struct gm_progress gm_any_form_advance(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
@@ -327,22 +327,25 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-/* u_t^2/2 + u_x^2/2 + V(u) at the stages of the cells, with the slopes that the boxes have there. */
-static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
-                          const double *remembered)
+double gm_any_form_integral(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            const double *remembered,
+                            double (*density)(const struct gm_problem *problem, const double *s,
+                                              const double *slope))
 {
-    (void)y;
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    struct gm_collocation *work = remembered ? gm_collocation_open(problem, scheme) : NULL;
     if (!work) {
         return NAN;
     }
-    const size_t points = work->points, count = work->r * points;
-    const double *u = gm_any_form_stages(remembered), *v = u + count;
-    double sum = 0, *slope = work->high;
-    gm_collocation_slopes(work, u, slope);
+    const size_t count = work->r * work->points;
+    const double *stages = gm_any_form_stages(remembered);
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    gm_collocation_slopes(work, stages, work->high);
     for (size_t at = 0; at < count; at++) {
-        sum += work->tableau->b[at / points] * ((v[at] * v[at] + slope[at] * slope[at]) / 2 +
-                                                gm_field_of(problem)->wave->potential(problem, u[at]));
+        for (size_t c = 0; c < work->d; c++) {
+            s[c] = stages[c * count + at];
+            slope[c] = work->high[c * count + at];
+        }
+        sum += work->tableau->b[at / work->points] * density(problem, s, slope);
     }
     gm_collocation_close(work);
     return problem->line.dx * sum;
@@ -369,22 +372,9 @@ static bool one_step(const void *context, const double *from, double *to)
     return true;
 }
 
-/* From [component][stage][cell] to faces. */
-static void to_face(const struct gm_collocation *work, const double *stages, double *face)
-{
-    const size_t r = work->r, d = work->d, points = work->points;
-    for (size_t i = 0; i < points; i++) {
-        for (size_t m = 0; m < r; m++) {
-            for (size_t c = 0; c < d; c++) {
-                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
-            }
-        }
-    }
-}
-
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
-    const size_t low = of_level(law->work), size = memory(law->problem, law->scheme);
+    const size_t low = of_level(law->work), size = gm_any_form_memory(law->problem, law->scheme);
     double *given = gm_arena_take(law->arena, 2 * size + law->problem->n, sizeof *given);
     const struct base base = {law, given, given + size, given + 2 * size};
     memcpy(given, law->memory, size * sizeof *given);
@@ -393,50 +383,44 @@ static void differentiate(const struct gm_law *law, const double *tangent, doubl
     }
 }
 
-/* Advances a tangent from s at the stages and finds its faces. */
-static void advance_tangent(const struct gm_law *law, size_t k, struct gm_faces *faces)
+/* Advances tangents from s at the stages. */
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     struct gm_collocation *work = law->work;
-    const size_t low = of_level(work), points = work->points, d = work->d, r = work->r;
-    const double waves = 2 + (double)k;
-    double *tangent = gm_arena_take(law->arena, 2 * low, sizeof *tangent), *next = tangent + low;
-    for (size_t at = 0; at < d * r; at++) {
-        gm_tangent_start(tangent + at * points, points, waves,
-                         0.3 + 0.4 * (double)k + (double)(at / r) +
-                             2 * M_PI * waves * work->tableau->c[at % r] / (double)points);
+    const size_t low = of_level(work), points = work->points, r = work->r;
+    double *tangents = gm_arena_take(law->arena, 4 * low, sizeof *tangents), *next = tangents + 2 * low;
+    for (size_t at = 0; at < 2 * work->d * r; at++) {
+        const size_t k = at / (work->d * r), row = at % (work->d * r);
+        const double waves = 2 + (double)k;
+        gm_tangent_start(tangents + at * points, points, waves,
+                         0.3 + 0.4 * (double)k + (double)(row / r) +
+                             2 * M_PI * waves * work->tableau->c[row % r] / (double)points);
     }
-    if (law->by_differences) {
-        differentiate(law, tangent, next);
+    for (size_t k = 0; k < 2 && law->by_differences; k++) {
+        differentiate(law, tangents + k * low, next + k * low);
     }
     struct gm_progress uncounted = {.status = GM_OK};
     guess(work, recall(work, law->memory));
     if (gm_collocation_step(work, law->dt, &uncounted) != GM_OK || !gm_collocation_linearise(work, law->dt)) {
         gm_arena_leave(law->arena);
     }
-    memcpy(work->low, tangent, low * sizeof *tangent);
-    gm_collocation_tangent(work, law->dt);
-    to_face(work, tangent, faces->lower);
-    to_face(work, law->by_differences ? next : work->high, faces->upper);
-    for (size_t i = 0; i <= points; i++) {
-        for (size_t j = 0; j < r; j++) {
-            double *side = faces->sides + (i * r + j) * d;
-            for (size_t c = 0; c < d; c++) {
-                for (size_t a = 0; a < work->rank; a++) {
-                    side[c] +=
-                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
-                }
-            }
+    for (size_t k = 0; k < 2; k++) {
+        memcpy(work->low, tangents + k * low, low * sizeof *tangents);
+        gm_collocation_tangent(work, law->dt);
+        if (law->by_differences) {
+            memcpy(work->high, next + k * low, low * sizeof *next);
         }
+        gm_collocation_faces(work, &faces[k]);
     }
 }
 
-static double form(const struct gm_law *law)
+double gm_any_form_law(const struct gm_law *law)
 {
     const struct gm_collocation *work = law->work;
     const struct gm_collocation_tableau *tableau = work->tableau;
     const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
                                      law->problem->line.dx, law->dt};
-    return gm_lattice_law(law, &cells, advance_tangent);
+    return gm_lattice_law(law, &cells, advance_tangents);
 }
 
 #define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
@@ -447,36 +431,25 @@ static double form(const struct gm_law *law)
     }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "gauss-box3",
-        .title = "Gauss box, r = s = 2",
-        .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
-        .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
-        .family = &gm_family_any_form,
-        .coefficients = &gauss4,
-        .order = 3,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-    },
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
         &midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
+        3),
     BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };
 
 const struct gm_family gm_family_any_form = {
     .kind = &gm_kind_field,
-    .title = "multisymplectic Gauss collocation",
+    .title = "multisymplectic boxes of all components",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
-    .memory = memory,
-    .start = start,
+    .loop = gm_any_form_advance,
+    .memory = gm_any_form_memory,
+    .start = gm_any_form_start,
     .workspace_open = gm_collocation_open,
     .workspace_close = gm_collocation_close,
-    .form = form,
-    .wave_energy = wave_energy,
+    .form = gm_any_form_law,
 };

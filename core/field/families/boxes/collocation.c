@@ -16,7 +16,6 @@
 
 #include <complex.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -24,15 +23,10 @@
 
 /* ---- the workspace ---- */
 
-static void close_factors(struct gm_collocation_factors *factors)
+/* NULL: memory is short; while a workspace is opened, that leaves the body. */
+static double *take(const struct gm_collocation *work, size_t count)
 {
-    if (factors->opened) {
-        gm_ring_band_close(&factors->sides);
-    }
-    free(factors->cells);
-    free(factors->pivots);
-    free(factors->scales);
-    *factors = (struct gm_collocation_factors){0};
+    return gm_arena_take(work->arena, count, sizeof(double));
 }
 
 static bool open_factors(const struct gm_collocation *work, struct gm_collocation_factors *factors,
@@ -40,19 +34,13 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 {
     const size_t rows = work->stages + work->sides, columns = rows + work->sides;
     const size_t cells = shared ? 1 : work->points;
-    if (factors->opened) {
-        return true;
-    }
-    *factors = (struct gm_collocation_factors){
-        .cells = malloc(cells * rows * columns * sizeof(double)),
-        .pivots = malloc(cells * work->stages * sizeof(size_t)),
-        .scales = malloc(cells * work->sides * sizeof(double)),
-        .shared = shared,
-    };
-    factors->opened = factors->cells && factors->pivots && factors->scales &&
-                      gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
     if (!factors->opened) {
-        close_factors(factors);
+        factors->shared = shared;
+        factors->cells = take(work, cells * rows * columns);
+        factors->pivots = gm_arena_take(work->arena, cells * work->stages, sizeof *factors->pivots);
+        factors->scales = take(work, cells * work->sides);
+        factors->opened = factors->cells && factors->pivots && factors->scales &&
+                          gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
     }
     return factors->opened;
 }
@@ -60,14 +48,13 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 void gm_collocation_close(void *workspace)
 {
     struct gm_collocation *work = workspace;
-    if (work->fourier) {
-        gm_fourier_close(work->fourier);
+    struct gm_collocation_factors *const factors[] = {&work->constant, &work->newton};
+    for (size_t i = 0; i < GM_COUNT(factors); i++) {
+        if (factors[i]->opened) {
+            gm_ring_band_close(&factors[i]->sides);
+        }
     }
-    close_factors(&work->constant);
-    close_factors(&work->newton);
-    free(work->waves);
-    free(work->memory);
-    free(work);
+    gm_arena_close(work->arena);
 }
 
 /* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come first, each by itself. */
@@ -160,66 +147,67 @@ static void invert(struct gm_collocation *work)
     work->rest = round(work->rest);
 }
 
+static void close_fourier(void *fourier)
+{
+    gm_fourier_close(fourier);
+}
+
+static void open_arrays(struct gm_arena *arena, void *data)
+{
+    struct gm_collocation *work = data;
+    const size_t points = work->points, level = work->d * work->r * points;
+    const size_t stages = work->stages * points, sides = work->sides * points;
+    work->low = take(work, level);
+    work->high = take(work, level);
+    work->z = take(work, stages);
+    work->first_z = take(work, stages);
+    work->y = take(work, sides);
+    work->first_y = take(work, sides);
+    for (size_t k = 0; k < GM_COLLOCATION_PAST; k++) {
+        work->past_z[k] = take(work, stages);
+        work->past_y[k] = take(work, sides);
+    }
+    work->gradient = take(work, stages);
+    work->hessian = take(work, work->d * stages);
+    work->right = take(work, stages + sides);
+    work->scratch = take(work, sides + 2 * points);
+    work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
+    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
+    /* these a run does not do without, whose numbers would else depend on memory; those of Newton's method are many */
+    if (gm_field_of(work->problem)->form->potential_count == 0 &&
+        !open_factors(work, &work->constant, true)) {
+        gm_arena_leave(arena);
+    }
+}
+
 void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_field *field = gm_field_of(problem);
     const struct gm_form *form = field->form;
-    struct gm_collocation *work = calloc(1, sizeof *work);
+    struct gm_arena *arena = gm_arena_open();
+    struct gm_collocation *work = arena ? gm_arena_take(arena, 1, sizeof *work) : NULL;
     if (!work) {
+        gm_arena_close(arena);
         return NULL;
     }
-    const size_t d = form->dimension, points = problem->line.points;
+    work->arena = arena;
     work->problem = problem;
     work->tableau = scheme->coefficients;
-    work->points = points;
-    work->d = d;
-    work->state = field->wave ? 1 : d;
+    work->points = problem->line.points;
+    work->d = form->dimension;
+    work->state = field->wave ? 1 : work->d;
     work->r = work->tableau->r;
     work->jump[0] = problem->line.jump;
-    for (size_t c = 0; form->jump && c < d; c++) {
+    for (size_t c = 0; form->jump && c < work->d; c++) {
         work->jump[c] = form->jump[c];
     }
     find_range(work, form);
     invert(work);
-    const size_t q = work->r * work->r;
-    work->stages = d * q;
+    work->stages = work->d * work->r * work->r;
     work->sides = work->r * work->rank;
-    struct {
-        double **array;
-        size_t numbers;
-    } arrays[] = {
-        {&work->low, d * work->r},
-        {&work->high, d * work->r},
-        {&work->z, work->stages},
-        {&work->past_z[0], work->stages},
-        {&work->past_z[1], work->stages},
-        {&work->past_z[2], work->stages},
-        {&work->first_z, work->stages},
-        {&work->gradient, work->stages},
-        {&work->hessian, d * work->stages},
-        {&work->right, work->stages + work->sides},
-        {&work->y, work->sides},
-        {&work->past_y[0], work->sides},
-        {&work->past_y[1], work->sides},
-        {&work->past_y[2], work->sides},
-        {&work->first_y, work->sides},
-        {&work->scratch, work->sides + 2},
-    };
-    size_t numbers = 0;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        numbers += arrays[i].numbers;
-    }
-    work->memory = calloc(numbers * points, sizeof(double));
-    work->waves = malloc(work->r * points * sizeof *work->waves);
-    work->fourier = gm_fourier_open(points);
-    if (!work->memory || !work->waves || !work->fourier) {
-        gm_collocation_close(work);
+    if (!gm_arena_run(arena, open_arrays, work)) {
+        gm_arena_close(arena);
         return NULL;
-    }
-    numbers = 0;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        *arrays[i].array = work->memory + numbers * points;
-        numbers += arrays[i].numbers;
     }
     return work;
 }
@@ -348,9 +336,8 @@ static void find_right(struct gm_collocation *work, double dt, bool tangent)
     }
 }
 
-/* The matrix of a cell's equations, rows as those of `right`, columns its stages, the left y, the right y. */
-static void cell_matrix(const struct gm_collocation *work, double dt, const double *hessian, size_t apart,
-                        double *matrix)
+/* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the right y. */
+static void cell_matrix(const struct gm_collocation *work, double dt, double *matrix)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t d = work->d, r = work->r, q = r * r, rank = work->rank, stages = work->stages;
@@ -366,7 +353,6 @@ static void cell_matrix(const struct gm_collocation *work, double dt, const doub
                     row[e * q + k * r + m] += form->m[c * d + e] * work->inverse[j][k] / dt;
                     row[e * q + j * r + k] += form->k[c * d + e] * work->inverse[m][k] / dx;
                 }
-                row[e * q + at] -= hessian[((c * d + e) * q + at) * apart];
             }
             for (size_t a = 0; a < rank; a++) {
                 row[stages + j * rank + a] = -work->slopes[c][a] * work->sums[m] / dx;
@@ -383,6 +369,17 @@ static void cell_matrix(const struct gm_collocation *work, double dt, const doub
                     row[c * q + j * r + l] = -weight * work->weights[l] * work->basis[c][a];
                 }
             }
+        }
+    }
+}
+
+static void subtract_hessian(const struct gm_collocation *work, const double *hessian, double *matrix)
+{
+    const size_t d = work->d, q = work->r * work->r, columns = work->stages + 2 * work->sides;
+    for (size_t row = 0; row < work->stages; row++) {
+        for (size_t e = 0; e < d; e++) {
+            matrix[row * columns + e * q + row % q] -=
+                hessian[((row / q * d + e) * q + row % q) * work->points];
         }
     }
 }
@@ -482,13 +479,19 @@ static bool factor(struct gm_collocation *work, struct gm_collocation_factors *f
     if (!open_factors(work, factors, shared)) {
         return false;
     }
+    /* what all cells have stands in the last one until it is that one's turn */
+    double *const last = factors->cells + (shared ? 0 : work->points - 1) * rows * columns;
+    cell_matrix(work, dt, last);
     gm_ring_band_clear(&factors->sides);
     factors->good = true;
     for (size_t i = 0; i < work->points && factors->good; i++) {
         const size_t place = shared ? 0 : i;
         double *matrix = factors->cells + place * rows * columns;
         if (!shared || i == 0) {
-            cell_matrix(work, dt, work->hessian + place, work->points, matrix);
+            if (matrix != last) {
+                memcpy(matrix, last, rows * columns * sizeof *last);
+            }
+            subtract_hessian(work, work->hessian + place, matrix);
             if (!shared && i + 1 == work->points) {
                 hold_potentials(work, matrix);
             }
@@ -769,7 +772,7 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt)
     const size_t d = work->d, count = work->r * work->r * work->points;
     memset(work->z, 0, work->stages * work->points * sizeof(double));
     memset(work->y, 0, work->sides * work->points * sizeof(double));
-    for (int again = 0; again < 3; again++) {
+    for (int again = 0; again < 2; again++) {
         /* solved again for what rounding leaves */
         for (size_t c = 0; c < d; c++) {
             double *gradient = work->gradient + c * count;
@@ -786,6 +789,37 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt)
         add_changes(work);
     }
     find_high(work);
+}
+
+/* From [component][stage][cell] to a face. */
+static void to_face(const struct gm_collocation *work, const double *stages, double *face)
+{
+    const size_t r = work->r, d = work->d, points = work->points;
+    for (size_t i = 0; i < points; i++) {
+        for (size_t m = 0; m < r; m++) {
+            for (size_t c = 0; c < d; c++) {
+                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
+            }
+        }
+    }
+}
+
+void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces)
+{
+    const size_t points = work->points, d = work->d, r = work->r;
+    to_face(work, work->low, faces->lower);
+    to_face(work, work->high, faces->upper);
+    for (size_t i = 0; i <= points; i++) {
+        for (size_t j = 0; j < r; j++) {
+            double *side = faces->sides + (i * r + j) * d;
+            for (size_t c = 0; c < d; c++) {
+                for (size_t a = 0; a < work->rank; a++) {
+                    side[c] +=
+                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
+                }
+            }
+        }
+    }
 }
 
 /* ---- nodes and stages ---- */

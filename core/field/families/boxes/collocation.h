@@ -4,7 +4,8 @@
 #ifndef GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 #define GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 
-#include "core/field/field.h"
+#include "core/arena.h"
+#include "core/field/multisymplectic.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
 #include "core/linear/ring_blocks.h"
@@ -56,9 +57,9 @@ struct gm_collocation {
     struct gm_fourier *fourier;
     struct gm_collocation_factors constant, newton; /* S'' at s = 0; at z */
     double constant_dt;                             /* 0: `constant` is not made */
-    bool needs_newton; /* `constant` did not serve a step; for steps of their own memory */
-    double *scratch;   /* [side], and two more */
-    double *memory;
+    bool needs_newton;      /* `constant` did not serve a step; for steps of their own memory */
+    double *scratch;        /* [side], and two more */
+    struct gm_arena *arena; /* of all of it */
 };
 
 /* As the family's workspace; NULL when memory is short. */
@@ -68,10 +69,12 @@ void gm_collocation_close(void *workspace);
 /* One step from `low` to `high`, with the guess in z and y, which become the solution. GM_NO_CONVERGENCE. */
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress);
 
-/* Makes the equations of a tangent at z; then from `low` of a tangent to `high`, z and y of it. False where
-   they are singular, or memory is short. */
+/* Linearises the equations at z, for steps of tangents from `low` to `high`, z and y. False where they are
+   singular, or memory is short. */
 bool gm_collocation_linearise(struct gm_collocation *work, double dt);
 void gm_collocation_tangent(struct gm_collocation *work, double dt);
+/* Fills in the faces of such a step. */
+void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces);
 
 /* grad S at `count` points, [component * count + point]. */
 void gm_collocation_gradients(const struct gm_collocation *work, const double *s, double *gradient,

@@ -16,6 +16,7 @@
    is that of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least one, maybe several,
    beyond. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -187,7 +188,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     }
     struct gm_two_step_work *work = gm_two_step_open(problem, scheme);
     if (work && !gm_ring_newton_open(&work->newton, work->points, 1, 1)) {
-        gm_two_step_close(work);
+        free(work);
         return NULL;
     }
     return work;

@@ -62,24 +62,25 @@ static struct base base_of(const struct gm_law *law)
     return base;
 }
 
-static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     const struct gm_problem *problem = law->problem;
     const size_t points = problem->line.points, field = field_of(problem);
     const struct base base = base_of(law);
     double *now = gm_arena_take(law->arena, 4 * points, sizeof *now), *next = now + 2 * points;
-    for (size_t at = 0; at < field; at += points) {
-        gm_tangent_start(now + at, points, 2 + (double)which,
-                         0.3 + 0.4 * (double)which + (double)(at / points));
+    for (size_t k = 0; k < 2; k++) {
+        for (size_t at = 0; at < field; at += points) {
+            gm_tangent_start(now + at, points, 2 + (double)k, 0.3 + 0.4 * (double)k + (double)(at / points));
+        }
+        const bool good =
+            law->by_differences
+                ? gm_differentiate(one_step, &base, field, base.now, now, field, next)
+                : gm_dispersive_tangent(law->work, problem, law->dt, base.cells, now, next) == GM_OK;
+        if (!good) {
+            gm_arena_leave(law->arena);
+        }
+        gm_field_of(problem)->dispersive->complete(problem, law->dt, base.cells, now, next, &faces[k]);
     }
-    const bool good =
-        law->by_differences
-            ? gm_differentiate(one_step, &base, field, base.now, now, field, next)
-            : gm_dispersive_tangent(law->work, problem, law->dt, base.cells, now, next) == GM_OK;
-    if (!good) {
-        gm_arena_leave(law->arena);
-    }
-    gm_field_of(problem)->dispersive->complete(problem, law->dt, base.cells, now, next, faces);
 }
 
 static struct gm_lattice cells_of(const struct gm_law *law)
@@ -91,7 +92,7 @@ static struct gm_lattice cells_of(const struct gm_law *law)
 double gm_dispersive_form(const struct gm_law *law)
 {
     const struct gm_lattice cells = cells_of(law);
-    return gm_lattice_law(law, &cells, advance_tangent);
+    return gm_lattice_law(law, &cells, advance_tangents);
 }
 
 /* [V(b) - V(a) - (b - a) V'((a + b)/2)] / step */

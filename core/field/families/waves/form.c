@@ -10,14 +10,31 @@
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/field/families/two_step.h"
-#include "core/field/families/waves/levels.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 #include "core/linear/ring.h"
+
+/* Where the state holds two levels, a step is made aside. */
+struct gm_levels gm_levels_of(const struct gm_law *law)
+{
+    const struct gm_two_step_row *row = law->scheme->coefficients;
+    const size_t points = law->problem->line.points, size = gm_wave_size(points);
+    const bool at_start = law->y[2 * points] != -law->dt, centred = row->law == GM_LAW_CENTRED;
+    double *out = gm_arena_take(law->arena, size + 2 * points, sizeof *out), *v = out + size;
+    if (!gm_law_step(law, at_start ? 2 : 1, law->y, centred ? law->memory : NULL, out, centred ? v : NULL)) {
+        gm_arena_leave(law->arena);
+    }
+    struct gm_levels levels = {.past = at_start ? law->y : law->y + points, .now = out + points, .next = out};
+    if (centred) {
+        levels.v_past = at_start ? law->memory : law->memory + points;
+        levels.v_now = v + points;
+        levels.v_next = v;
+    }
+    return levels;
+}
 
 enum { U, V, W, DIMENSION };
 
@@ -310,11 +327,13 @@ static struct tangent tangent_of(const struct base *base, size_t which)
     return a;
 }
 
-static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     const struct base base = base_of(law);
-    const struct tangent a = tangent_of(&base, which);
-    complete_cells(&base, &a, faces);
+    for (size_t k = 0; k < 2; k++) {
+        const struct tangent a = tangent_of(&base, k);
+        complete_cells(&base, &a, &faces[k]);
+    }
 }
 
 double gm_wave_form(const struct gm_law *law)
@@ -323,7 +342,7 @@ double gm_wave_form(const struct gm_law *law)
     const struct gm_grid1 *grid = &law->problem->line;
     if (law_of(law) == GM_LAW_CELLS) {
         const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, law->dt};
-        return gm_lattice_law(law, &cells, advance_tangent);
+        return gm_lattice_law(law, &cells, advance_tangents);
     }
     const bool centred = law_of(law) == GM_LAW_CENTRED;
     const struct base base = base_of(law);

@@ -26,6 +26,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 #include "core/linear/settled.h"
@@ -294,8 +295,9 @@ static bool one_step(const void *context, const double *from, double *to)
     return true;
 }
 
-/* Advances a tangent, u and then v, along the step from the state, and finds its faces. */
-static void advance_tangent(const struct gm_law *law, size_t which, struct gm_faces *faces)
+/* Advances tangent 0 or 1, u and then v, with V'' at the kicks, and finds its faces. */
+static void advance_tangent(const struct gm_law *law, const double *curvature, size_t which,
+                            struct gm_faces *faces)
 {
     enum { U, V, W, DIMENSION };
     const struct gm_lobatto_row *row = law->scheme->coefficients;
@@ -304,17 +306,11 @@ static void advance_tangent(const struct gm_law *law, size_t which, struct gm_fa
     const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
     const double length = 2 * law->problem->line.dx;
     struct gm_progress uncounted = {.status = GM_OK};
-    double *curvature = gm_arena_take(law->arena, (kicks + 4) * points, sizeof *curvature);
-    double *start = curvature + kicks * points, *end = start + 2 * points;
-    bool good = one_step(law, law->memory, end);
-    for (size_t at = 0; at < kicks * points; at++) {
-        curvature[at] =
-            gm_field_of(law->problem)->wave->curvature(law->problem, work->stage[at / points][at % points]);
-    }
+    double *start = gm_arena_take(law->arena, 4 * points, sizeof *start), *end = start + 2 * points;
     gm_tangent_start(start, points, waves, phase);
     gm_tangent_start(start + points, points, waves, phase + 1);
-    good = good && (!law->by_differences ||
-                    gm_differentiate(one_step, law, 2 * points, law->memory, start, 2 * points, end));
+    const bool good = !law->by_differences ||
+                      gm_differentiate(one_step, law, 2 * points, law->memory, start, 2 * points, end);
     memcpy(work->u, start, size);
     memcpy(work->v, start + points, size);
     work->fresh = false;
@@ -347,6 +343,23 @@ static void advance_tangent(const struct gm_law *law, size_t which, struct gm_fa
     }
 }
 
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
+{
+    struct work *work = law->work;
+    const size_t points = work->points,
+                 kicks = ((const struct gm_lobatto_row *)law->scheme->coefficients)->kicks;
+    double *curvature = gm_arena_take(law->arena, (kicks + 2) * points, sizeof *curvature);
+    if (!one_step(law, law->memory, curvature + kicks * points)) {
+        gm_arena_leave(law->arena);
+    }
+    for (size_t at = 0; at < kicks * points; at++) {
+        curvature[at] =
+            gm_field_of(law->problem)->wave->curvature(law->problem, work->stage[at / points][at % points]);
+    }
+    advance_tangent(law, curvature, 0, &faces[0]);
+    advance_tangent(law, curvature, 1, &faces[1]);
+}
+
 static double form(const struct gm_law *law)
 {
     static const double space[STAGES] = {1. / 6, 4. / 6, 1. / 6};
@@ -354,7 +367,7 @@ static double form(const struct gm_law *law)
     const struct gm_grid1 *grid = &law->problem->line;
     const struct gm_lattice elements = {grid->points / 2, STAGES,       row->kicks, space,
                                         row->kick,        2 * grid->dx, law->dt};
-    return gm_lattice_law(law, &elements, advance_tangent);
+    return gm_lattice_law(law, &elements, advance_tangents);
 }
 
 #define OUTER 0.41449077179437573714 /* 1/(4 - 4^(1/3)) */
@@ -368,34 +381,26 @@ static const struct gm_lobatto_row rows[] = {
      .drift = {OUTER, OUTER, INNER, OUTER, OUTER}},
 };
 
-/* The longest step, (w dt)^2 = square, with w^2 = 6/dx^2 + V'' wherever u is */
-static double longest(const struct gm_problem *problem, const double *y, double square)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    double most = 0;
-    for (size_t i = 0; i < grid->points; i++) {
-        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
-    }
-    return sqrt(square / (6 / (grid->dx * grid->dx) + most));
-}
 static double longest_of_verlet(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 4);
+    return gm_wave_longest(problem, y, 4, 6);
 }
 static double longest_of_three(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 8);
+    return gm_wave_longest(problem, y, 8, 6);
 }
 /* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
 static double longest_of_suzuki(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 7.403702439);
+    return gm_wave_longest(problem, y, 7.403702439, 6);
 }
 static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", longest_of_suzuki};
 static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", longest_of_verlet};
 static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longest_of_three};
 
-#define IN_SPACE "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in turn, D = 2Δx\n"
+#define IN_SPACE                                                                                                                   \
+    "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in " \
+    "turn, D = 2Δx\n"
 #define LOBATTO                                                                                              \
     .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS,                                   \
     .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC
