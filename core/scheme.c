@@ -41,27 +41,25 @@ const char *gm_claim_word(unsigned bit)
     return rows[bit].word;
 }
 
-bool gm_claims_read(const char *text, struct gm_span words, unsigned *claims, size_t *wrong)
+bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong)
 {
-    const bool none = words.end - words.begin == 4 && memcmp(text + words.begin, "none", 4) == 0;
-    for (*claims = 0; words.begin < words.end && !none;) {
+    const bool none = length == 4 && memcmp(words, "none", 4) == 0;
+    *claims = 0;
+    for (size_t at = 0; at < length && !none; at += strspn(words + at, " \t\n\r,")) {
         unsigned found = GM_CLAIM_COUNT;
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const size_t length = strlen(rows[bit].word), left = words.end - words.begin;
-            if (length <= left && memcmp(text + words.begin, rows[bit].word, length) == 0 &&
-                (length == left || strchr(" \t\n,", text[words.begin + length]))) {
+            const size_t letters = strlen(rows[bit].word), left = length - at;
+            if (letters <= left && memcmp(words + at, rows[bit].word, letters) == 0 &&
+                (letters == left || strchr(" \t\n,", words[at + letters]))) {
                 found = bit;
             }
         }
         if (found == GM_CLAIM_COUNT) {
-            *wrong = words.begin;
+            *wrong = at;
             return false;
         }
         *claims |= 1u << found;
-        words.begin += strlen(rows[found].word);
-        while (words.begin < words.end && strchr(" \t\n\r,", text[words.begin])) {
-            words.begin++;
-        }
+        at += strlen(rows[found].word);
     }
     return true;
 }

@@ -3,7 +3,6 @@
 #ifndef GM_CORE_SCHEME_H
 #define GM_CORE_SCHEME_H
 
-#include "core/expression/lines.h"
 #include "core/parameter.h"
 #include "core/problem.h"
 
@@ -35,7 +34,7 @@ enum gm_claim {
 const char *gm_claim_letter(unsigned bit);
 const char *gm_claim_word(unsigned bit);
 /* Claims by their words, one after the other, or "none"; false with the place of what is not a claim. */
-bool gm_claims_read(const char *text, struct gm_span words, unsigned *claims, size_t *wrong);
+bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 
 /* Parameters that schemes bring; every lane whose scheme uses one shares it. */
 struct gm_settings {

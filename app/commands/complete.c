@@ -53,8 +53,14 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 {
     char title[128];
     snprintf(title, sizeof title, "%s", listed->title);
-    if (!gm_scene_find(listed->name)) { /* those are offered as scenes */
-        offer(stem, listed->name, gm_text_tame(title));
+    offer(stem, listed->name, gm_text_tame(title));
+}
+
+/* A system or a room; those that are scenes are offered as scenes. */
+static void offer_other(const struct gm_listed *listed, const void *stem)
+{
+    if (!gm_scene_find(listed->name)) {
+        offer_file(listed, stem);
     }
 }
 
@@ -62,7 +68,7 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 {
     char message[GM_MESSAGE];
-    gm_files_each(kind, offer_file, stem, message);
+    gm_files_each(kind, kind == GM_FILE_TOUR ? offer_file : offer_other, stem, message);
 }
 
 static void offer_scenes(const struct stem *stem)

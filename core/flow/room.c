@@ -2,6 +2,7 @@
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
 #include "core/basics.h"
+#include "core/expression/nearest.h"
 
 #include <float.h>
 #include <math.h>
@@ -407,30 +408,39 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
             i++;
         }
-        if (i == GM_COUNT(options)) {
-            rectangle->transposed =
-                rectangle->transposed || (is_word(room, word, "along") && is_word(room, value, "y"));
-            for (int c = 0; c < 2 && is_word(room, word, "keep"); c++) {
+        double count;
+        if (i < GM_COUNT(options) && options[i].number) {
+            if (!gm_room_number(room, value, options[i].number, fault)) {
+                return false;
+            }
+        } else if (i < GM_COUNT(options)) {
+            snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
+                     room->text + value.begin);
+            if (!gm_room_number(room, value, &count, fault)) {
+                return false;
+            }
+            *options[i].count = count >= 0 && count < GM_LARGEST_ROOM ? (long)count : 0;
+        } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
+            rectangle->transposed = true;
+        } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
+            for (int c = 0; c < 2; c++) {
                 gm_span_take(room->text, &value, ",", &piece);
-                if (rectangle->fixed_count * 2 == GM_COUNT(room->fixed) ||
-                    !gm_room_number(room, piece, &room->fixed[2 * rectangle->fixed_count + (size_t)c],
+                if (!gm_room_number(room, piece, &room->fixed[2 * rectangle->fixed_count + (size_t)c],
                                     fault)) {
                     return false;
                 }
-                rectangle->fixed_count += c == 1;
             }
-        } else if (options[i].number && !gm_room_number(room, value, options[i].number, fault)) {
-            return false;
-        } else if (options[i].key) {
-            snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
-                     room->text + value.begin);
-            const struct gm_room_parameter *parameter = gm_room_parameter(room, options[i].key);
-            *options[i].count = parameter && parameter->value < GM_LARGEST_ROOM ? (long)parameter->value : 0;
+            rectangle->fixed_count++;
+        } else {
+            return gm_fail(fault, word.begin,
+                           "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
+                           "up to %zu keep",
+                           GM_COUNT(room->fixed) / 2);
         }
     }
     return room->rectangular &&
            ((rectangle->width > 0 && rectangle->height > 0 && rectangle->edges > 0) ||
-            gm_fail(fault, place, "a rectangle has a width, a height, and edges that a parameter tells"));
+            gm_fail(fault, place, "a rectangle has a width, a height and a number of edges, all above 0"));
 }
 
 /* NAME = VALUE; low .. high; meaning, or NAME = WORD of WORD, WORD; meaning */
@@ -528,6 +538,13 @@ static const char *const others[] = {"watch",   "reference", "time",        "sub
                                      "colours", "levels",    "exact-while", "schemes",  "lanes",
                                      "work",    "parameter", "choice",      "side",     "observe",
                                      "graph",   "profile",   "table",       "figure",   "stability"};
+
+/* Of all lines of several words or formulas. */
+static const char *line_word(size_t i, const void *data)
+{
+    (void)data;
+    return i < WORDS ? words[i].word : others[i - WORDS];
+}
 
 static bool read_other(const struct gm_room *room, struct gm_text_line line, bool *met,
                        struct gm_fault *fault)
@@ -740,13 +757,12 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, const s
             }
         }
         if (!met) {
-            return gm_fail(
-                fault, line.word.begin,
-                "a room has no line %.*s:; it has geomint: title: about: mesh: units: scalar: viscosity: "
-                "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: what "
-                "docs/rooms.md lists of parameters and pictures, "
-                "exact: boundary: inlet: outlet: wall: source: probe: start:",
-                (int)(letters < 40 ? letters : 40), word);
+            char name[41];
+            snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), word);
+            const char *near = gm_nearest(name, WORDS + GM_COUNT(others), line_word, NULL);
+            return gm_fail(fault, line.word.begin, "a room has no line %s:; %s%s%s", name,
+                           near ? "did you mean " : "docs/rooms.md lists them all", near ? near : "",
+                           near ? ":" : "");
         }
     }
     if (fault->sentence[0] || room->graph.failed) {

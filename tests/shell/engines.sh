@@ -142,8 +142,8 @@ else
     grep -q 'the compiler failed: .*No space left on device' err || fail "of a full disk: $(cat err)"
     [ ! -s left ] || fail "a full disk keeps $(cat left)"
 fi
-# a built-in problem has no engine
-status 0 run kepler until=1 --json --engine native
+# a built-in problem in C has no engine
+status 0 run disc until=1 --json --engine native
 grep -q '"engine"' out && fail "a built-in problem tells an engine"
 
 refused 1 'none of: auto, interpreted, native' run lorenz --engine fast

@@ -262,7 +262,7 @@ wrong() {
         printf '%b\n' "$2"; } | sed "${3:-}" >wrong.room
     refused 1 "$1" run ./wrong.room steps=1
 }
-wrong 'wrong.room:5:1: a room has no line inlt:.* probe: start:$' 'inlt: vent flow = 1'
+wrong 'wrong.room:5:1: a room has no line inlt:; did you mean inlet:' 'inlt: vent flow = 1'
 wrong 'wrong.room:5:8: inlet: needs speed = or flow =' 'inlet: vent'
 wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' 'inlet: vent tangential = 1'
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'

@@ -92,13 +92,13 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
                of_midpoint = is_text(scheme, GM_SCHEME_WORD_BASE, "midpoint");
     const struct gm_span claimed = scheme->lines[GM_SCHEME_WORD_CLAIMS].value;
     unsigned claims = 0;
-    size_t wrong = claimed.begin;
+    size_t wrong;
     char identifier[64];
     snprintf(identifier, sizeof identifier, "%s", name);
     for (char *at = identifier; (at = strchr(at, '-'));) {
         *at = '_';
     }
-    if (!gm_claims_read(scheme->text, claimed, &claims, &wrong) ||
+    if (!gm_claims_read(scheme->text + claimed.begin, claimed.end - claimed.begin, &claims, &wrong) ||
         (scheme->kind == GM_WRITTEN_COMPOSITION
              ? !of_verlet && !of_midpoint
              : scheme->kind != GM_WRITTEN_RUNGE_KUTTA && scheme->kind != GM_WRITTEN_SPLITTING)) {

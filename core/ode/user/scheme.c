@@ -649,8 +649,9 @@ static struct own *make_processed(const struct making *making, const struct gm_w
 static void read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
 {
     size_t wrong;
-    if (!gm_claims_read(making->source->text, line->value, claims, &wrong)) {
-        fail(making, wrong,
+    if (!gm_claims_read(making->source->text + line->value.begin, line->value.end - line->value.begin, claims,
+                        &wrong)) {
+        fail(making, line->value.begin + wrong,
              "a claim was expected: symplectic, symmetric, reversible, keeps energy, keeps quadratic "
              "invariants, keeps bilinear invariants, keeps linear invariants, keeps volume; or none");
     }
