@@ -382,6 +382,8 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
     return read_pairs(room, line, value, fault);
 }
 
+enum { MOST_EDGES = 100000 }; /* of a side */
+
 /* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
    False without a fault: the line names a file. */
 static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
@@ -419,7 +421,7 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
             if (!gm_room_number(room, value, &count, fault)) {
                 return false;
             }
-            *options[i].count = count >= 0 && count < GM_LARGEST_ROOM ? (long)count : 0;
+            *options[i].count = count >= 0 && count <= MOST_EDGES ? (long)count : 0;
         } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
             rectangle->transposed = true;
         } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
@@ -440,7 +442,9 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
     }
     return room->rectangular &&
            ((rectangle->width > 0 && rectangle->height > 0 && rectangle->edges > 0) ||
-            gm_fail(fault, place, "a rectangle has a width, a height and a number of edges, all above 0"));
+            gm_fail(fault, place,
+                    "a rectangle has a width, a height and a number of edges above 0, up to %d edges",
+                    MOST_EDGES));
 }
 
 /* NAME = VALUE; low .. high; meaning, or NAME = WORD of WORD, WORD; meaning */
