@@ -21,13 +21,18 @@ static struct gm_lane *open_lane(const char *scene_name, const char *scheme, con
     const struct gm_scene *scene = gm_scene_find(scene_name);
     const struct gm_settings settings = {0};
     char sentence[GM_MESSAGE];
-    void *parameters = calloc(1, scene->size);
-    gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
-    for (size_t i = 0; words[i][0]; i++) {
-        const struct gm_parameter *row = gm_scene_parameter(scene, words[i][0]);
+    void *parameters = gm_scene_defaults(scene);
+    const char *keys[8];
+    size_t count = 0;
+    assert_non_null(parameters);
+    for (; words[count][0]; count++) {
+        const struct gm_parameter *row = gm_scene_parameter(scene, words[count][0]);
         assert_non_null(row);
-        assert_int_equal(gm_parameter_set(row, parameters, words[i][1]), GM_PARSED);
+        assert_true(count < GM_COUNT(keys));
+        keys[count] = row->key;
+        assert_int_equal(gm_parameter_set(row, parameters, words[count][1]), GM_PARSED);
     }
+    assert_true(!scene->settle || scene->settle(parameters, keys, count, sentence));
     struct gm_lane *lane = gm_lane_open(scene, parameters, &settings, gm_scheme_find(scheme), sentence);
     if (!lane) {
         fail_msg("%s", sentence);
