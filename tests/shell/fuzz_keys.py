@@ -98,7 +98,8 @@ class Session:
         return True
 
     def run_out(self):
-        while select.select([self.master], [], [], 0)[0]:
+        """Reads what is left. The last bytes of a program that has ended may still be on their way: reading fails at their end."""
+        while select.select([self.master], [], [], 1)[0]:
             try:
                 self.take(os.read(self.master, 1 << 16))
             except OSError:
