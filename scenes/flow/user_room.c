@@ -535,8 +535,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
     struct gm_look look = {
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
-                  gm_picture_text(picture, "%s", name_unit(user_room, spread, unit))},
-                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL}},
+                  gm_picture_text(picture, "%s", name_unit(user_room, spread, unit)), false},
+                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
         .axes = {gm_picture_text(picture, "x%s", beside_unit(user_room, length, unit)),
                  gm_picture_text(picture, "y%s", beside_unit(user_room, length, unit))},
