@@ -255,7 +255,11 @@ char *gm_scheme_words_from(const char *path, const char *word)
         before = ",";
         rest.begin = name.end + 1;
     }
-    return stream && fclose(stream) == 0 ? text : NULL;
+    if (!stream || fclose(stream) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
 }
 
 bool gm_scheme_check(const char *name, size_t *at, char *message)

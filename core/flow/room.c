@@ -990,36 +990,35 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* Whether a boundary edge is of a line's side: by the mesh's groups, or by a line `side:`. */
-static bool is_on_side(const struct gm_room *room, const struct gm_room_line *line,
-                       const struct gm_triangulation *mesh, size_t b, bool *is_on, struct gm_fault *fault)
+/* The conditions of the line `side:` of that name; false: there is none. */
+static bool find_side(const struct gm_room *room, const char *side, struct gm_span *conditions)
 {
-    const size_t e = (size_t)mesh->complex->boundary_edge[b];
-    *is_on = is_rest(room, mesh, line->name);
-    if (*is_on) {
-        return true;
-    }
-    if (!room->rectangular || room->from_file) {
-        const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
-        char name[256];
-        for (const char *at = other ? other->text : line->name; *at;
-             at += strcspn(at, ","), at += *at == ',') {
-            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, other ? "," : ""), at);
-            const long tag = gm_triangulation_group(mesh, name);
-            *is_on |= tag != 0 && gm_triangulation_has(mesh, e, tag);
-        }
-        return true;
-    }
-    double middle[VARIABLES] = {0};
-    gm_complex_middle(mesh->complex, e, middle + X);
-    struct gm_span rest, name;
-    for (size_t i = 0; gm_room_said(room, "side", i, &rest); i++) {
-        gm_span_take(room->text, &rest, ";", &name);
-        if (is_word(room, name, line->name)) {
-            return holds_at(room, rest, middle, is_on, fault);
+    struct gm_text_line line;
+    struct gm_fault fault;
+    struct gm_span name;
+    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, &fault);) {
+        *conditions = line.value;
+        if (is_word(room, line.word, "side") && gm_span_take(room->text, conditions, ";", &name) &&
+            is_word(room, name, side)) {
+            return true;
         }
     }
-    return true;
+    return false;
+}
+
+/* Whether a boundary edge is of a line's group, or of one of those that the parameter of its name lists. */
+static bool is_in_group(const struct gm_room *room, const struct gm_room_line *line,
+                        const struct gm_triangulation *mesh, size_t e)
+{
+    const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
+    char name[256];
+    bool is_in = false;
+    for (const char *at = other ? other->text : line->name; *at; at += strcspn(at, ","), at += *at == ',') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, other ? "," : ""), at);
+        const long tag = gm_triangulation_group(mesh, name);
+        is_in |= tag != 0 && gm_triangulation_has(mesh, e, tag);
+    }
+    return is_in;
 }
 
 /* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
@@ -1029,10 +1028,16 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
         const bool all = is_rest(room, mesh, line->name);
+        const bool grouped = !all && (!room->rectangular || room->from_file);
+        struct gm_span conditions;
+        const bool conditional = !all && !grouped && find_side(room, line->name, &conditions);
         bool met = false;
         for (size_t b = 0; line->word <= GM_ROOM_BOUNDARY && b < mesh->complex->boundary; b++) {
-            bool is_on = false;
-            if (!is_on_side(room, line, mesh, b, &is_on, fault)) {
+            const size_t e = (size_t)mesh->complex->boundary_edge[b];
+            double middle[VARIABLES] = {0};
+            gm_complex_middle(mesh->complex, e, middle + X);
+            bool is_on = all || (grouped && is_in_group(room, line, mesh, e));
+            if (conditional && !holds_at(room, conditions, middle, &is_on, fault)) {
                 return false;
             }
             if (is_on && side_of[b] != 0 && !all) {

@@ -84,6 +84,16 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
 enum family { IMPLICIT, SPLITTING, COMPOSITIONS, FAMILIES };
 static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions"};
 
+/* Whether the steps are the same from both ends, as a row holds half of them. */
+static bool is_symmetric(const struct gm_written_line *steps)
+{
+    bool same = true;
+    for (int i = 0; i < steps->columns; i++) {
+        same = same && steps->numbers[i].value == steps->numbers[steps->columns - 1 - i].value;
+    }
+    return same && steps->columns % 2 == 1;
+}
+
 /* Writes the scheme if the family advances it. False if it cannot be a row. */
 static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const char *name,
                        enum family family)
@@ -100,7 +110,7 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
     }
     if (!gm_claims_read(scheme->text + claimed.begin, claimed.end - claimed.begin, &claims, &wrong) ||
         (scheme->kind == GM_WRITTEN_COMPOSITION
-             ? !of_verlet && !of_midpoint
+             ? !(of_verlet || of_midpoint) || !is_symmetric(&scheme->lines[GM_SCHEME_WORD_STEPS])
              : scheme->kind != GM_WRITTEN_RUNGE_KUTTA && scheme->kind != GM_WRITTEN_SPLITTING)) {
         return false;
     }

@@ -120,16 +120,6 @@ static char *keep_text(const struct making *making, char *text)
     return gm_arena_keep(making->arena, text, free);
 }
 
-__attribute__((format(printf, 1, 2))) static char *text_of(const char *format, ...)
-{
-    char *text = NULL;
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vasprintf(&text, format, arguments);
-    va_end(arguments);
-    return length < 0 ? NULL : text;
-}
-
 /* -- tableaus
    ------------------------------------------------------------------------------------------------ */
 
@@ -672,7 +662,7 @@ static const char *numbers_of(const struct gm_written_line *line, char text[64])
 }
 
 /* A name for pictures where none is said. */
-static char *title_of(const struct gm_written_scheme *written,
+static char *title_of(const struct making *making, const struct gm_written_scheme *written,
                       const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
 {
     const struct gm_written_line *lines = written->lines;
@@ -680,19 +670,22 @@ static char *title_of(const struct gm_written_scheme *written,
     char numbers[64], others[64];
     switch (written->kind) {
     case GM_WRITTEN_COMPOSITION:
-        return text_of("%d step%s of %s (%s)", steps, gm_plural(steps), schemes[GM_SCHEME_WORD_BASE]->title,
-                       numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
+        return gm_arena_print(making->arena, "%d step%s of %s (%s)", steps, gm_plural(steps),
+                              schemes[GM_SCHEME_WORD_BASE]->title,
+                              numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
     case GM_WRITTEN_ADJOINT:
-        return text_of("adjoint of %s", schemes[GM_SCHEME_WORD_BASE]->title);
+        return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE]->title);
     case GM_WRITTEN_PROCESSED:
-        return text_of("%s, processed by %s", schemes[GM_SCHEME_WORD_KERNEL]->title,
-                       schemes[GM_SCHEME_WORD_PROCESSOR]->title);
+        return gm_arena_print(making->arena, "%s, processed by %s", schemes[GM_SCHEME_WORD_KERNEL]->title,
+                              schemes[GM_SCHEME_WORD_PROCESSOR]->title);
     case GM_WRITTEN_SPLITTING:
-        return text_of("splitting (%s / %s)", numbers_of(&lines[GM_SCHEME_WORD_DRIFTS], numbers),
-                       numbers_of(&lines[GM_SCHEME_WORD_KICKS], others));
+        return gm_arena_print(making->arena, "splitting (%s / %s)",
+                              numbers_of(&lines[GM_SCHEME_WORD_DRIFTS], numbers),
+                              numbers_of(&lines[GM_SCHEME_WORD_KICKS], others));
     default:
-        return text_of("own %s, %d stage%s (b: %s)", gm_written_kind_name(written->kind), stages,
-                       gm_plural(stages), numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
+        return gm_arena_print(making->arena, "own %s, %d stage%s (b: %s)",
+                              gm_written_kind_name(written->kind), stages, gm_plural(stages),
+                              numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
     }
 }
 
@@ -733,13 +726,13 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         words[word] = schemes[word] ? gm_scheme_word(schemes[word]) : NULL;
     }
-    row->name = keep_text(making, strdup(name));
-    row->title = keep_text(making, own_title->said ? gm_span_words(written->text, own_title->value)
-                                   : title         ? strdup(title)
-                                                   : title_of(written, schemes));
+    row->name = gm_arena_print(making->arena, "%s", name);
+    row->title = own_title->said ? keep_text(making, gm_span_words(written->text, own_title->value))
+                 : title         ? gm_arena_print(making->arena, "%s", title)
+                                 : title_of(making, written, schemes);
     row->formula = row->word = keep_text(making, gm_written_word(written, row->title, words));
-    row->reference = keep_text(making, reference->said ? gm_span_words(written->text, reference->value)
-                                                       : strdup("brought along"));
+    row->reference =
+        reference->said ? keep_text(making, gm_span_words(written->text, reference->value)) : "brought along";
 }
 
 /* What is not said is what theory says; without theory the order is that of what it is made of. Of a scheme
