@@ -18,18 +18,6 @@
 #undef GM_SYSTEM_SCENE
 #undef GM_ROOM_SCENE
 
-static struct {
-    const struct gm_scene *scene; /* NULL: the file was not opened yet */
-    const char *file;
-} rows[] = {
-#define GM_SYSTEM_SCENE(name) {NULL, name},
-#define GM_ROOM_SCENE(name) {NULL, name},
-#define GM_SCENE(name) {&gm_scene_##name, NULL},
-#include "scenes/scenes.def"
-#undef GM_SCENE
-#undef GM_SYSTEM_SCENE
-#undef GM_ROOM_SCENE
-};
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
 /* What stands for a scene that there was no memory for: it opens no lane. */
@@ -59,21 +47,32 @@ static const struct gm_scene *open_room(const char *name)
     return gm_user_room_open(&file, &fault, sentence);
 }
 
-static const struct gm_scene *open_file(const char *name)
+static const struct gm_scene *open_system(const char *name)
 {
     const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, name);
     struct gm_user_system system;
     struct gm_fault fault;
     char sentence[GM_MESSAGE];
-    if (!file) {
-        return open_room(name);
-    }
     if (!gm_equations_open(&system, file->text, file->length, NULL, 0, &fault)) {
         gm_system_close(&system);
         return NULL;
     }
     return gm_system_scene_open(&system, name, NULL, false, sentence);
 }
+
+static struct {
+    const struct gm_scene *scene; /* NULL: the file was not opened yet */
+    const char *file;
+    const struct gm_scene *(*open)(const char *file);
+} rows[] = {
+#define GM_SYSTEM_SCENE(name) {NULL, name, open_system},
+#define GM_ROOM_SCENE(name) {NULL, name, open_room},
+#define GM_SCENE(name) {&gm_scene_##name, NULL, NULL},
+#include "scenes/scenes.def"
+#undef GM_SCENE
+#undef GM_SYSTEM_SCENE
+#undef GM_ROOM_SCENE
+};
 
 size_t gm_scene_count(void)
 {
@@ -84,7 +83,7 @@ const struct gm_scene *gm_scene_at(size_t index)
 {
     pthread_mutex_lock(&opening);
     if (!rows[index].scene) {
-        rows[index].scene = open_file(rows[index].file);
+        rows[index].scene = rows[index].open(rows[index].file);
     }
     const struct gm_scene *scene = rows[index].scene;
     pthread_mutex_unlock(&opening);

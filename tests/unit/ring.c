@@ -11,7 +11,7 @@
 
 #include "core/basics.h"
 #include "core/linear/fourier.h"
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 #include "core/linear/sine.h"
 
 static void sines_are_sines(void **unused)

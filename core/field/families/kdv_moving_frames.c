@@ -30,7 +30,7 @@
 #include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/problems/moving_frames.h"
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 #include "core/linear/settled.h"
 
 enum {

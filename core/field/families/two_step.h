@@ -4,7 +4,7 @@
 #define GM_CORE_FIELD_FAMILIES_TWO_STEP_H
 
 #include "core/field/field.h"
-#include "core/linear/ring_newton.h"
+#include "core/linear/ring/newton.h"
 
 /* Levels have two more points than the grid, at both ends: level[-1] and level[points]. */
 struct gm_two_step_work {

@@ -10,7 +10,7 @@
 
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0};

@@ -13,7 +13,7 @@
 
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};

@@ -7,8 +7,8 @@
 #include "core/arena.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/fourier.h"
-#include "core/linear/ring.h"
-#include "core/linear/ring_blocks.h"
+#include "core/linear/ring/blocks.h"
+#include "core/linear/ring/ring.h"
 
 enum { GM_COLLOCATION_STAGES = 3, GM_COLLOCATION_PAST = 3 };
 

@@ -15,7 +15,7 @@
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 
 /* Where the state holds two levels, a step is made aside. */
 struct gm_levels gm_levels_of(const struct gm_law *law)

@@ -4,7 +4,7 @@
    which runs forwards where |z| < 1 and backwards where |z| > 1, so that rounding dies out; what it starts from is a
    geometric sum around the ring. y follows from the n of them. G.W. Stewart & J. Sun, Matrix Perturbation Theory (1990),
    chapter VI. */
-#include "core/linear/ring_blocks.h"
+#include "core/linear/ring/blocks.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method with halved steps (Deuflhard, Newton Methods for Nonlinear Problems (2004), 3.1). */
-#include "core/linear/ring_newton.h"
+#include "core/linear/ring/newton.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef GM_CORE_LINEAR_RING_NEWTON_H
 #define GM_CORE_LINEAR_RING_NEWTON_H
 
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 #include "core/scheme.h"
 
 /* Newton's method for equations F(u) = 0 around a ring, each of which knows its neighbours only. u is

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_LINEAR_RING_H
-#define GM_CORE_LINEAR_RING_H
+#ifndef GM_CORE_LINEAR_RING_RING_H
+#define GM_CORE_LINEAR_RING_RING_H
 
 #include <stdbool.h>
 #include <stddef.h>

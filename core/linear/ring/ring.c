@@ -8,7 +8,7 @@
    counts.
 
    A band around a ring that is folded flat, 0, n - 1, 1, n - 2, ..., is a band of twice the width. */
-#include "core/linear/ring.h"
+#include "core/linear/ring/ring.h"
 
 #include <complex.h>
 #include <math.h>
