@@ -650,7 +650,7 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
         gm_refuse(sentence, "not enough memory");
         return NULL;
     }
-    lane->scene = scene;
+    lane->scene = scene->variant ? scene->variant(parameters) : scene;
     lane->settings = *settings;
     lane->scheme = lane->first_scheme = scheme;
     gm_lane_show(lane, &(const struct gm_shown){0});
