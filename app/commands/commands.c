@@ -2,12 +2,14 @@
 /* What commands share: their table, and that what takes very long is asked about first. */
 #include "app/commands/commands.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/output/say.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
+#include "core/arena.h"
 #include "core/basics.h"
 
 const struct gm_command_row gm_commands[] = {
@@ -25,6 +27,17 @@ const struct gm_command_row *gm_command_find(const char *word)
         }
     }
     return gm_scene_find(word) || gm_system_is(word) ? &gm_commands[0] : NULL;
+}
+
+void gm_command_end(const struct gm_options *options, int status, const char *format, ...)
+{
+    char sentence[GM_MESSAGE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    *options->end = gm_give_up(status, "%s", sentence);
+    gm_arena_leave(options->arena);
 }
 
 /* ---- long runs ---- */

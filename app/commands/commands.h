@@ -45,6 +45,8 @@ struct gm_options {
     bool sized;                    /* a size was given */
     struct gm_overrides terminal;  /* what to believe of it */
     struct gm_arguments arguments; /* what is left: scene, key=value, names */
+    struct gm_arena *arena;        /* in whose body the command runs: refused memory ends it */
+    int *end;                      /* the exit status of gm_command_end */
 };
 
 /* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
@@ -80,6 +82,10 @@ struct gm_command_row {
 #define GM_COMMAND(bit, name, ...) int gm_command_##name(const struct gm_options *options);
 #include "app/commands/commands.def"
 #undef GM_COMMAND
+
+/* Ends the command with an exit status and a sentence on standard error. */
+__attribute__((format(printf, 3, 4))) _Noreturn void gm_command_end(const struct gm_options *options,
+                                                                    int status, const char *format, ...);
 
 extern const struct gm_command_row gm_commands[]; /* the first is the explorer */
 extern const size_t gm_command_count;

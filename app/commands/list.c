@@ -449,11 +449,7 @@ int gm_command_list(const struct gm_options *options)
     const bool is_system =
         *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
-        const enum gm_telling telling = options->json     ? GM_TELL_JSON
-                                        : options->latex  ? GM_TELL_LATEX
-                                        : options->longer ? GM_TELL_ALL
-                                                          : GM_TELL_SHORT;
-        return gm_list_system(&options->arguments, typed ? NULL : &file, telling);
+        return gm_list_system(options, typed ? NULL : &file);
     }
     if (options->latex) {
         return gm_give_up(GM_EXIT_USAGE,
