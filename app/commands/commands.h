@@ -92,11 +92,15 @@ extern const size_t gm_command_count;
 /* The command of that name; for the name of a scene the explorer; or NULL. */
 const struct gm_command_row *gm_command_find(const char *word);
 
+/* The request of these words, which closes with the command; one that cannot be ends it. */
+struct gm_request *gm_command_parse(const struct gm_options *options, int count, char *const words[],
+                                    size_t schemes);
+
 /* More steps than these are made if --yes confirms that. */
 extern const double gm_many_steps;
 
-/* Whether the steps of a request are to be made; false with a sentence on how many they are and how long they take. */
-bool gm_command_confirmed(const struct gm_options *options, const struct gm_request *request);
+/* Ends the command with a sentence on how many steps these are, and how long they take, unless they are to be made. */
+void gm_command_confirm(const struct gm_options *options, const struct gm_request *request);
 
 /* "3.2 years" */
 void gm_put_duration(double seconds, char *text, size_t size);

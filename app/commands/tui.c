@@ -14,13 +14,8 @@ int gm_command_terminal(const struct gm_options *options)
 
 int gm_command_tui(const struct gm_options *options)
 {
-    char message[GM_MESSAGE];
-    struct gm_request request = {0};
-    if (options->arguments.count > 0 &&
-        !gm_request_parse(&request, options->arguments.count, options->arguments.words, 3, message)) {
-        return gm_give_up(gm_request_refusal(&request), "%s", message);
-    }
-    const int status = gm_explorer(options->arguments.count > 0 ? &request : NULL, NULL, &options->terminal);
-    gm_request_close(&request);
-    return status;
+    const struct gm_arguments *words = &options->arguments;
+    const struct gm_request *request =
+        words->count > 0 ? gm_command_parse(options, words->count, words->words, GM_RENDER_SCHEMES) : NULL;
+    return gm_explorer(request, NULL, &options->terminal);
 }
