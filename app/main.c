@@ -13,7 +13,7 @@
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
-#include "app/native/sources.h"
+#include "app/native/cache.h"
 #include "app/output/say.h"
 #include "core/arena.h"
 #include "core/expression/nearest.h"

@@ -3,9 +3,11 @@
 #define GM_APP_COMMANDS_COMMANDS_H
 
 #include "app/base/arguments.h"
+#include "app/base/files.h"
 #include "app/explorer/terminal/device.h"
 #include "app/native/engine.h"
 #include "app/output/printer.h"
+#include "app/output/row.h"
 #include "app/words/request.h"
 
 /* The commands, as bits: an option says which of them take it. */
@@ -104,6 +106,14 @@ void gm_command_confirm(const struct gm_options *options, const struct gm_reques
 
 /* "3.2 years" */
 void gm_put_duration(double seconds, char *text, size_t size);
+
+/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
+   parameters other values; without a file they are all there is, "system H=... key=value ...". Returns the
+   exit status. */
+int gm_list_system(const struct gm_options *options, const struct gm_file *file);
+
+/* "file":"systems/toda.system","source":"..."; null both where there is no file. */
+void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 
 /* The tours, as `tour` and `list tours` print them. Returns an exit status. */
 int gm_list_tours(const struct gm_options *options);

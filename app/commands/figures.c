@@ -16,7 +16,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/figures/page.h"
+#include "app/figures/figure.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
 #include "app/output/say.h"

@@ -8,10 +8,10 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/output/checkpoint.h"
 #include "app/output/folder.h"
+#include "app/output/frames.h"
+#include "app/output/printer.h"
 #include "app/output/say.h"
-#include "app/output/still.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
 #include "core/expression/number.h"

@@ -9,7 +9,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/output/chart.h"
+#include "app/output/printer.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "core/arena.h"

@@ -10,7 +10,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/measuring/measuring.h"
 #include "app/grid/chart.h"
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"

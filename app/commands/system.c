@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is known of somebody's own system: its equations as they were derived, its structure with reasons, and
    the schemes that fit it. */
-#include "app/commands/reference/reference.h"
+#include "app/commands/commands.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "app/output/say.h"
-#include "app/output/wrapped.h"
 #include "app/words/system.h"
 #include "core/arena.h"
 #include "core/basics.h"
