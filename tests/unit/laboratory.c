@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 #include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
