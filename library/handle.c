@@ -21,7 +21,7 @@ const char *geomint_version(void)
 
 const char *geomint_scene_name(size_t index)
 {
-    return index < gm_scene_count() ? gm_scene_at(index)->name : NULL;
+    return index < gm_scene_count() ? gm_scene_name(index) : NULL;
 }
 
 const char *geomint_scheme_name(size_t index)

@@ -44,12 +44,12 @@ static void list_texts(const struct gm_options *options, const char *const texts
 static int list_scenes(const struct gm_options *options)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        const struct gm_scene *scene = gm_scene_at(i);
-        const char *const texts[][2] = {{"scene", scene->name},
-                                        {"title", scene->title},
-                                        {"blurb", scene->blurb},
-                                        {"watch", scene->watch},
-                                        {"time_unit", scene->time}};
+        const struct gm_scene *scene = options->json || options->longer ? gm_scene_at(i) : NULL;
+        const char *const texts[][2] = {{"scene", gm_scene_name(i)},
+                                        {"title", gm_scene_title(i)},
+                                        {"blurb", scene ? scene->blurb : ""},
+                                        {"watch", scene ? scene->watch : ""},
+                                        {"time_unit", scene ? scene->time : ""}};
         list_texts(options, texts, GM_COUNT(texts), GM_COUNT(texts) - 1, 16);
     }
     return gm_finish(GM_EXIT_OK);

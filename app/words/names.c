@@ -153,7 +153,7 @@ bool gm_system_near(const char *word, char near[GM_NEAR], char *message)
     struct gm_arguments names = {0}, *list = &names;
     message[0] = '\0';
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        gm_arguments_add(&names, gm_scene_at(i)->name);
+        gm_arguments_add(&names, gm_scene_name(i));
     }
     for (enum gm_file_kind kind = GM_FILE_SYSTEM; kind <= GM_FILE_ROOM; kind++) {
         gm_files_each(kind, add_to, &list, message);
