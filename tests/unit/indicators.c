@@ -17,6 +17,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 enum { STEPS = 3, MOST = 2 * GM_SUBJECT_COMPONENTS };
 
@@ -118,8 +119,10 @@ static void every_scheme(void **unused)
         }
         size_t held = 0;
         for (size_t k = 0; k < gm_subject_count(); k++) {
-            const struct gm_subject subject = gm_subject_at(k);
+            struct gm_subject subject;
+            assert_true(gm_subject_open(&subject, k));
             if (!gm_subject_fits(&subject, scheme)) {
+                gm_subject_close(&subject);
                 continue;
             }
             /* steps at which the equations of all schemes can be solved */
@@ -129,6 +132,7 @@ static void every_scheme(void **unused)
                          subject.problem.name, defect);
             }
             held += defect >= 0;
+            gm_subject_close(&subject);
         }
         if (held == 0) {
             fail_msg("%s: its derivative was held against nothing", scheme->name);

@@ -12,6 +12,7 @@
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 enum { MOST = 32 };
 

@@ -417,10 +417,11 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     for (size_t i = 0; i < gm_subject_count(); i++) {
-        const struct gm_subject subject = gm_subject_at(i);
-        if (gm_subject_fits(&subject, scheme)) {
+        struct gm_subject subject;
+        if (gm_subject_open(&subject, i) && gm_subject_fits(&subject, scheme)) {
             measure(certificate, &subject);
         }
+        gm_subject_close(&subject);
     }
     /* a scheme that chooses its order has to follow its tolerance */
     certificate->order_holds = scheme->order == 0

@@ -3,6 +3,7 @@
 #define GM_CORE_ODE_CERTIFY_MEASURE_H
 
 #include "core/certify.h"
+#include "core/ode/user/model.h"
 #include "core/ode/variational/manifold.h"
 
 /* What kind.c certifies by: the problems that schemes are certified on, and the measurements. */
@@ -29,10 +30,14 @@ struct gm_subject {
         *bilinear[GM_SUBJECT_INVARIANTS],
         *momentum
             [GM_SUBJECT_INVARIANTS]; /* of symmetries that move q by affine maps; NULL where it has none */
+    struct gm_user_system system;    /* that the problem is of, where it is one that was read */
+    struct gm_user_model model;
 };
 
 size_t gm_subject_count(void);
-struct gm_subject gm_subject_at(size_t index);
+/* It does not move while it is open. False: out of memory. To be closed in both cases. */
+bool gm_subject_open(struct gm_subject *subject, size_t index);
+void gm_subject_close(struct gm_subject *subject);
 bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme);
 
 /* The components that a scheme maps: the state, or with a second copy of phase space both. */

@@ -2,16 +2,32 @@
 /* The certification problems: non-linear, not chaotic over the times that are used, each with structure of
    its own. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/files/files.h"
+#include "core/model/equations.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 #include "core/run.h"
 
-static const double well = 0.3, no_well = 0, friction = 0.4, perturbation = 0.05, omega = 5, strength = 2;
+static const double omega = 5, strength = 2;
 static const double abc_constants[] = {1, 0.8, 0.6};
 static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
+
+/* On a line, coupled by a hard spring, in a well unless a = 0. Masses that differ catch a scheme that takes p for the
+   velocity; steps shorten with the distance. */
+#define PARTICLES                                                                                            \
+    "coordinates: q1 q2\nmomenta: p1 p2\nparameter: a = 0.3\nlet: d = q1 - q2\n"                             \
+    "H: p1^2/2 + p2^2/6 + d*d/2 + d*d*d*d/4 + a*(q1*q1*q1*q1 + q2*q2*q2*q2)/4\n"                             \
+    "monitor: 1 + d^2\nstart: q1 = 1, q2 = 0, p1 = 0, p2 = 0\n"
+/* Rays of light where the index of refraction is 2/(1 + |q|^2), which are circles. M. Born & E. Wolf, Principles of
+   Optics, 4.2.2. */
+#define FISH_EYE                                                                                             \
+    "coordinates: q1 q2\nmomenta: p1 p2\nlet: n = 1 + (q1^2 + q2^2)\nH: n^2*(p1^2 + p2^2)/8\n"               \
+    "start: q1 = 1, q2 = 0, p1 = 0, p2 = 1\n"
 
 static double momentum(const struct gm_problem *problem, const double *y)
 {
@@ -90,112 +106,146 @@ static double circle(const struct gm_problem *problem, const double *y)
     return (y[0] * y[0] + y[1] * y[1]) / 2;
 }
 
-static const struct {
+/* The problem is one in C with these parameters, or that of a system: a built-in file of this name or a text. */
+static const struct row {
     const struct gm_problem *problem;
     const void *parameters;
+    const char *name, *system;
+    struct gm_system_value
+        value; /* of one of the system's parameters, where it is another one than in the text */
     struct gm_subject subject;
-} subjects[] = {
-    {&gm_problem_pendulum, NULL, {.start = {0.6, 1.1}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_particles, &well, {.start = {0.5, -0.4, 0.3, 0.8}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_particles,
-     &no_well,
-     {.start = {0.7, -0.2, 0.4, -0.9},
-      .dt = 0.6,
-      .hamiltonian = true,
-      .linear = {momentum},
-      .momentum = {momentum}}},
-    {&gm_problem_kepler,
-     NULL,
-     {.start = {0.8, 0.1, -0.2, 1.2},
-      .dt = 0.3,
-      .hamiltonian = true,
-      .quadratic = {angular_momentum},
-      .bilinear = {angular_momentum},
-      .momentum = {angular_momentum}}},
-    {&gm_problem_oscillator,
-     NULL,
-     {.start = {0.8, -0.5}, .dt = 0.1, .only = GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN, .quadratic = {circle}}},
-    {&gm_problem_damped_pendulum,
-     &friction,
-     {.start = {0.6, 1.1}, .dt = 0.6, .only = GM_NEEDS_FRICTION, .friction = friction}},
-    {&gm_problem_spherical_pendulum,
-     NULL,
-     {.start = {0.6, 0, -0.8, 0.4, 0.7, 0.3},
-      .dt = 0.3,
-      .only = GM_NEEDS_CONSTRAINTS,
-      .hamiltonian = true,
-      .momentum = {vertical_momentum}}},
-    {&gm_problem_henon_heiles, NULL, {.start = {0.1, -0.1, 0.3, 0.2}, .dt = 0.6, .hamiltonian = true}},
-    {&gm_problem_product, NULL, {.start = {0.5, -0.6}, .dt = 0.3, .hamiltonian = true}},
-    {&gm_problem_fish_eye,
-     NULL,
-     {.start = {0.8, 0.1, -0.2, 0.7},
-      .dt = 0.3,
-      .only = GM_NEEDS_INSEPARABLE,
-      .hamiltonian = true,
-      .bilinear = {angular_momentum},
-      .momentum = {angular_momentum}}},
-    {&gm_problem_vortices_four,
-     &strength,
-     {.start = {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
-      .dt = 0.6,
-      .hamiltonian = true,
-      .linear = {impulse_x, impulse_y},
-      .quadratic = {angular_impulse}}},
-    {&gm_problem_rigid_body,
-     NULL,
-     {.start = {0.9, 0.5, -0.7}, .dt = 0.6, .quadratic = {sphere, ellipsoid}, .casimir = {sphere}}},
-    {&gm_problem_abc, abc_constants, {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .volume = true}},
-    {&gm_problem_linear,
-     trace_free,
-     {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .only = GM_NEEDS_VOLUME, .volume = true}},
-    {&gm_problem_kepler_perturbed,
-     &perturbation,
-     {.start = {0.8, 0.1, -0.2, 1.2},
-      .dt = 0.3,
-      .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
-      .hamiltonian = true,
-      .quadratic = {angular_momentum},
-      .bilinear = {angular_momentum}}},
-    {&gm_problem_ring,
-     NULL,
-     {.start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
-      .dt = 0.3,
-      .only = GM_NEEDS_SEMILINEAR,
-      .linear = {ring_sum},
-      .quadratic = {ring_square}}},
-    {&gm_problem_fpu,
-     &omega,
-     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-      .dt = 0.3,
-      .only = GM_NEEDS_FAST_LINEAR,
-      .hamiltonian = true}},
+} rows[] = {
+    {&gm_problem_pendulum, .subject = {.start = {0.6, 1.1}, .dt = 0.6, .hamiltonian = true}},
+    {.name = "particles",
+     .system = PARTICLES,
+     .subject = {.start = {0.5, -0.4, 0.3, 0.8}, .dt = 0.6, .hamiltonian = true}},
+    {.name = "particles",
+     .system = PARTICLES,
+     .value = {"a", "0"},
+     .subject = {.start = {0.7, -0.2, 0.4, -0.9},
+                 .dt = 0.6,
+                 .hamiltonian = true,
+                 .linear = {momentum},
+                 .momentum = {momentum}}},
+    {.name = "kepler",
+     .system = "kepler",
+     .subject = {.start = {0.8, 0.1, -0.2, 1.2},
+                 .dt = 0.3,
+                 .hamiltonian = true,
+                 .quadratic = {angular_momentum},
+                 .bilinear = {angular_momentum},
+                 .momentum = {angular_momentum}}},
+    {&gm_problem_oscillator, .subject = {.start = {0.8, -0.5},
+                                         .dt = 0.1,
+                                         .only = GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN,
+                                         .quadratic = {circle}}},
+    {.name = "damped pendulum",
+     .system = "coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nforce: q = -0.4*p\nstart: q = 0, p = 0\n",
+     .subject = {.start = {0.6, 1.1}, .dt = 0.6, .only = GM_NEEDS_FRICTION, .friction = 0.4}},
+    {&gm_problem_spherical_pendulum, .subject = {.start = {0.6, 0, -0.8, 0.4, 0.7, 0.3},
+                                                 .dt = 0.3,
+                                                 .only = GM_NEEDS_CONSTRAINTS,
+                                                 .hamiltonian = true,
+                                                 .momentum = {vertical_momentum}}},
+    {.name = "henon-heiles",
+     .system = "henon-heiles",
+     .subject = {.start = {0.1, -0.1, 0.3, 0.2}, .dt = 0.6, .hamiltonian = true}},
+    {.name = "product", /* not separable: M. Tao, Phys. Rev. E 94 (2016) 043303 */
+     .system = "coordinates: q\nmomenta: p\nH: (1 + q^2)*(1 + p^2)/2\nstart: q = 1, p = 0\n",
+     .subject = {.start = {0.5, -0.6}, .dt = 0.3, .hamiltonian = true}},
+    {.name = "fish-eye",
+     .system = FISH_EYE,
+     .subject = {.start = {0.8, 0.1, -0.2, 0.7},
+                 .dt = 0.3,
+                 .only = GM_NEEDS_INSEPARABLE,
+                 .hamiltonian = true,
+                 .bilinear = {angular_momentum},
+                 .momentum = {angular_momentum}}},
+    {&gm_problem_vortices_four, &strength,
+     .subject = {.start = {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
+                 .dt = 0.6,
+                 .hamiltonian = true,
+                 .linear = {impulse_x, impulse_y},
+                 .quadratic = {angular_impulse}}},
+    {.name = "rigid-body",
+     .system = "rigid-body",
+     .subject =
+         {.start = {0.9, 0.5, -0.7}, .dt = 0.6, .quadratic = {sphere, ellipsoid}, .casimir = {sphere}}},
+    {&gm_problem_abc, abc_constants, .subject = {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .volume = true}},
+    {&gm_problem_linear, trace_free,
+     .subject = {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .only = GM_NEEDS_VOLUME, .volume = true}},
+    {.name = "kepler-perturbed",
+     .system = "kepler",
+     .value = {"perturbation", "0.05"},
+     .subject = {.start = {0.8, 0.1, -0.2, 1.2},
+                 .dt = 0.3,
+                 .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
+                 .hamiltonian = true,
+                 .quadratic = {angular_momentum},
+                 .bilinear = {angular_momentum}}},
+    {&gm_problem_ring, .subject = {.start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
+                                   .dt = 0.3,
+                                   .only = GM_NEEDS_SEMILINEAR,
+                                   .linear = {ring_sum},
+                                   .quadratic = {ring_square}}},
+    {&gm_problem_fpu, &omega,
+     .subject = {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+                 .dt = 0.3,
+                 .only = GM_NEEDS_FAST_LINEAR,
+                 .hamiltonian = true}},
     /* (h Omega)^2 = 0.09, with which two copies of phase space bear the binding that they are given here */
-    {&gm_problem_fpu,
-     &omega,
-     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-      .dt = 0.06,
-      .only = GM_NEEDS_HAMILTONIAN,
-      .hamiltonian = true}},
+    {&gm_problem_fpu, &omega,
+     .subject = {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+                 .dt = 0.06,
+                 .only = GM_NEEDS_HAMILTONIAN,
+                 .hamiltonian = true}},
 };
 
 size_t gm_subject_count(void)
 {
-    return GM_COUNT(subjects);
+    return GM_COUNT(rows);
 }
 
-struct gm_subject gm_subject_at(size_t index)
+bool gm_subject_open(struct gm_subject *subject, size_t index)
 {
-    struct gm_subject subject = subjects[index].subject;
-    subject.problem = *subjects[index].problem;
-    subject.problem.parameters = subjects[index].parameters;
-    return subject;
+    const struct row *row = &rows[index];
+    *subject = row->subject;
+    if (row->problem) {
+        subject->problem = *row->problem;
+        subject->problem.parameters = row->parameters;
+        return true;
+    }
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, row->system);
+    const char *text = file ? file->text : row->system;
+    struct gm_fault fault;
+    double *values = NULL;
+    const bool good = gm_equations_open(&subject->system, text, strlen(text), &row->value,
+                                        row->value.name != NULL, &fault) &&
+                      gm_user_model_open(&subject->model, &subject->system) &&
+                      (values = gm_equations_start(&subject->system, NULL)) != NULL;
+    if (good) {
+        memcpy(values, subject->start, subject->system.n * sizeof *values);
+    }
+    const bool opened = good && gm_user_problem_open(&subject->problem, &subject->model, values);
+    subject->problem.name = row->name;
+    free(values);
+    return opened;
+}
+
+void gm_subject_close(struct gm_subject *subject)
+{
+    if (subject->model.system) {
+        gm_user_problem_close(&subject->problem);
+    }
+    gm_user_model_close(&subject->model);
+    gm_system_close(&subject->system);
 }
 
 bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
-    const bool meant = subject->only == 0 || (scheme->needs & subject->only) != 0;
-    return meant && gm_scheme_fits(scheme, &subject->problem);
+    const bool meant = subject->only == 0 || (scheme->needs & subject->only) != 0,
+               flows = (scheme->needs & GM_NEEDS_VOLUME) == 0 || subject->volume;
+    return meant && flows && gm_scheme_fits(scheme, &subject->problem);
 }
 
 size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme)
