@@ -12,7 +12,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/reference/version.h"
+#include "app/commands/reference/reference.h"
 #include "app/native/sources.h"
 #include "app/output/say.h"
 #include "core/expression/nearest.h"
@@ -25,7 +25,7 @@
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
-    return i < gm_command_count ? gm_commands[i]->name : gm_scene_at(i - gm_command_count)->name;
+    return i < gm_command_count ? gm_commands[i].name : gm_scene_at(i - gm_command_count)->name;
 }
 
 /* Whether a word is one of a few, as --help, -h and help are. */
@@ -40,7 +40,14 @@ static bool is_one_of(const char *word, const char *const *words)
 static void help_command(const struct gm_command_row *command)
 {
     printf("  geomint %s %s\n      %s\n", command->name, command->synopsis, command->help);
-    gm_options_help(command->bit);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        const struct gm_option *option = &gm_option_rows[i];
+        if (option->commands & command->bit) {
+            char left[40];
+            snprintf(left, sizeof left, "%s %s", option->name, option->value);
+            printf("      %-20s %s\n", left, option->help);
+        }
+    }
 }
 
 static int help_of(const struct gm_command_row *command)
@@ -52,9 +59,8 @@ static int help_of(const struct gm_command_row *command)
 static int unknown_command(const char *word)
 {
     const char *near = gm_nearest(word, gm_command_count + gm_scene_count(), first_word, NULL);
-    gm_complain("there is no command or scene \"%.60s\"%s%s", word,
-                near ? "; did you mean " : "; see geomint --help", near ? near : "");
-    return GM_EXIT_USAGE;
+    return gm_give_up(GM_EXIT_USAGE, "there is no command or scene \"%.60s\"%s%s", word,
+                      near ? "; did you mean " : "; see geomint --help", near ? near : "");
 }
 
 static int help(void)
@@ -63,7 +69,7 @@ static int help(void)
            "  geomint [tui [SCENE] [key=value ...]]\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
-        help_command(gm_commands[i]);
+        help_command(&gm_commands[i]);
     }
     printf(
         "  geomint --version (-V) | --help (-h), geomint COMMAND --help (-h)\n\n"
@@ -112,7 +118,7 @@ static int run(int argc, char *argv[])
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     gm_context_answer_crashes();
-    const struct gm_command_row *command = gm_commands[0];
+    const struct gm_command_row *command = &gm_commands[0];
     int first = 1;
     if (argc > 1) {
         if (is_one_of(argv[1], (const char *const[]){"--help", "-h", "help", NULL})) {
@@ -133,10 +139,7 @@ static int run(int argc, char *argv[])
         /* a scene's name opens the explorer, and is its first word */
         first = !option && strcmp(command->name, argv[1]) == 0 ? 2 : 1;
     }
-    if (command->raw) {
-        return command->raw(argc - first, argv + first);
-    }
-    for (int i = first; i < argc; i++) {
+    for (int i = first; i < argc && command->bit != GM_COMPLETE; i++) {
         if (is_one_of(argv[i], (const char *const[]){"--help", "-h", NULL})) {
             return help_of(command);
         }

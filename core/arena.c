@@ -43,6 +43,24 @@ void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top)
     }
 }
 
+void gm_arena_drop(struct gm_arena *arena, const void *thing)
+{
+    struct gm_arena_entry *entry = arena->top;
+    while (entry->thing != thing) {
+        entry = entry->before;
+    }
+    if (entry->before) {
+        entry->before->after = entry->after;
+    }
+    if (entry->after) {
+        entry->after->before = entry->before;
+    } else {
+        arena->top = entry->before;
+    }
+    entry->close(entry->thing);
+    free(entry);
+}
+
 struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena)
 {
     return arena->top;
@@ -104,6 +122,13 @@ static void *refused(struct gm_arena *arena)
     return NULL;
 }
 
+void gm_arena_need(struct gm_arena *arena, bool there)
+{
+    if (!there) {
+        gm_arena_refuse(arena, "%s", no_memory);
+    }
+}
+
 static struct gm_arena_entry *add(struct gm_arena *arena, struct gm_arena_entry *entry)
 {
     entry->before = arena->top;
@@ -147,6 +172,21 @@ void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t 
         arena->top = entry;
     }
     return entry->block;
+}
+
+char *gm_arena_print(struct gm_arena *arena, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const size_t size = (size_t)vsnprintf(NULL, 0, format, arguments) + 1;
+    va_end(arguments);
+    char *text = gm_arena_take(arena, size, 1);
+    if (text) {
+        va_start(arguments, format);
+        vsnprintf(text, size, format, arguments);
+        va_end(arguments);
+    }
+    return text;
 }
 
 void *gm_arena_keep(struct gm_arena *arena, void *thing, void (*close)(void *thing))

@@ -6,10 +6,12 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <gsl/gsl_errno.h>
 
 #include "core/memory.h"
+#include "core/run.h"
 
 static unsigned bit_of(enum gm_claim claim)
 {
@@ -31,6 +33,15 @@ void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim c
     verdict->reason = verdict->measured || verdict->undecided ? NULL
                       : verdict->reason                       ? verdict->reason
                                                               : reason;
+}
+
+void gm_certificate_withhold_all(struct gm_certificate *certificate, unsigned claims, const char *reason)
+{
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (claims >> bit & 1) {
+            gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit), reason);
+        }
+    }
 }
 
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
@@ -60,6 +71,13 @@ void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim 
     verdict->problem = verdict->measured ? verdict->problem : problem;
 }
 
+double gm_invariant_value(const void *invariant, const double *y, const double *memory)
+{
+    const struct gm_invariant *of = invariant;
+    (void)memory;
+    return of->value(of->problem, y);
+}
+
 double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
                            const double *direction)
 {
@@ -78,6 +96,112 @@ double gm_kept_differences(const struct gm_kept *kept, const double *start, size
     }
     free(y);
     return size > 0 ? fabs(sum) / size : 0;
+}
+
+unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied, double size)
+{
+    enum { DIRECTIONS = 4 };
+    const double none = 1e-11;
+    const size_t half = n / 2;
+    double *all = calloc(3 * n, sizeof *all), *q = all ? all + n : NULL, *p = all ? q + n : NULL;
+    bool varies = false, linear = true, quadratic = true, bilinear = true, of_momenta = true;
+    for (int k = 1; all && k <= DIRECTIONS; k++) {
+        for (size_t c = 0; c < varied; c++) {
+            all[c] = size * sin(k * (double)(3 * c + 1)); /* any direction */
+            *(c < half ? &q[c] : &p[c]) = all[c];
+        }
+        varies = varies || !(gm_kept_differences(kept, start, n, 1, all) < none);
+        linear = linear && gm_kept_differences(kept, start, n, 2, all) < none;
+        quadratic = quadratic && gm_kept_differences(kept, start, n, 3, all) < none;
+        bilinear = bilinear && gm_kept_differences(kept, start, n, 2, q) < none &&
+                   gm_kept_differences(kept, start, n, 2, p) < none;
+        of_momenta = of_momenta && fabs(kept->value(kept->data, q, NULL)) <=
+                                       none * fabs(kept->value(kept->data, all, NULL));
+    }
+    free(all);
+    const unsigned map = bilinear && of_momenta && 2 * half == n ? GM_KEEPS_MOMENTUM_MAPS : 0;
+    if (!varies || !quadratic) {
+        return 0;
+    }
+    if (linear) {
+        return GM_KEEPS_LINEAR | map;
+    }
+    return GM_KEEPS_QUADRATIC | (bilinear ? GM_KEEPS_BILINEAR | map : 0);
+}
+
+/* The state, and where a scheme has a second copy of phase space in its memory, that behind it. */
+static void copy_state(const struct gm_run *run, double *y)
+{
+    const size_t count = run->problem->n * run->problem->m;
+    memcpy(y, gm_run_state(run), count * sizeof *y);
+    if (run->scheme->family->doubled) {
+        memcpy(y + count, gm_run_memory(run), count * sizeof *y);
+    }
+}
+
+static void set_state(struct gm_run *run, const double *y)
+{
+    const size_t count = run->problem->n * run->problem->m;
+    gm_run_set_state(run, y, run->scheme->family->doubled ? y + count : NULL);
+}
+
+/* A run after its steps, or those before one that fails; NULL where memory is short. */
+static struct gm_run *make_steps(const struct gm_trial *trial, const double *start)
+{
+    struct gm_run *run = gm_run_open(trial->problem, trial->scheme, trial->settings, 0, trial->dt, start);
+    if (run && trial->scheme->family->doubled) {
+        set_state(run, start);
+    }
+    if (run) {
+        gm_run_advance(run, trial->steps);
+    }
+    return run;
+}
+
+bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end)
+{
+    struct gm_run *run = make_steps(trial, start);
+    const bool good = run && run->status == GM_OK;
+    if (run) {
+        copy_state(run, end);
+    }
+    gm_run_close(run);
+    return good;
+}
+
+static void reflect(const struct gm_trial *trial, double *y)
+{
+    const size_t n = trial->problem->n, copies = trial->scheme->family->doubled ? 2 : 1;
+    for (size_t c = 0; c < copies * n; c++) {
+        y[c] = c % n >= n / 2 ? -y[c] : y[c];
+    }
+}
+
+bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
+                   double *end)
+{
+    struct gm_run *run = make_steps(trial, start);
+    if (!run || run->status != GM_OK) {
+        gm_run_close(run);
+        return false;
+    }
+    copy_state(run, end);
+    if (reflected) {
+        reflect(trial, end);
+    } else {
+        gm_run_set_step(run, -trial->dt);
+    }
+    end[0] += push;
+    if (reflected || push != 0 || trial->scheme->family->doubled) {
+        set_state(run, end);
+    }
+    const bool good = gm_run_advance(run, trial->steps) == GM_OK;
+    copy_state(run, end);
+    if (reflected) {
+        reflect(trial, end);
+    }
+    gm_run_close(run);
+    return good;
 }
 
 struct solution {
@@ -170,6 +294,9 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = begin(scheme);
     scheme->family->kind->certify(scheme, &certificate);
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        certificate.claims[bit].reason = NULL; /* on the program's own systems nothing excuses a claim */
+    }
     conclude(&certificate);
     return certificate;
 }

@@ -60,10 +60,23 @@ struct gm_kept {
     const void *data;
 };
 
+/* A function of a problem's state, and its value as that of such a quantity. */
+struct gm_invariant {
+    double (*value)(const struct gm_problem *problem, const double *y);
+    const struct gm_problem *problem;
+};
+double gm_invariant_value(const void *invariant, const double *y, const double *memory);
+
 /* Differences of this many steps, up to 3, of such a quantity from a state of n numbers along a direction, beside the
    size of its values: 0 of a polynomial of lower degree. NaN where memory is short. */
 double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
                            const double *direction);
+
+/* Returns the claims that such a quantity bears on, as bits: it may be linear, quadratic, of the form q' A p, or of the
+   form p' x(q) with x affine, the momentum map of the symmetry whose generator is x (Noether's theorem, read backwards).
+   Differences along directions of this size decide, in the first `varied` of n numbers. 0: none, or memory is short. */
+unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied,
+                        double size);
 
 /* A system on which a scheme is measured that fits it: defects of one step dt from the start, and the order
    by steps from 8 dt on. */
@@ -96,10 +109,31 @@ void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim
 void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem);
 /* Tells why nothing was measured of a claim on a given system, where nothing was. */
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason);
+/* Withholds every one of these claims, bits, for the same reason. */
+void gm_certificate_withhold_all(struct gm_certificate *certificate, unsigned claims, const char *reason);
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
 
 /* The largest difference. */
 double gm_distance(const double *a, const double *b, size_t n);
+
+/* A number of steps of a scheme on a problem. */
+struct gm_trial {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    const struct gm_settings *settings;
+    double dt;
+    int64_t steps;
+};
+
+/* The state after them, and where a scheme has a second copy of phase space, that behind it, as in `start`. False if
+   one fails: then it is the last good one. */
+bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
+
+/* Writes the state of a run that turns round after its steps and makes as many more: by the step -dt, or with the second
+   half of the state, momenta or velocities, reflected. Where it turns, the first component is pushed by `push`, if it
+   is not 0. It remembers what the scheme remembers. False if a step fails. */
+bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
+                   double *end);
 
 /* y := the solution at the time `until` of these equations, from y at 0, by GSL's Prince-Dormand stepper with
    this absolute and relative tolerance; false where it finds none or memory is short. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_LINE_H
-#define GM_CORE_LINE_H
+#ifndef GM_CORE_GRID1_H
+#define GM_CORE_GRID1_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -9,7 +9,7 @@
 
 static const struct {
     const char *letter, *word;
-} claims[GM_CLAIM_COUNT] = {
+} rows[GM_CLAIM_COUNT] = {
     {"S", "symplectic"},
     {"=", "symmetric"},
     {"R", "reversible"},
@@ -33,12 +33,37 @@ static const struct {
 
 const char *gm_claim_letter(unsigned bit)
 {
-    return claims[bit].letter;
+    return rows[bit].letter;
 }
 
 const char *gm_claim_word(unsigned bit)
 {
-    return claims[bit].word;
+    return rows[bit].word;
+}
+
+bool gm_claims_read(const char *text, struct gm_span words, unsigned *claims, size_t *wrong)
+{
+    const bool none = words.end - words.begin == 4 && memcmp(text + words.begin, "none", 4) == 0;
+    for (*claims = 0; words.begin < words.end && !none;) {
+        unsigned found = GM_CLAIM_COUNT;
+        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+            const size_t length = strlen(rows[bit].word), left = words.end - words.begin;
+            if (length <= left && memcmp(text + words.begin, rows[bit].word, length) == 0 &&
+                (length == left || strchr(" \t\n,", text[words.begin + length]))) {
+                found = bit;
+            }
+        }
+        if (found == GM_CLAIM_COUNT) {
+            *wrong = words.begin;
+            return false;
+        }
+        *claims |= 1u << found;
+        words.begin += strlen(rows[found].word);
+        while (words.begin < words.end && strchr(" \t\n\r,", text[words.begin])) {
+            words.begin++;
+        }
+    }
+    return true;
 }
 
 const struct gm_parameter gm_settings_parameters[] = {

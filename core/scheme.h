@@ -3,6 +3,7 @@
 #ifndef GM_CORE_SCHEME_H
 #define GM_CORE_SCHEME_H
 
+#include "core/expression/lines.h"
 #include "core/parameter.h"
 #include "core/problem.h"
 
@@ -33,6 +34,8 @@ enum gm_claim {
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
 const char *gm_claim_letter(unsigned bit);
 const char *gm_claim_word(unsigned bit);
+/* Claims by their words, one after the other, or "none"; false with the place of what is not a claim. */
+bool gm_claims_read(const char *text, struct gm_span words, unsigned *claims, size_t *wrong);
 
 /* Parameters that schemes bring; every lane whose scheme uses one shares it. */
 struct gm_settings {
@@ -53,7 +56,9 @@ extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* ta
 extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
 extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
-struct gm_coefficients; /* core/theory/coefficients.h */
+struct gm_coefficients;  /* core/theory/coefficients.h */
+struct gm_law;           /* core/field/multisymplectic.h */
+struct gm_member_family; /* core/ode/kernel/members.h */
 
 /* Where linear theory bounds the steps of a scheme. */
 struct gm_step_limit {
@@ -64,7 +69,7 @@ struct gm_step_limit {
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
-    const char *alias;     /* another name it is known by; or NULL */
+    const char *alias[2];  /* other names it is known by; NULL: no more */
     const char *title;     /* "RK4", as pictures write it */
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* where it comes from */
@@ -105,7 +110,8 @@ struct gm_family {
     /* All that follows is for families that are not loops over a problem's kernels. */
     /* Advances any problem that has the facets, where its kind has no other loop; NULL: none. */
     gm_loop *loop;
-    bool carries_passive; /* loop knows what to do with a passive block */
+    bool carries_passive;                   /* loop knows what to do with a passive block */
+    const struct gm_member_family *members; /* NULL: loop is not that of core/ode/kernel/members.h */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
@@ -121,10 +127,8 @@ struct gm_family {
     bool adaptive;
     /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
     bool doubled;
-    /* The residual of the discrete multisymplectic law at the state y, for gm_form_residual; by differences
-       of the scheme's own steps, or by the linearised scheme. NULL: the family has no such law. */
-    double (*form)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences);
+    /* The residual of the discrete multisymplectic law, for gm_form_residual. NULL: the family has no such law. */
+    double (*form)(const struct gm_law *law);
     /* The energy of a wave as the family's own space and memory have it; NaN: out of memory. NULL: the two levels of
        the state tell it. */
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,

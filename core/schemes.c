@@ -122,11 +122,20 @@ static const struct gm_scheme *find_brought(const char *name, const struct gm_pr
     return found;
 }
 
+static bool is_called(const struct gm_scheme *scheme, const char *name)
+{
+    bool called = strcmp(scheme->name, name) == 0;
+    for (size_t i = 0; i < GM_COUNT(scheme->alias) && scheme->alias[i]; i++) {
+        called |= strcmp(scheme->alias[i], name) == 0;
+    }
+    return called;
+}
+
 const struct gm_scheme *gm_scheme_find(const char *name)
 {
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (strcmp(scheme->name, name) == 0 || (scheme->alias && strcmp(scheme->alias, name) == 0)) {
+        if (is_called(scheme, name)) {
             return scheme;
         }
     }
@@ -142,7 +151,7 @@ const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_pro
     }
     for (size_t i = 0; found && i < gm_scheme_count() && !gm_scheme_fits(found, problem); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (strcmp(scheme->name, name) == 0 && gm_scheme_fits(scheme, problem)) {
+        if (strcmp(scheme->name, found->name) == 0 && gm_scheme_fits(scheme, problem)) {
             return scheme;
         }
     }

@@ -138,7 +138,7 @@ static bool open_lanes(geomint *handle)
             return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
         }
         if (!name_quantities(lane)) {
-            return gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+            return false;
         }
     }
     return handle->lanes && gm_chosen_open(&handle->chosen, request->scene, NULL, handle->message);

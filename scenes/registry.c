@@ -7,23 +7,28 @@
 #include "core/files/files.h"
 #include "core/model/equations.h"
 #include "scenes/common/scene.h"
+#include "scenes/flow/user_room.h"
 #include "scenes/ode/system.h"
 
 #define GM_SYSTEM_SCENE(name)
+#define GM_ROOM_SCENE(name)
 #define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
 #include "scenes/scenes.def"
 #undef GM_SCENE
 #undef GM_SYSTEM_SCENE
+#undef GM_ROOM_SCENE
 
 static struct {
     const struct gm_scene *scene; /* NULL: the file was not opened yet */
     const char *file;
 } rows[] = {
 #define GM_SYSTEM_SCENE(name) {NULL, name},
+#define GM_ROOM_SCENE(name) {NULL, name},
 #define GM_SCENE(name) {&gm_scene_##name, NULL},
 #include "scenes/scenes.def"
 #undef GM_SCENE
 #undef GM_SYSTEM_SCENE
+#undef GM_ROOM_SCENE
 };
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
@@ -45,12 +50,24 @@ static const struct gm_scene unavailable = {.name = "",
                                             .schemes = no_schemes,
                                             .setup = refuse};
 
+static const struct gm_scene *open_room(const char *name)
+{
+    const struct gm_built_in *built_in = gm_built_in_find(GM_FILE_ROOM, name);
+    const struct gm_room_file file = {built_in->text, built_in->length, name, NULL, built_in->path, true};
+    struct gm_fault fault;
+    char sentence[GM_MESSAGE];
+    return gm_user_room_open(&file, &fault, sentence);
+}
+
 static const struct gm_scene *open_file(const char *name)
 {
     const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, name);
     struct gm_user_system system;
     struct gm_fault fault;
     char sentence[GM_MESSAGE];
+    if (!file) {
+        return open_room(name);
+    }
     if (!gm_equations_open(&system, file->text, file->length, NULL, 0, &fault)) {
         gm_system_close(&system);
         return NULL;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "scenes/common/scene.h"
 
 void gm_arguments_close(struct gm_arguments *arguments)
@@ -17,29 +18,28 @@ void gm_arguments_close(struct gm_arguments *arguments)
     *arguments = (struct gm_arguments){0};
 }
 
+static void close_list(void *arguments)
+{
+    gm_arguments_close(arguments);
+}
+
+struct gm_arguments *gm_arguments_in(struct gm_arena *arena)
+{
+    return gm_arena_keep(arena, gm_arena_take(arena, 1, sizeof(struct gm_arguments)), close_list);
+}
+
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word)
 {
-    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
+    char **more = realloc(arguments->words, ((size_t)arguments->count + 2) * sizeof *more);
     if (!more) {
         return false;
     }
     arguments->words = more;
-    more[arguments->count] = strdup(word);
-    if (!more[arguments->count]) {
-        return false;
-    }
-    arguments->count++;
-    return true;
-}
-
-bool gm_arguments_end(struct gm_arguments *arguments)
-{
-    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
-    if (more) {
-        arguments->words = more;
-        more[arguments->count] = NULL;
-    }
-    return more != NULL;
+    char *copy = strdup(word);
+    more[arguments->count] = copy;
+    arguments->count += copy != NULL;
+    more[arguments->count] = NULL;
+    return copy != NULL;
 }
 
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text)

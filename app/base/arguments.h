@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_GROUND_ARGUMENTS_H
-#define GM_APP_GROUND_ARGUMENTS_H
+#ifndef GM_APP_BASE_ARGUMENTS_H
+#define GM_APP_BASE_ARGUMENTS_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
 /* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
 
+struct gm_arena;
 struct gm_scene;
 
 struct gm_arguments { /* {0} is an empty list */
-    char **words;     /* its own copies */
+    char **words;     /* its own copies, and a NULL behind the last */
     int count;
 };
 void gm_arguments_close(struct gm_arguments *arguments);
+/* An empty list that closes with the arena, in a body of it. */
+struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
 
 /* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
    that belongs to a word. False when memory is short; the list is then to be closed as always. */
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
-
-/* Puts a NULL behind the last word, which it does not count. */
-bool gm_arguments_end(struct gm_arguments *arguments);
 
 /* The first of the words that sets what `word` sets, "dt=" or "dt=0.1"; NULL. Both steps= and until= set the
    end of a run. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_GROUND_EXIT_H
-#define GM_APP_GROUND_EXIT_H
+#ifndef GM_APP_BASE_EXIT_H
+#define GM_APP_BASE_EXIT_H
 
 /* Exit statuses of the program. */
 enum {

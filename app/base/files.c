@@ -69,17 +69,16 @@ bool gm_file_is(enum gm_file_kind kind, const char *word)
     return gm_file_find(kind, word, &file);
 }
 
-char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason)
+char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *message)
 {
-    if (!file->built_in) {
-        return gm_regular_read(file->path, most, length, reason);
-    }
-    char *text = malloc(file->built_in->length + 1);
-    if (text) {
-        *length = file->built_in->length;
-        memcpy(text, file->built_in->text, *length + 1);
-    } else {
-        snprintf(reason, GM_REGULAR_REASON, "%s", strerror(ENOMEM));
+    char reason[GM_REGULAR_REASON];
+    const struct gm_built_in *inside = file->built_in;
+    char *text = inside ? malloc(inside->length + 1) : gm_regular_read(file->path, most, length, reason);
+    if (!text) {
+        gm_refuse(message, "%.300s could not be read: %s", file->path, inside ? strerror(ENOMEM) : reason);
+    } else if (inside) {
+        *length = inside->length;
+        memcpy(text, inside->text, *length + 1);
     }
     return text;
 }
@@ -141,8 +140,9 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
     char folder[4096];
     for (size_t i = 0; i < gm_built_in_count; i++) {
         const struct gm_built_in *built_in = &gm_built_in_files[i];
-        struct gm_file file;
-        if (built_in->kind == kind && gm_file_find(kind, built_in->name, &file)) {
+        if (built_in->kind == kind) {
+            struct gm_file file = {.built_in = built_in};
+            snprintf(file.path, sizeof file.path, "%s", built_in->path);
             each(&(struct gm_listed){built_in->name, built_in->title, built_in->about, &file}, data);
         }
     }

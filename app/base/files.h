@@ -2,8 +2,8 @@
 /* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
    name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
    GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
-#ifndef GM_APP_GROUND_FILES_H
-#define GM_APP_GROUND_FILES_H
+#ifndef GM_APP_BASE_FILES_H
+#define GM_APP_BASE_FILES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,9 +20,9 @@ bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file
 /* Whether it means one. */
 bool gm_file_is(enum gm_file_kind kind, const char *word);
 
-/* Its text with a zero behind it; malloc'ed. NULL with a reason (GM_REGULAR_REASON bytes), as where it has more than
+/* Its text with a zero behind it; malloc'ed. NULL with a sentence (GM_MESSAGE bytes), as where it has more than
    `most` bytes. */
-char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *reason);
+char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *message);
 
 /* A name, what lists call its file (gm_file_title), and the line `about:`; "" where it cannot be read. */
 struct gm_listed {

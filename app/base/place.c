@@ -5,7 +5,20 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/expression/reader.h"
 #include "render/message.h"
+
+void gm_place_report(const char *path, const char *text, const struct gm_fault *fault, char *message)
+{
+    size_t line, column, other, behind;
+    char first[48] = "";
+    gm_text_place(text, fault->offset, &line, &column);
+    if (fault->earlier > 0) {
+        gm_text_place(text, fault->earlier, &other, &behind);
+        snprintf(first, sizeof first, ", first in line %zu", other);
+    }
+    gm_refuse(message, "%.150s:%zu:%zu: %.250s%s", path, line, column, fault->sentence, first);
+}
 
 void gm_place_show(const char *text, size_t length, size_t offset, char *message)
 {

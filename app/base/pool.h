@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_CORES_POOL_H
-#define GM_APP_CORES_POOL_H
+#ifndef GM_APP_BASE_POOL_H
+#define GM_APP_BASE_POOL_H
 
 #include <stdbool.h>
 #include <stddef.h>

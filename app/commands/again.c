@@ -234,28 +234,26 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     return gm_finish(status);
 }
 
-static int command_again(const struct gm_options *options)
+int gm_command_again(const struct gm_options *options)
 {
     if (options->arguments.count > 1) {
-        gm_complain("again makes one picture as it was made; \"%.60s\" is too much",
-                    options->arguments.words[1]);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "again makes one picture as it was made; \"%.60s\" is too much",
+                          options->arguments.words[1]);
     }
     if (options->arguments.count == 0) {
-        gm_complain("again which picture? A PNG or SVG file that geomint made");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "again which picture? A PNG or SVG file that geomint made");
     }
     char message[GM_MESSAGE], *texts[TEXTS];
     const char *path = options->arguments.words[0];
     enum gm_format format = GM_FORMAT_PNG;
     const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
     if (format == GM_FORMAT_PDF) {
-        gm_complain("again reads PNG and SVG files; a PDF, as %.300s, does not tell how it was made", path);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE,
+                          "again reads PNG and SVG files; a PDF, as %.300s, does not tell how it was made",
+                          path);
     }
     if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     int status = GM_EXIT_USAGE;
     if (!drawn && !take_painter(options, texts[PAINTER], message)) {
@@ -270,11 +268,3 @@ static int command_again(const struct gm_options *options)
     }
     return status;
 }
-
-const struct gm_command_row gm_command_again = {
-    .name = "again",
-    .synopsis = "FILE.png|FILE.svg",
-    .help = "make a picture once more from what it tells of itself",
-    .bit = GM_AGAIN,
-    .function = command_again,
-};

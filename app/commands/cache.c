@@ -12,16 +12,14 @@
 #include "core/expression/number.h"
 #include "core/memory.h"
 
-static int command_cache(const struct gm_options *options)
+int gm_command_cache(const struct gm_options *options)
 {
     char folder[GM_CACHE_PATH], message[GM_MESSAGE];
     if (options->arguments.count > 0) {
-        gm_complain("cache takes no word: \"%.60s\"", options->arguments.words[0]);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "cache takes no word: \"%.60s\"", options->arguments.words[0]);
     }
     if (!gm_cache_folder(folder, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     if (options->clear) {
         size_t removed;
@@ -52,11 +50,3 @@ static int command_cache(const struct gm_options *options)
     free(entries);
     return gm_finish(GM_EXIT_OK);
 }
-
-const struct gm_command_row gm_command_cache = {
-    .name = "cache",
-    .synopsis = "",
-    .help = "the loops that were compiled of systems of one's own, the one used last first",
-    .bit = GM_CACHE,
-    .function = command_cache,
-};

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of commands. */
+/* What commands share: their table, and that what takes very long is asked about first. */
 #include "app/commands/commands.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "app/output/say.h"
+#include "app/words/drive.h"
 #include "app/words/system.h"
-
-const struct gm_command_row *const gm_commands[] = {
-#define GM_COMMAND(name) &gm_command_##name,
-#include "app/commands/commands.def"
 #include "core/basics.h"
+
+const struct gm_command_row gm_commands[] = {
+#define GM_COMMAND(bit, function, ...) {bit, gm_command_##function, __VA_ARGS__},
+#include "app/commands/commands.def"
 #undef GM_COMMAND
 };
 const size_t gm_command_count = GM_COUNT(gm_commands);
@@ -17,9 +20,46 @@ const size_t gm_command_count = GM_COUNT(gm_commands);
 const struct gm_command_row *gm_command_find(const char *word)
 {
     for (size_t i = 0; i < gm_command_count; i++) {
-        if (strcmp(gm_commands[i]->name, word) == 0) {
-            return gm_commands[i];
+        if (strcmp(gm_commands[i].name, word) == 0) {
+            return &gm_commands[i];
         }
     }
-    return gm_scene_find(word) || gm_system_is(word) ? gm_commands[0] : NULL;
+    return gm_scene_find(word) || gm_system_is(word) ? &gm_commands[0] : NULL;
+}
+
+/* ---- long runs ---- */
+
+const double gm_many_steps = 1e11;
+
+void gm_put_duration(double seconds, char *text, size_t size)
+{
+    static const struct {
+        double seconds;
+        const char *name;
+    } units[] = {
+        {365.25 * 86400, "years"}, {86400, "days"}, {3600, "hours"}, {60, "minutes"}, {1, "seconds"}};
+    size_t unit = 0;
+    while (unit + 1 < GM_COUNT(units) && seconds < 2 * units[unit].seconds) {
+        unit++;
+    }
+    const double count = seconds / units[unit].seconds;
+    snprintf(text, size, count < 1e5 ? "%.*f %s" : "%.*g %s", count < 9.5 ? 1 : 0, count, units[unit].name);
+}
+
+bool gm_command_confirmed(const struct gm_options *options, const struct gm_request *request)
+{
+    double steps = 0, seconds = 0;
+    for (size_t i = 0; i < request->count; i++) {
+        steps += gm_request_steps(request, i);
+    }
+    if (options->yes || steps <= gm_many_steps) {
+        return true;
+    }
+    for (size_t i = 0; i < request->count; i++) {
+        seconds += gm_drive_seconds(request, i);
+    }
+    char duration[64];
+    gm_put_duration(seconds, duration, sizeof duration);
+    gm_complain("these are %.3g steps, which take about %s; --yes makes them", steps, duration);
+    return false;
 }

@@ -2,26 +2,100 @@
 #ifndef GM_APP_COMMANDS_COMMANDS_H
 #define GM_APP_COMMANDS_COMMANDS_H
 
-#include "app/commands/options.h"
+#include "app/base/arguments.h"
+#include "app/explorer/terminal/device.h"
+#include "app/native/engine.h"
+#include "app/output/printer.h"
+#include "app/words/request.h"
 
-/* A command: its file defines it, and commands.def names it. Both functions return the exit status. */
-struct gm_command_row {
-    const char *name, *synopsis, *help;
-    enum gm_command bit;
-    int (*function)(const struct gm_options *options);
-    int (*raw)(int count, char *const words[]); /* instead: an unfinished option is no mistake here */
+/* The commands, as bits: an option says which of them take it. */
+enum {
+#define GM_COMMAND(bit, ...) bit##_NUMBER,
+#include "app/commands/commands.def"
+#undef GM_COMMAND
+};
+enum gm_command {
+#define GM_COMMAND(bit, ...) bit = 1 << bit##_NUMBER,
+#include "app/commands/commands.def"
+#undef GM_COMMAND
+    /* those that draw what they measured */
+    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
+    /* those that paint pixels */
+    GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };
 
-#define GM_COMMAND(name) extern const struct gm_command_row gm_command_##name;
+/* The --options of a command line; what is not given is 0, NULL or as said. */
+struct gm_options {
+    int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
+    const char *save, *tracks, *checkpoint, *from_checkpoint;
+    const char *csv, *profile, *out, *movie, *measure, *region, *judge, *changes, *on, *polish;
+    const char *output; /* one picture's file; NULL: not given */
+    const char *painter;
+    const char *format_name;
+    enum gm_engine engine;            /* auto, if it is not given */
+    enum gm_format format;            /* of pictures: png, unless the two before say otherwise */
+    const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
+    const char *table, *retry, *join; /* of sweep */
+    long every, frames, jobs;
+    long shard, shards;            /* 0, 0: not given */
+    double fps, rate;              /* NAN: not given */
+    double from, at, interval;     /* NAN: not given */
+    struct gm_appearance look;     /* 1280 x 720, light */
+    double page[2];                /* its size in mm, where that was given; else 0 */
+    bool sized;                    /* a size was given */
+    struct gm_overrides terminal;  /* what to believe of it */
+    struct gm_arguments arguments; /* what is left: scene, key=value, names */
+};
+
+/* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
+   both cases. */
+bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
+                      char *message);
+void gm_options_close(struct gm_options *options);
+
+/* Whether a picture goes to standard output, and nothing else may. */
+bool gm_options_take_stdout(const struct gm_options *options);
+
+/* All there is to say of an option, from which it is read, explained and completed. */
+struct gm_option {
+    const char *name;  /* "--size" */
+    int kind;          /* of its value, as it is read */
+    unsigned commands; /* those that take it */
+    size_t offset;     /* of its value in gm_options */
+    const char *value; /* "WxH"; "" if it takes none */
+    const char *help;
+};
+extern const struct gm_option gm_option_rows[];
+extern const size_t gm_option_count;
+/* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
+const char *gm_option_name(const char *word);
+
+/* A command, as a line of commands.def says: its bit, its function, which returns the exit status, and texts. */
+struct gm_command_row {
+    enum gm_command bit;
+    int (*function)(const struct gm_options *options);
+    const char *name, *synopsis, *help;
+};
+
+#define GM_COMMAND(bit, name, ...) int gm_command_##name(const struct gm_options *options);
 #include "app/commands/commands.def"
 #undef GM_COMMAND
 
-extern const struct gm_command_row *const gm_commands[]; /* the first is the explorer */
+extern const struct gm_command_row gm_commands[]; /* the first is the explorer */
 extern const size_t gm_command_count;
 /* The command of that name; for the name of a scene the explorer; or NULL. */
 const struct gm_command_row *gm_command_find(const char *word);
 
-/* The tours, as `tour` and `list tours` print them. */
-int gm_list_tours(bool json);
+/* More steps than these are made if --yes confirms that. */
+extern const double gm_many_steps;
+
+/* Whether the steps of a request are to be made; false with a sentence on how many they are and how long they take. */
+bool gm_command_confirmed(const struct gm_options *options, const struct gm_request *request);
+
+/* "3.2 years" */
+void gm_put_duration(double seconds, char *text, size_t size);
+
+/* The tours, as `tour` and `list tours` print them. Returns an exit status. */
+int gm_list_tours(const struct gm_options *options);
 
 #endif

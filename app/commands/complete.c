@@ -8,12 +8,12 @@
 #include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "app/commands/commands.h"
-#include "app/commands/reference/catalogue.h"
+#include "app/commands/reference/reference.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
 #include "app/words/fitting.h"
-#include "app/words/replacing.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -53,7 +53,9 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 {
     char title[128];
     snprintf(title, sizeof title, "%s", listed->title);
-    offer(stem, listed->name, gm_text_tame(title));
+    if (!gm_scene_find(listed->name)) { /* those are offered as scenes */
+        offer(stem, listed->name, gm_text_tame(title));
+    }
 }
 
 /* A folder that cannot be opened is for `geomint list` to tell. */
@@ -100,12 +102,12 @@ static void offer_observables(const struct stem *stem, const struct gm_scene *sc
     }
 }
 
-/* The values that an option's help names: "truecolor, 256, 16 or none". */
+/* The values that an option's help names: "truecolor, 256, 16 or none", or "png|svg|pdf". */
 static void offer_named(const struct stem *stem, const char *names)
 {
     char copy[128], *rest = NULL;
     snprintf(copy, sizeof copy, "%s", names);
-    for (char *name = strtok_r(copy, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
+    for (char *name = strtok_r(copy, ", |", &rest); name; name = strtok_r(NULL, ", |", &rest)) {
         if (strcmp(name, "or") != 0) {
             offer(stem, name, "");
         }
@@ -137,9 +139,7 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
     } else if (strcmp(option->name, "--on") == 0) {
         offer_scenes(stem);
     } else if (strcmp(option->name, "--format") == 0) {
-        for (int i = 0; i < GM_FORMAT_COUNT; i++) {
-            offer(stem, gm_format_name((enum gm_format)i), "");
-        }
+        offer_named(stem, option->value);
     } else if (strcmp(option->name, "--engine") == 0) {
         offer(stem, "auto", "compiled where that pays");
         offer(stem, "interpreted", "at once, everywhere");
@@ -229,13 +229,12 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
     }
 }
 
-static const struct gm_option *option_of(const struct gm_command_row *command, const char *word,
-                                         struct gm_option *option)
+static const struct gm_option *option_of(const struct gm_command_row *command, const char *word)
 {
     word = gm_option_name(word);
     const size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < gm_option_count(); i++) {
-        *option = gm_option_at(i);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        const struct gm_option *option = &gm_option_rows[i];
         if ((option->commands & command->bit) && strlen(option->name) == length &&
             strncmp(option->name, word, length) == 0) {
             return option;
@@ -247,19 +246,18 @@ static const struct gm_option *option_of(const struct gm_command_row *command, c
 static void offer_options(const struct gm_command_row *command, const char *word,
                           const struct gm_scene *scene)
 {
-    struct gm_option option;
     if (strchr(word, '=')) {
+        const struct gm_option *option = option_of(command, word);
         const struct stem value = behind_last(word, "=");
-        if (option_of(command, word, &option)) {
-            offer_values(&option, &value, scene);
+        if (option) {
+            offer_values(option, &value, scene);
         }
         return;
     }
     const struct stem stem = whole(word);
-    for (size_t i = 0; i < gm_option_count(); i++) {
-        option = gm_option_at(i);
-        if (option.commands & command->bit) {
-            offer(&stem, option.name, option.help);
+    for (size_t i = 0; i < gm_option_count; i++) {
+        if (gm_option_rows[i].commands & command->bit) {
+            offer(&stem, gm_option_rows[i].name, gm_option_rows[i].help);
         }
     }
 }
@@ -316,7 +314,7 @@ static void offer_formulas(const char *word, const char *system, const struct gm
     if (gm_file_is(GM_FILE_ROOM, system)) {
         return; /* it has its lines in the file alone */
     }
-    const bool known = scene && gm_replacing_words(scene->text, &formulas);
+    const bool known = scene && gm_typed_file_formulas(scene->text, &formulas);
     for (const char *const *key = gm_system_keys(system); *key; key++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "%s=", *key);
@@ -331,15 +329,17 @@ static void offer_commands(const char *word)
 {
     const struct stem stem = whole(word);
     for (size_t i = 0; i < gm_command_count; i++) {
-        offer(&stem, gm_commands[i]->name, gm_commands[i]->help);
+        offer(&stem, gm_commands[i].name, gm_commands[i].help);
     }
     offer_scenes(&stem);
     offer(&stem, "--help", "commands and options");
     offer(&stem, "--version", "version and libraries");
 }
 
-static int command_complete(int count, char *const words[])
+int gm_command_complete(const struct gm_options *options)
 {
+    const int count = options->arguments.count;
+    char *const *words = options->arguments.words;
     const char *last = count > 0 ? words[count - 1] : "";
     if (count <= 1) {
         offer_commands(last);
@@ -357,14 +357,14 @@ static int command_complete(int count, char *const words[])
             scene = gm_system_scene(count - 1 - i, words + i, &status, message);
         }
     }
-    struct gm_option option;
     if (!command) {
         return gm_finish(GM_EXIT_OK);
     }
-    if (count > 2 && option_of(command, words[count - 2], &option) && option.value[0] &&
-        !strchr(words[count - 2], '=')) {
+    const struct gm_option *option =
+        count > 2 && !strchr(words[count - 2], '=') ? option_of(command, words[count - 2]) : NULL;
+    if (option && option->value[0]) {
         const struct stem stem = whole(last);
-        offer_values(&option, &stem, scene);
+        offer_values(option, &stem, scene);
     } else if (last[0] == '-') {
         offer_options(command, last, scene);
     } else {
@@ -377,11 +377,3 @@ static int command_complete(int count, char *const words[])
     }
     return gm_finish(GM_EXIT_OK);
 }
-
-const struct gm_command_row gm_command_complete = {
-    .name = "complete",
-    .synopsis = "[WORD ...]",
-    .help = "what the last word may become: shells ask this",
-    .bit = GM_COMPLETE,
-    .raw = command_complete,
-};

@@ -101,32 +101,34 @@ static const struct gm_scene *own_scene(char *word, int *status, char *message)
     return scene;
 }
 
-static int words_are_known(const struct gm_options *options)
+/* The figures of systems of somebody's own among the words. Returns an exit status. */
+static int plan_user_figures(struct series *series, const struct gm_arguments *words)
 {
-    const struct gm_arguments *words = &options->arguments;
     char message[GM_MESSAGE];
     int status = GM_EXIT_OK;
     for (int i = 0; i < words->count; i++) {
         const struct gm_scene *scene =
             is_published(words->words[i]) ? NULL : own_scene(words->words[i], &status, message);
-        for (int k = 0; scene && k < i; k++) { /* they are found already */
-            const struct gm_scene *other =
-                is_published(words->words[k]) ? NULL : own_scene(words->words[k], &status, message);
-            if (other && strcmp(other->name, scene->name) == 0) {
-                gm_complain("the pictures of %.200s and %.200s would have one name", words->words[k],
-                            words->words[i]);
-                return GM_EXIT_USAGE;
+        if (!scene && !is_published(words->words[i])) {
+            return gm_give_up(status, "%s", message);
+        }
+        for (int k = 0; scene && k < i; k++) {
+            if (series->user[k].name && strcmp(series->user[k].name, scene->name) == 0) {
+                return gm_give_up(GM_EXIT_USAGE, "the pictures of %.200s and %.200s would have one name",
+                                  words->words[k], words->words[i]);
             }
         }
-        if (!scene && !is_published(words->words[i])) {
-            gm_complain("%s", message);
-            return status;
+        if (scene) {
+            series->user[i] =
+                (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
+            gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
         }
     }
     return GM_EXIT_OK;
 }
 
-static bool open_series(struct series *series, const struct gm_options *options)
+/* Returns an exit status. */
+static int open_series(struct series *series, const struct gm_options *options)
 {
     const size_t most = all_figures(options);
     const bool small = options->quick && !options->sized;
@@ -145,8 +147,7 @@ static bool open_series(struct series *series, const struct gm_options *options)
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     series->outcomes = shared == MAP_FAILED ? NULL : shared;
     if (!series->user || !series->jobs || !series->outcomes) {
-        gm_complain("not enough memory");
-        return false;
+        return gm_give_up(GM_EXIT_FILE, "not enough memory");
     }
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
@@ -156,23 +157,13 @@ static bool open_series(struct series *series, const struct gm_options *options)
             }
         }
     }
-    for (int i = 0; i < options->arguments.count; i++) {
-        char message[GM_MESSAGE];
-        int status;
-        char *word = options->arguments.words[i];
-        const struct gm_scene *scene = is_published(word) ? NULL : own_scene(word, &status, message);
-        if (scene) {
-            series->user[i] =
-                (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
-            gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
-        }
-    }
+    const int status = plan_user_figures(series, &options->arguments);
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
     const size_t cores = gm_pool_cores();
     series->worker_count = cores > MOST_WORKERS ? MOST_WORKERS : cores;
     series->progress = isatty(STDERR_FILENO);
     series->started = series->page_written = gm_clock_seconds();
-    return true;
+    return status;
 }
 
 static void close_series(struct series *series)
@@ -315,8 +306,7 @@ static bool write_page(struct series *series, int *status)
     char message[GM_MESSAGE];
     series->page_written = gm_clock_seconds();
     if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
-        gm_complain("%s", message);
-        *status = GM_EXIT_FILE;
+        *status = gm_give_up(GM_EXIT_FILE, "%s", message);
         return false;
     }
     return true;
@@ -440,20 +430,16 @@ static void print_sum(const struct series *series, bool page)
         ours->hold, ours->fail, ours->open, variants->hold, variants->fail, variants->open);
 }
 
-static int command_figures(const struct gm_options *options)
+int gm_command_figures(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct series series;
-    int status = words_are_known(options);
-    if (status != GM_EXIT_OK) {
-        return status;
+    int status = open_series(&series, options);
+    if (status == GM_EXIT_OK && !gm_folder_make(options->out, message)) {
+        status = gm_give_up(GM_EXIT_FILE, "%s", message);
     }
-    if (!gm_folder_make(options->out, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
-    }
-    gm_catch_interrupts();
-    if (open_series(&series, options)) {
+    if (status == GM_EXIT_OK) {
+        gm_catch_interrupts();
         run(&series, &status);
         /* finished ones behind one that was interrupted */
         for (size_t i = series.printed; i < series.count; i++) {
@@ -473,17 +459,7 @@ static int command_figures(const struct gm_options *options)
                 status = series.outcomes[i].status;
             }
         }
-    } else {
-        status = GM_EXIT_FILE;
     }
     close_series(&series);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
-
-const struct gm_command_row gm_command_figures = {
-    .name = "figures",
-    .synopsis = "[NAME|SYSTEM ...]",
-    .help = "published figures, made again; and systems of your own",
-    .bit = GM_FIGURES,
-    .function = command_figures,
-};

@@ -6,85 +6,53 @@
 
 #include "app/base/files.h"
 #include "app/commands/commands.h"
-#include "app/commands/reference/catalogue.h"
-#include "app/commands/reference/system.h"
-#include "app/output/json.h"
+#include "app/commands/reference/reference.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/output/wrapped.h"
 #include "app/words/fitting.h"
 #include "app/words/lookup.h"
-#include "app/words/room.h"
 #include "app/words/system.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "core/model/system.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
-#include "render/files/regular_file.h"
 
-static void list_scenes(const struct gm_options *options)
+/* A row of a list: as JSON its texts with their keys, else the first, the second behind it, and in a long list those
+   that follow, up to number `longer`. */
+static void list_texts(const struct gm_options *options, const char *const texts[][2], size_t count,
+                       size_t longer, int width)
+{
+    if (options->json) {
+        struct gm_row row = gm_row_begin(stdout);
+        for (size_t i = 0; i < count; i++) {
+            gm_row_text(&row, texts[i][0], texts[i][1]);
+        }
+        printf("}\n");
+        return;
+    }
+    gm_print_wrapped(texts[1][1], printf("%-*s ", width, texts[0][1]), width + 1);
+    for (size_t i = 2; options->longer && i < longer; i++) {
+        gm_print_wrapped(texts[i][1], printf("  "), 2);
+    }
+}
+
+static int list_scenes(const struct gm_options *options)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
         const struct gm_scene *scene = gm_scene_at(i);
-        if (options->json) {
-            struct gm_row row = gm_row_begin(stdout);
-            gm_row_text(&row, "scene", scene->name);
-            gm_row_text(&row, "title", scene->title);
-            gm_row_text(&row, "blurb", scene->blurb);
-            gm_row_text(&row, "watch", scene->watch);
-            gm_row_text(&row, "time_unit", scene->time);
-            printf("}\n");
-            continue;
-        }
-        gm_print_wrapped(scene->title, printf("%-16s ", scene->name), 17);
-        if (options->longer) {
-            gm_print_wrapped(scene->blurb, printf("  "), 2);
-            gm_print_wrapped(scene->watch, printf("  "), 2);
-        }
+        const char *const texts[][2] = {{"scene", scene->name},
+                                        {"title", scene->title},
+                                        {"blurb", scene->blurb},
+                                        {"watch", scene->watch},
+                                        {"time_unit", scene->time}};
+        list_texts(options, texts, GM_COUNT(texts), GM_COUNT(texts) - 1, 16);
     }
-}
-
-/* A system or a room by its name, with the word for it in JSON. */
-static void list_file(const char *word, const struct gm_listed *listed, const struct gm_options *options)
-{
-    if (options->json) {
-        printf("{");
-        gm_json_pair(word, listed->name);
-        printf(",");
-        gm_json_pair("title", listed->title);
-        printf(",");
-        gm_json_pair("about", listed->about);
-        printf("}\n");
-    } else {
-        gm_print_wrapped(listed->title, printf("%-21s ", listed->name), 22);
-        if (options->longer) {
-            gm_print_wrapped(listed->about, printf("  "), 2);
-        }
-    }
-}
-
-static void list_system(const struct gm_listed *listed, const void *options)
-{
-    list_file("system", listed, options);
-}
-
-static void list_room(const struct gm_listed *listed, const void *options)
-{
-    list_file("room", listed, options);
-}
-
-/* Returns an exit status. */
-static int list_files(enum gm_file_kind kind, const struct gm_options *options)
-{
-    char message[GM_MESSAGE];
-    const bool good = gm_files_each(kind, kind == GM_FILE_ROOM ? list_room : list_system, options, message);
-    if (!good) {
-        gm_complain("%s", message);
-    }
-    return gm_finish(good ? GM_EXIT_OK : GM_EXIT_FILE);
+    return gm_finish(GM_EXIT_OK);
 }
 
 static void print_formula(const char *text)
@@ -98,6 +66,18 @@ static void print_formula(const char *text)
     }
 }
 
+/* Whether there are further schemes of its name, for other kinds. */
+static bool shares_name(const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *other = gm_scheme_at(i);
+        if (other != scheme && strcmp(other->name, scheme->name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The widths of the columns of schemes' names, and up to their titles. */
 enum { NAME = 29, TITLE = 42 };
 
@@ -107,7 +87,7 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
     char letters[GM_CLAIM_COUNT + 1], text[512];
     gm_catalogue_letters(scheme, letters);
     if (!options->json) {
-        const bool several = options->longer || (kinds && gm_catalogue_shares_name(scheme));
+        const bool several = options->longer || (kinds && shares_name(scheme));
         snprintf(text, sizeof text, "%s%s%s", scheme->title, several ? ", for " : "",
                  several ? gm_scheme_problems(scheme) : "");
         gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
@@ -145,7 +125,7 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
     gm_print_wrapped(claims ? text : "claims: none", 0, 8);
 }
 
-static void list_schemes(const struct gm_options *options)
+static int list_schemes(const struct gm_options *options)
 {
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
     size_t count = 0;
@@ -156,9 +136,10 @@ static void list_schemes(const struct gm_options *options)
     if (!options->json) {
         print_legend(schemes, count);
     }
+    return gm_finish(GM_EXIT_OK);
 }
 
-static void list_figures(const struct gm_options *options)
+static int list_figures(const struct gm_options *options)
 {
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
@@ -179,6 +160,7 @@ static void list_figures(const struct gm_options *options)
             }
         }
     }
+    return gm_finish(GM_EXIT_OK);
 }
 
 /* The widths of the columns of parameters' keys and defaults. */
@@ -194,16 +176,26 @@ static void print_parameter(const struct gm_parameter *row)
     gm_print_wrapped(text, printf(fits ? " " : "\n") + (fits ? before : -1), KEY + DEFAULT + 4);
 }
 
-static void print_parameter_json(const struct gm_parameter *parameter)
+static void put_parameter(struct gm_row *rows, const struct gm_parameter *parameter)
 {
     char range[256];
-    struct gm_row row = gm_row_begin(stdout);
+    struct gm_row row = gm_row_open(rows, NULL, '}');
     gm_row_text(&row, "key", parameter->key);
     gm_row_text(&row, "default", parameter->standard);
     gm_row_text(&row, "range", gm_catalogue_range(parameter, range, sizeof range));
     gm_row_flag(&row, "live", parameter->live);
     gm_row_text(&row, "help", parameter->help);
     gm_row_close(&row);
+}
+
+static void put_keys(struct gm_row *row, const char *key, const struct gm_observable *observables,
+                     size_t count)
+{
+    struct gm_row keys = gm_row_open(row, key, ']');
+    for (size_t i = 0; i < count; i++) {
+        gm_row_text(&keys, NULL, observables[i].key);
+    }
+    gm_row_close(&keys);
 }
 
 /* What a command takes where nothing is said but the scene, by its name or the path of its file:
@@ -306,26 +298,19 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     gm_row_text(&row, "time_unit", scene->time);
     gm_row_text(&row, "run", entry->run);
     gm_row_text(&row, "render", entry->render);
-    printf(",\"parameters\":[");
+    struct gm_row parameters = gm_row_open(&row, "parameters", ']');
     for (size_t i = 0; i < entry->row_count; i++) {
-        printf("%s", i ? "," : "");
-        print_parameter_json(entry->rows[i]);
+        put_parameter(&parameters, entry->rows[i]);
     }
-    printf("],\"observables\":[");
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        printf("%s\"%s\"", i ? "," : "", scene->observables[i].key);
-    }
-    printf("],\"asked\":[");
-    for (size_t i = 0; i < scene->asked_count; i++) {
-        printf("%s\"%s\"", i ? "," : "", scene->asked[i].key);
-    }
-    printf("],\"schemes\":[");
+    gm_row_close(&parameters);
+    put_keys(&row, "observables", scene->observables, scene->observable_count);
+    put_keys(&row, "asked", scene->asked, scene->asked_count);
+    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
     for (size_t i = 0; i < entry->scheme_count; i++) {
-        printf("%s\"%s\"", i ? "," : "", entry->schemes[i]->name);
+        gm_row_text(&schemes, NULL, entry->schemes[i]->name);
     }
-    printf("]");
-    const char *source = file && file->built_in ? file->built_in->text : entry->scene->room;
-    gm_list_file_json(file, source);
+    gm_row_close(&schemes);
+    gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
     printf("}\n");
 }
 
@@ -348,7 +333,52 @@ static bool list_scene(const struct gm_scene *scene, const char *name, const str
 }
 
 /* The lists beside those of a scene. */
-enum { LISTS = 6 };
+static const struct list {
+    const char *name;
+    int (*print)(const struct gm_options *options); /* returns an exit status; NULL: it is one of files */
+    const char *word;                               /* of one file, in JSON */
+    enum gm_file_kind kind;
+} lists[] = {{.name = "scenes", .print = list_scenes},
+             {.name = "systems", .word = "system", .kind = GM_FILE_SYSTEM},
+             {.name = "rooms", .word = "room", .kind = GM_FILE_ROOM},
+             {.name = "schemes", .print = list_schemes},
+             {.name = "figures", .print = list_figures},
+             {.name = "tours", .print = gm_list_tours}};
+
+struct listing {
+    const struct list *list;
+    const struct gm_options *options;
+};
+
+static void list_file(const struct gm_listed *listed, const void *data)
+{
+    const struct listing *listing = data;
+    const char *const texts[][2] = {
+        {listing->list->word, listed->name}, {"title", listed->title}, {"about", listed->about}};
+    list_texts(listing->options, texts, GM_COUNT(texts), GM_COUNT(texts), 21);
+}
+
+static int list_files(const struct list *list, const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    const bool good = gm_files_each(list->kind, list_file, &(const struct listing){list, options}, message);
+    return good ? gm_finish(GM_EXIT_OK) : gm_give_up(GM_EXIT_FILE, "%s", message);
+}
+
+static const struct list *find_list(const char *word)
+{
+    for (size_t i = 0; i < GM_COUNT(lists); i++) {
+        if (strcmp(lists[i].name, word) == 0) {
+            return &lists[i];
+        }
+    }
+    return NULL;
+}
+
+static const char *list_name(size_t i, const void *data)
+{
+    return (void)data, lists[i].name;
+}
 
 static int list_markdown(const char *what)
 {
@@ -357,35 +387,27 @@ static int list_markdown(const char *what)
     } else if (strcmp(what, "schemes") == 0) {
         gm_catalogue_schemes_markdown();
     } else {
-        gm_complain("--markdown lists scenes or schemes");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "--markdown lists scenes or schemes");
     }
     return gm_finish(GM_EXIT_OK);
-}
-
-static const char *list_name(size_t i, const void *data)
-{
-    static const char *const lists[LISTS] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
-    return (void)data, lists[i];
 }
 
 static int refuse_name(const char *word)
 {
     char near[GM_NEAR], folder[GM_MESSAGE] = "";
-    const char *list = gm_nearest(word, LISTS, list_name, NULL);
+    const char *list = gm_nearest(word, GM_COUNT(lists), list_name, NULL);
     const bool found = list || gm_system_near(word, near, folder);
     if (!found && folder[0]) {
-        gm_complain("%s", folder);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", folder);
     }
-    gm_complain(
+    return gm_give_up(
+        GM_EXIT_USAGE,
         "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems and "
         "rooms, not \"%.60s\"%s%s",
         word, found ? "; did you mean " : "",
         list    ? list
         : found ? near
                 : "");
-    return GM_EXIT_USAGE;
 }
 
 /* Whether a word means a file: a scene of the program hides a file of its name, unless it is made of it. */
@@ -398,34 +420,28 @@ static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *
 static int list_source(const char *word)
 {
     struct gm_file file;
-    char reason[GM_REGULAR_REASON];
+    char message[GM_MESSAGE];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
     while (kind < GM_FILE_MESH && !find_file(kind, word, &file)) {
         kind++;
     }
-    bool known = gm_scene_find(word) || gm_scheme_find(word);
-    for (size_t i = 0; i < LISTS; i++) {
-        known |= strcmp(word, list_name(i, NULL)) == 0;
-    }
-    if (kind == GM_FILE_MESH && known) {
-        gm_complain("%.60s has no file", word);
-        return GM_EXIT_USAGE;
+    if (kind == GM_FILE_MESH && (gm_scene_find(word) || gm_scheme_find(word) || find_list(word))) {
+        return gm_give_up(GM_EXIT_USAGE, "%.60s has no file", word);
     }
     if (kind == GM_FILE_MESH) {
         return refuse_name(word);
     }
-    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, reason);
+    char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, message);
     if (!text) {
-        gm_complain("%.300s could not be read: %s", file.path, reason);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     fwrite(text, 1, length, stdout);
     free(text);
     return gm_finish(GM_EXIT_OK);
 }
 
-static int command_list(const struct gm_options *options)
+int gm_command_list(const struct gm_options *options)
 {
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
@@ -440,13 +456,13 @@ static int command_list(const struct gm_options *options)
         return gm_list_system(&options->arguments, typed ? NULL : &file, telling);
     }
     if (options->latex) {
-        gm_complain("--latex writes the equations of a system, such as share/systems/toda.system");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE,
+                          "--latex writes the equations of a system, such as share/systems/toda.system");
     }
     if (options->arguments.count > 1) {
-        gm_complain(
+        return gm_give_up(
+            GM_EXIT_USAGE,
             "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system or a room");
-        return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->source) {
@@ -455,42 +471,24 @@ static int command_list(const struct gm_options *options)
     if (options->markdown) {
         return list_markdown(what);
     }
+    const struct list *list = find_list(what);
+    if (list) {
+        return list->print ? list->print(options) : list_files(list, options);
+    }
     const struct gm_scene *scene = gm_scene_find(what);
     const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file),
-               from_file = room || (scene && find_file(GM_FILE_SYSTEM, what, &file));
+               from_file = room || (scene && (find_file(GM_FILE_SYSTEM, what, &file) ||
+                                              find_file(GM_FILE_ROOM, what, &file)));
     if (room) {
         int status;
         char message[GM_MESSAGE];
-        scene = gm_room_scene(what, &status, message);
+        scene = gm_system_scene(1, options->arguments.words, &status, message);
         if (!scene) {
-            gm_complain("%s", message);
-            return status;
+            return gm_give_up(status, "%s", message);
         }
     }
-    if (strcmp(what, "scenes") == 0) {
-        list_scenes(options);
-    } else if (strcmp(what, "systems") == 0) {
-        return list_files(GM_FILE_SYSTEM, options);
-    } else if (strcmp(what, "rooms") == 0) {
-        return list_files(GM_FILE_ROOM, options);
-    } else if (strcmp(what, "schemes") == 0) {
-        list_schemes(options);
-    } else if (strcmp(what, "figures") == 0) {
-        list_figures(options);
-    } else if (strcmp(what, "tours") == 0) {
-        return gm_list_tours(options->json);
-    } else if (!scene) {
+    if (!scene) {
         return refuse_name(what);
-    } else if (!list_scene(scene, what, from_file ? &file : NULL, options)) {
-        return GM_EXIT_USAGE;
     }
-    return gm_finish(GM_EXIT_OK);
+    return list_scene(scene, what, from_file ? &file : NULL, options) ? gm_finish(GM_EXIT_OK) : GM_EXIT_USAGE;
 }
-
-const struct gm_command_row gm_command_list = {
-    .name = "list",
-    .synopsis = "[scenes|systems|rooms|schemes|figures|tours|SCENE|SYSTEM|ROOM]",
-    .help = "what there is",
-    .bit = GM_LIST,
-    .function = command_list,
-};

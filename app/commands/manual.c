@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/reference/catalogue.h"
+#include "app/commands/reference/reference.h"
 #include "app/output/say.h"
 #include "app/words/words.h"
 #include "core/basics.h"
@@ -50,19 +50,28 @@ static void put_line(const char *text)
     putchar('\n');
 }
 
+static void put_terms(const char *heading, const char *const terms[][2], size_t count)
+{
+    printf(".SH %s\n", heading);
+    for (size_t i = 0; i < count; i++) {
+        put_term(terms[i][0], "");
+        put_line(terms[i][1]);
+    }
+}
+
 static void put_commands(void)
 {
     printf(".SH COMMANDS\n");
     for (size_t i = 0; i < gm_command_count; i++) {
-        put_term(gm_commands[i]->name, gm_commands[i]->synopsis);
-        put_line(gm_commands[i]->help);
+        put_term(gm_commands[i].name, gm_commands[i].synopsis);
+        put_line(gm_commands[i].help);
         size_t options = 0;
-        for (size_t k = 0; k < gm_option_count(); k++) {
-            const struct gm_option option = gm_option_at(k);
-            if (option.commands & gm_commands[i]->bit) {
+        for (size_t k = 0; k < gm_option_count; k++) {
+            const struct gm_option *option = &gm_option_rows[k];
+            if (option->commands & gm_commands[i].bit) {
                 printf("%s", options++ ? "" : ".RS\n");
-                put_term(option.name, option.value);
-                put_line(option.help);
+                put_term(option->name, option->value);
+                put_line(option->help);
             }
         }
         printf("%s", options ? ".RE\n" : "");
@@ -179,16 +188,8 @@ static void put_surroundings(void)
         {"XDG_CACHE_HOME", "where the folder geomint with compiled loops is, in place of ~/.cache"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
-    printf(".SH EXIT STATUS\n");
-    for (size_t i = 0; i < GM_COUNT(exits); i++) {
-        put_term(exits[i][0], "");
-        put_line(exits[i][1]);
-    }
-    printf(".SH ENVIRONMENT\n");
-    for (size_t i = 0; i < GM_COUNT(environment); i++) {
-        put_term(environment[i][0], "");
-        put_line(environment[i][1]);
-    }
+    put_terms("EXIT STATUS", exits, GM_COUNT(exits));
+    put_terms("ENVIRONMENT", environment, GM_COUNT(environment));
 }
 
 static void put_examples(void)
@@ -200,29 +201,24 @@ static void put_examples(void)
         {"geomint work-precision kepler --out diagrams", "error against cost, of every scheme that fits"},
         {"geomint figures tyranowski-11 --out published", "a published figure with its numbers"},
     };
-    printf(".SH EXAMPLES\n");
-    for (size_t i = 0; i < GM_COUNT(examples); i++) {
-        put_term(examples[i][0], "");
-        put_line(examples[i][1]);
-    }
+    put_terms("EXAMPLES", examples, GM_COUNT(examples));
     printf(".SH SEE ALSO\n.BR ffmpeg (1),\n.BR gmsh (1)\n");
 }
 
-static int command_manual(const struct gm_options *options)
+int gm_command_manual(const struct gm_options *options)
 {
     if (options->arguments.count > 0) {
-        gm_complain("manual takes no arguments");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "manual takes no arguments");
     }
     printf(".TH GEOMINT 1 \"\" \"geomint %s\" \"User commands\"\n.SH NAME\ngeomint \\- see what a geometric "
            "integrator keeps and what an ordinary one destroys\n.SH SYNOPSIS\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
         printf("%s.B geomint%s", i ? ".br\n" : "", i ? " " : "");
-        put_line(i ? gm_commands[i]->name : "");
-        if (gm_commands[i]->synopsis[0]) {
+        put_line(i ? gm_commands[i].name : "");
+        if (gm_commands[i].synopsis[0]) {
             printf(".I ");
-            put_line(gm_commands[i]->synopsis);
+            put_line(gm_commands[i].synopsis);
         }
     }
     printf(
@@ -237,11 +233,3 @@ static int command_manual(const struct gm_options *options)
     put_schemes();
     return gm_finish(GM_EXIT_OK);
 }
-
-const struct gm_command_row gm_command_manual = {
-    .name = "manual",
-    .synopsis = "",
-    .help = "the manual page, for man(1)",
-    .bit = GM_MANUAL,
-    .function = command_manual,
-};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of options, from which they are read, checked and explained. */
-#include "app/commands/options.h"
+#include "app/commands/commands.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,20 +31,12 @@ enum kind {
     ENGINE
 };
 
-struct row {
-    const char *name;
-    enum kind kind;
-    unsigned commands;
-    size_t offset;
-    const char *value, *help;
-};
-
 #define AT(member) offsetof(struct gm_options, member)
 #define PAINTS (GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR)
 #define PRINTS (GM_CHARTS | GM_RENDER | GM_AGAIN)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
-static const struct row rows[] = {
+const struct gm_option gm_option_rows[] = {
     {"--json", FLAG,
      GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_BACKWARD | GM_WORK_PRECISION | GM_FIGURES, AT(json),
      "", "one JSON object a line"},
@@ -84,9 +76,10 @@ static const struct row rows[] = {
     {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
-    {"--graphics", TEXT, EXPLORES, AT(graphics), "KIND", "kitty, sixel, braille, quadrants, half or ascii"},
-    {"--colours", TEXT, EXPLORES, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
-    {"--theme", TEXT, EXPLORES, AT(shade), "THEME", "light, dark or, in a terminal, mono"},
+    {"--graphics", TEXT, EXPLORES, AT(terminal.graphics), "KIND",
+     "kitty, sixel, braille, quadrants, half or ascii"},
+    {"--colours", TEXT, EXPLORES, AT(terminal.colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
@@ -120,24 +113,55 @@ static const struct row rows[] = {
     {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "smaller pictures; long runs are coarser and not judged"},
 };
-enum { ROWS = GM_COUNT(rows) };
+enum { ROWS = GM_COUNT(gm_option_rows) };
+const size_t gm_option_count = ROWS;
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
     return gm_refuse(message, "%s %.60s%s%s", name, value, *value ? " " : "", what);
 }
 
-static bool store_between(char *place, const struct row *row, const char *value, double low, double high,
-                          char *message)
+/* A number of its kind; of one without an upper bound the lower one is none. */
+static bool store_number(char *place, const struct gm_option *row, const char *value, char *message)
 {
+    static const double bounds[][2] = {[TIME] = {-INFINITY, INFINITY},
+                                       [RATE] = {0, INFINITY},
+                                       [FPS] = {0.01, 1000},
+                                       [SCALE] = {GM_LEAST_SCALE, GM_MOST_SCALE},
+                                       [DPI] = {GM_LEAST_DPI, GM_MOST_DPI}};
+    const double low = bounds[row->kind][0], high = bounds[row->kind][1];
+    const bool open = isinf(high);
     double number = NAN;
     char what[64];
-    if (!gm_number_parse(value, &number) || !(number >= low && number <= high)) {
-        snprintf(what, sizeof what, "is not a number from %g to %g", low, high);
+    if (!gm_number_parse(value, &number) || !isfinite(number) || number > high ||
+        !(open ? number > low : number >= low)) {
+        snprintf(what, sizeof what,
+                 !open        ? "is not a number from %g to %g"
+                 : isinf(low) ? "is not a number"
+                              : "is not a number above 0",
+                 low, high);
         return refuse(message, row->name, value, what);
     }
     memcpy(place, &number, sizeof number);
     return true;
+}
+
+static bool store_whole(char *place, const struct gm_option *row, const char *value, char *message)
+{
+    double number = NAN;
+    if (!gm_number_parse(value, &number) || !(number >= 1 && number <= 1e9) || number != floor(number)) {
+        return refuse(message, row->name, value, "is not a whole number from 1 to 1e9");
+    }
+    const long whole = (long)number;
+    memcpy(place, &whole, sizeof whole);
+    return true;
+}
+
+static bool read_shard(const char *value, struct gm_options *options)
+{
+    int used = 0;
+    return sscanf(value, "%6ld/%6ld%n", &options->shard, &options->shards, &used) == 2 && !value[used] &&
+           options->shard >= 1 && options->shard <= options->shards;
 }
 
 static bool is_painted(double width, double height)
@@ -180,10 +204,9 @@ static bool settle_size(struct gm_options *options, char *message)
     const double width = round(options->page[0] / mm_an_inch * look->dpi);
     const double height = round(options->page[1] / mm_an_inch * look->dpi);
     if (!is_painted(width, height)) {
-        snprintf(message, GM_MESSAGE,
-                 "--size %gx%gmm is %gx%g pixels at %g an inch; each is to be from 64 to 16384",
-                 options->page[0], options->page[1], width, height, look->dpi);
-        return false;
+        return gm_refuse(message,
+                         "--size %gx%gmm is %gx%g pixels at %g an inch; each is to be from 64 to 16384",
+                         options->page[0], options->page[1], width, height, look->dpi);
     }
     look->width = (int)width;
     look->height = (int)height;
@@ -197,16 +220,14 @@ static bool settle_format(struct gm_options *options, char *message)
 {
     enum gm_format format = options->format;
     if (gm_options_take_stdout(options) && options->json) {
-        snprintf(message, GM_MESSAGE, "--output - and --json are both to write to standard output");
-        return false;
+        return gm_refuse(message, "--output - and --json are both to write to standard output");
     }
     if (options->output && !gm_options_take_stdout(options) && !gm_format_of(options->output, &format)) {
         return refuse(message, "--output", options->output, "is no .png, .svg or .pdf file");
     }
     if (options->format_name && format != options->format) {
-        snprintf(message, GM_MESSAGE, "--output %.300s and --format %s name two formats", options->output,
-                 options->format_name);
-        return false;
+        return gm_refuse(message, "--output %.300s and --format %s name two formats", options->output,
+                         options->format_name);
     }
     options->format = format;
     return format == GM_FORMAT_PNG || !options->painter || strcmp(options->painter, "auto") == 0 ||
@@ -215,80 +236,30 @@ static bool settle_format(struct gm_options *options, char *message)
                      options->painter);
 }
 
-static bool store(struct gm_options *options, const struct row *row, const char *value, char *message)
+static bool store(struct gm_options *options, const struct gm_option *row, const char *value, char *message)
 {
     char *place = (char *)options + row->offset;
-    double number = NAN;
-    switch (row->kind) {
+    const char *wrong = NULL;
+    switch ((enum kind)row->kind) {
     case FLAG:
         memcpy(place, &(int){1}, sizeof(int));
         return true;
-    case TEXT:
-        if (!*value) {
-            return refuse(message, row->name, value, "is empty");
-        }
-        memcpy(place, &value, sizeof value);
-        return true;
-    case TITLE:
-        if (!*value || !gm_text_is_plain(value)) {
-            return refuse(message, row->name, "", *value ? "has characters that are not shown" : "is empty");
-        }
-        memcpy(place, &value, sizeof value);
-        return true;
-    case FORMAT:
-        if (!gm_format_find(value, &options->format)) {
-            return refuse(message, row->name, value, "is none of: png, svg, pdf");
-        }
-        memcpy(place, &value, sizeof value);
-        return true;
-    case MOVIE:
-        if (!gm_sink_is_movie(value)) {
-            return refuse(message, row->name, value, "is no .mp4, .webm or .gif file");
-        }
-        memcpy(place, &value, sizeof value);
-        return true;
-    case WHOLE: {
-        if (!gm_number_parse(value, &number) || !(number >= 1 && number <= 1e9) || number != floor(number)) {
-            return refuse(message, row->name, value, "is not a whole number from 1 to 1e9");
-        }
-        long whole = (long)number;
-        memcpy(place, &whole, sizeof whole);
-        return true;
-    }
+    case WHOLE:
+        return store_whole(place, row, value, message);
     case TIME:
-        if (!gm_number_parse(value, &number) || !isfinite(number)) {
-            return refuse(message, row->name, value, "is not a number");
-        }
-        memcpy(place, &number, sizeof number);
-        return true;
     case RATE:
-        if (!gm_number_parse(value, &number) || !isfinite(number) || !(number > 0)) {
-            return refuse(message, row->name, value, "is not a number above 0");
-        }
-        memcpy(place, &number, sizeof number);
-        return true;
     case FPS:
-        return store_between(place, row, value, 0.01, 1000, message);
     case SCALE:
-        return store_between(place, row, value, GM_LEAST_SCALE, GM_MOST_SCALE, message);
     case DPI:
-        return store_between(place, row, value, GM_LEAST_DPI, GM_MOST_DPI, message);
+        return store_number(place, row, value, message);
     case SIZE:
         options->sized = true;
         return read_size(value, options->page, &options->look) ||
                refuse(message, row->name, value,
                       "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm");
-    case SHARD: {
-        long shard = 0, shards = 0;
-        int used = 0;
-        if (sscanf(value, "%6ld/%6ld%n", &shard, &shards, &used) != 2 || value[used] || shard < 1 ||
-            shard > shards) {
-            return refuse(message, row->name, value, "is not I/N, the I-th of N shares, with I from 1 to N");
-        }
-        options->shard = shard;
-        options->shards = shards;
-        return true;
-    }
+    case SHARD:
+        return read_shard(value, options) ||
+               refuse(message, row->name, value, "is not I/N, the I-th of N shares, with I from 1 to N");
     case ENGINE:
         return gm_engine_named(value, &options->engine) ||
                refuse(message, row->name, value, "is none of: auto, interpreted, native");
@@ -296,18 +267,35 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         options->look.theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
         return strcmp(value, "dark") == 0 || strcmp(value, "light") == 0 ||
                refuse(message, row->name, value, "is none of: light, dark");
+    case TITLE:
+        wrong = gm_text_is_plain(value) ? NULL : "has characters that are not shown";
+        value = wrong ? "" : value;
+        break;
+    case FORMAT:
+        wrong = gm_format_find(value, &options->format) ? NULL : "is none of: png, svg, pdf";
+        break;
+    case MOVIE:
+        wrong = gm_sink_is_movie(value) ? NULL : "is no .mp4, .webm or .gif file";
+        break;
+    case TEXT:
+        break;
     }
-    return false;
+    wrong = wrong || *value ? wrong : "is empty";
+    if (wrong) {
+        return refuse(message, row->name, value, wrong);
+    }
+    memcpy(place, &value, sizeof value);
+    return true;
 }
 
 /* The row of this command, or else one of the same name that others have. */
-static const struct row *find(const char *word, size_t length, enum gm_command command)
+static const struct gm_option *find(const char *word, size_t length, enum gm_command command)
 {
-    const struct row *found = NULL;
+    const struct gm_option *found = NULL;
     for (size_t i = 0; i < ROWS; i++) {
-        if (strlen(rows[i].name) == length && strncmp(rows[i].name, word, length) == 0 &&
-            (!found || rows[i].commands & command)) {
-            found = &rows[i];
+        if (strlen(gm_option_rows[i].name) == length && strncmp(gm_option_rows[i].name, word, length) == 0 &&
+            (!found || gm_option_rows[i].commands & command)) {
+            found = &gm_option_rows[i];
         }
     }
     return found;
@@ -317,7 +305,7 @@ static const struct row *find(const char *word, size_t length, enum gm_command c
 static const char *name_at(size_t i, const void *data)
 {
     const enum gm_command *command = data;
-    return rows[i].commands & *command ? rows[i].name + strlen("--") : "";
+    return gm_option_rows[i].commands & *command ? gm_option_rows[i].name + strlen("--") : "";
 }
 
 /* Says that there is no such option, and which one was probably meant, or all that the command has. */
@@ -332,8 +320,9 @@ static void refuse_option(char *message, const char *word, enum gm_command comma
                                    near ? "; did you mean --" : "", near ? near : "");
     const char *between = elsewhere ? "; it has " : "; there are ";
     for (size_t i = 0; i < ROWS && !near && used < GM_MESSAGE; i++) {
-        if (rows[i].commands & command) {
-            used += (size_t)snprintf(message + used, GM_MESSAGE - used, "%s%s", between, rows[i].name);
+        if (gm_option_rows[i].commands & command) {
+            used +=
+                (size_t)snprintf(message + used, GM_MESSAGE - used, "%s%s", between, gm_option_rows[i].name);
             between = ", ";
         }
     }
@@ -342,7 +331,7 @@ static void refuse_option(char *message, const char *word, enum gm_command comma
 static bool is_given(const bool given[ROWS], const char *name)
 {
     for (size_t i = 0; i < ROWS; i++) {
-        if (given[i] && strcmp(rows[i].name, name) == 0) {
+        if (given[i] && strcmp(gm_option_rows[i].name, name) == 0) {
             return true;
         }
     }
@@ -424,40 +413,31 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
                         char *message)
 {
     static const struct {
-        const char *one, *other, *why;
+        const char *one, *why, *others[7];
     } pairs[] = {
-        {"--at", "--frames", "the first makes one picture"},
-        {"--at", "--every", "the first makes one picture"},
-        {"--at", "--rate", "the first makes one picture"},
-        {"--at", "--fps", "the first makes one picture"},
-        {"--at", "--from", "the first makes one picture"},
-        {"--at", "--movie", "the first makes one picture"},
-        {"--frames", "--every", "each says how many frames there are"},
-        {"--frames", "--rate", "each says how many frames there are"},
-        {"--every", "--rate", "each says how many frames there are"},
-        {"--every", "--interval", "each says which steps have a row"},
-        {"--output", "--out", "the first names the file"},
-        {"--output", "--frames", "the first makes one picture"},
-        {"--output", "--every", "the first makes one picture"},
-        {"--output", "--rate", "the first makes one picture"},
-        {"--output", "--fps", "the first makes one picture"},
-        {"--output", "--from", "the first makes one picture"},
-        {"--output", "--movie", "the first makes one picture"},
-        {"--json", "--markdown", "they are two formats"},
-        {"--json", "--latex", "they are two formats"},
-        {"--latex", "--markdown", "they are two formats"},
-        {"--list", "--movie", "the first only tells of the tour"},
-        {"--list", "--out", "the first only tells of the tour"},
-        {"--join", "--table", "the first makes no run"},
-        {"--join", "--shard", "the first makes no run"},
-        {"--join", "--retry", "the first makes no run"},
-        {"--region", "--judge", "a region knows of no error"},
-        {"--join", "--measure", "the tables have the columns that they have"},
+        {"--at",
+         "the first makes one picture",
+         {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
+        {"--frames", "each says how many frames there are", {"--every", "--rate"}},
+        {"--every", "each says how many frames there are", {"--rate"}},
+        {"--every", "each says which steps have a row", {"--interval"}},
+        {"--output", "the first names the file", {"--out"}},
+        {"--output",
+         "the first makes one picture",
+         {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
+        {"--json", "they are two formats", {"--markdown", "--latex"}},
+        {"--latex", "they are two formats", {"--markdown"}},
+        {"--list", "the first only tells of the tour", {"--movie", "--out"}},
+        {"--join", "the first makes no run", {"--table", "--shard", "--retry"}},
+        {"--region", "a region knows of no error", {"--judge"}},
+        {"--join", "the tables have the columns that they have", {"--measure"}},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {
-        if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {
-            return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
-                             pairs[i].why);
+        for (const char *const *other = pairs[i].others; *other; other++) {
+            if (is_given(given, pairs[i].one) && is_given(given, *other)) {
+                return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, *other,
+                                 pairs[i].why);
+            }
         }
     }
     return check_files(options, command, message);
@@ -475,14 +455,14 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
     bool given[ROWS] = {false};
     for (int i = first; i < argc; i++) {
         const char *word = gm_option_name(argv[i]);
-        if (strncmp(word, "--", 2) != 0) {
-            if (!gm_arguments_add(&options->arguments, word)) {
+        if (strncmp(word, "--", 2) != 0 || command == GM_COMPLETE) { /* what may be unfinished is no option */
+            if (!gm_arguments_add(&options->arguments, argv[i])) {
                 return gm_refuse(message, "not enough memory");
             }
             continue;
         }
         const char *equals = strchr(word, '=');
-        const struct row *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
+        const struct gm_option *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
         if (!row || !(row->commands & command)) {
             refuse_option(message, word, command);
             return false;
@@ -497,10 +477,10 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                 return gm_refuse(message, "%s needs a value: %s", row->name, row->value);
             }
         }
-        if (given[row - rows]) {
+        if (given[row - gm_option_rows]) {
             return gm_refuse(message, "%s is given twice", row->name);
         }
-        given[row - rows] = true;
+        given[row - gm_option_rows] = true;
         if (!store(options, row, value, message)) {
             return false;
         }
@@ -522,26 +502,4 @@ void gm_options_close(struct gm_options *options)
 const char *gm_option_name(const char *word)
 {
     return strcmp(word, "-o") == 0 ? "--output" : word;
-}
-
-size_t gm_option_count(void)
-{
-    return ROWS;
-}
-
-struct gm_option gm_option_at(size_t index)
-{
-    const struct row *row = &rows[index];
-    return (struct gm_option){row->name, row->value, row->help, row->commands};
-}
-
-void gm_options_help(enum gm_command command)
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        if (rows[i].commands & command) {
-            char left[40];
-            snprintf(left, sizeof left, "%s %s", rows[i].name, rows[i].value);
-            printf("      %-20s %s\n", left, rows[i].help);
-        }
-    }
 }

@@ -8,7 +8,6 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/confirmed.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
 #include "app/output/say.h"
@@ -168,7 +167,7 @@ static bool open_lanes(struct work *work, char *message)
 /* The state behind the last frame before the first that is missing, where a checkpoint has one. */
 static bool resume(struct work *work, char *message)
 {
-    const long first = gm_frames_first_missing(&work->frames);
+    const long first = gm_frames_missing(&work->frames, false);
     long frame = -1;
     bool spoilt = false;
     if (first < 0 || !work->checkpoint) {
@@ -200,7 +199,7 @@ static bool make_frames(struct work *work, char *message)
     enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
     const double started = gm_clock_seconds();
     const bool progress = isatty(STDERR_FILENO);
-    const long last = work->movie ? work->schedule.count - 1 : gm_frames_last_missing(&work->frames);
+    const long last = work->movie ? work->schedule.count - 1 : gm_frames_missing(&work->frames, true);
     double due = started + INTERVAL;
     long made = 0, painted = -1;
     work->done = work->frames.found;
@@ -390,9 +389,9 @@ static int paint_all(struct work *work, const char *name)
         }
     }
     if (gm_interrupted) {
-        gm_complain("stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
-                    work->schedule.ours, gm_plural((double)work->schedule.ours));
-        return GM_EXIT_INTERRUPTED;
+        return gm_give_up(GM_EXIT_INTERRUPTED,
+                          "stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
+                          work->schedule.ours, gm_plural((double)work->schedule.ours));
     }
     const int status = tell_end(work);
     tell_written(work);
@@ -458,12 +457,9 @@ static void close_work(struct work *work)
 /* Frames are pixels. */
 static bool takes_format(const struct work *work, char *message)
 {
-    const bool fits = work->schedule.still || work->options->format == GM_FORMAT_PNG;
-    if (!fits) {
-        snprintf(message, GM_MESSAGE, "--format %s is for one picture: frames are PNG",
-                 gm_format_name(work->options->format));
-    }
-    return fits;
+    return work->schedule.still || work->options->format == GM_FORMAT_PNG ||
+           gm_refuse(message, "--format %s is for one picture: frames are PNG",
+                     gm_format_name(work->options->format));
 }
 
 /* Renders a request; output files below options->out begin with `name`. */
@@ -535,15 +531,14 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
     return good;
 }
 
-static int command_render(const struct gm_options *options)
+int gm_command_render(const struct gm_options *options)
 {
     char message[GM_MESSAGE], name[128];
     struct gm_request request;
     if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RENDER_SCHEMES,
                           message) ||
         !take_changes(&request, options->changes, message)) {
-        gm_complain("%s", message);
-        return gm_request_refusal(&request);
+        return gm_give_up(gm_request_refusal(&request), "%s", message);
     }
     if (!gm_command_confirmed(options, &request)) {
         gm_request_close(&request);
@@ -555,11 +550,3 @@ static int command_render(const struct gm_options *options)
     gm_request_close(&request);
     return gm_finish(status);
 }
-
-const struct gm_command_row gm_command_render = {
-    .name = "render",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "pictures, frames, movies",
-    .bit = GM_RENDER,
-    .function = command_render,
-};

@@ -9,7 +9,6 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/confirmed.h"
 #include "app/data/meta.h"
 #include "app/data/profile.h"
 #include "app/data/rows.h"
@@ -20,7 +19,6 @@
 #include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
-#include "app/output/pause.h"
 #include "app/output/say.h"
 #include "app/words/chosen.h"
 #include "app/words/drive.h"
@@ -828,8 +826,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
         }
     }
     if (!good) {
-        gm_complain("%s", message);
-        status = GM_EXIT_USAGE;
+        status = gm_give_up(GM_EXIT_USAGE, "%s", message);
     } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
         if (outputs->save && gm_save_is_cut(outputs->save)) {
             end_cut(&outcome);
@@ -858,7 +855,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     return status;
 }
 
-static int command_run(const struct gm_options *options)
+int gm_command_run(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_request request;
@@ -867,8 +864,7 @@ static int command_run(const struct gm_options *options)
     }
     if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RUN_SCHEMES,
                           message)) {
-        gm_complain("%s", message);
-        return gm_request_refusal(&request);
+        return gm_give_up(gm_request_refusal(&request), "%s", message);
     }
     if (!gm_command_confirmed(options, &request)) {
         gm_request_close(&request);
@@ -893,11 +889,3 @@ static int command_run(const struct gm_options *options)
     errno = outputs.csv_why != 0 ? outputs.csv_why : errno;
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
-
-const struct gm_command_row gm_command_run = {
-    .name = "run",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "numbers",
-    .bit = GM_RUN,
-    .function = command_run,
-};

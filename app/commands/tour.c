@@ -7,7 +7,6 @@
 #include "app/base/files.h"
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
@@ -15,13 +14,13 @@
 #include "app/tours/tour.h"
 #include "core/expression/number.h"
 
-int gm_list_tours(bool json)
+int gm_list_tours(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     size_t count = 0;
     struct gm_tour *tours = gm_tours_read(&count, message);
     for (size_t i = 0; i < count; i++) {
-        if (json) {
+        if (options->json) {
             struct gm_row row = gm_row_begin(stdout);
             gm_row_text(&row, "tour", tours[i].name);
             gm_row_text(&row, "title", tours[i].title);
@@ -69,10 +68,9 @@ static int list_steps(const struct gm_tour *tour)
 /* A movie has light or dark paper. */
 static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
 {
-    const bool dark = options->shade && strcmp(options->shade, "dark") == 0;
-    if (options->shade && !dark && strcmp(options->shade, "light") != 0) {
-        gm_complain("--theme %.60s is none of: light, dark", options->shade);
-        return GM_EXIT_USAGE;
+    const bool dark = options->terminal.theme && strcmp(options->terminal.theme, "dark") == 0;
+    if (options->terminal.theme && !dark && strcmp(options->terminal.theme, "light") != 0) {
+        return gm_give_up(GM_EXIT_USAGE, "--theme %.60s is none of: light, dark", options->terminal.theme);
     }
     struct gm_tour_output output = {.movie = options->movie,
                                     .folder = options->out,
@@ -83,27 +81,25 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
     return gm_finish(gm_tour_render(tour, &output));
 }
 
-static int command_tour(const struct gm_options *options)
+int gm_command_tour(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_file file;
     struct gm_tour tour;
     bool unreadable = false;
     if (options->arguments.count > 1) {
-        gm_complain("tour takes one name; one of several words stands in quotation marks");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE,
+                          "tour takes one name; one of several words stands in quotation marks");
     }
     if (options->arguments.count == 0 && (options->movie || options->out)) {
-        gm_complain("which tour? geomint tour lists them");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "which tour? geomint tour lists them");
     }
     if (options->arguments.count == 0) {
-        return gm_list_tours(false);
+        return gm_list_tours(options);
     }
     const bool found = gm_tour_find(options->arguments.words[0], &file, &unreadable, message);
     if (!found || !gm_tour_read(&tour, &file, message)) {
-        gm_complain("%s", message);
-        return found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        return gm_give_up(found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
     }
     int status = GM_EXIT_OK;
     if (options->listing) {
@@ -111,17 +107,8 @@ static int command_tour(const struct gm_options *options)
     } else if (options->movie || options->out) {
         status = make_movie(&tour, options);
     } else {
-        const struct gm_overrides overrides = gm_overrides_of(options);
-        status = gm_explorer_tour(&tour, &overrides);
+        status = gm_explorer(NULL, &tour, &options->terminal);
     }
     gm_tour_close(&tour);
     return status;
 }
-
-const struct gm_command_row gm_command_tour = {
-    .name = "tour",
-    .synopsis = "[NAME|FILE.tour]",
-    .help = "a class is led through steps; without a name, which tours there are",
-    .bit = GM_TOUR,
-    .function = command_tour,
-};

@@ -136,7 +136,7 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
 {
     uint64_t starts[GM_COLUMNS] = {0};
     uint32_t crcs[GM_COLUMNS] = {0};
-    const int file = gm_part_begin(saving->part, lane->index);
+    const int file = gm_part_file(saving->part, lane->index, true);
     struct gm_npz *npz = file < 0 ? NULL : lay_out(saving, lane, file, capacity, starts, crcs);
     bool good = npz && gm_bytes_clear(file, gm_npz_size(npz), end_size(lane));
     for (size_t i = 0; i <= lane->count && good; i++) {
@@ -166,7 +166,7 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
 static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
 {
     uint32_t crcs[GM_COLUMNS];
-    lane->file = gm_part_lane(saving->part, lane->index);
+    lane->file = gm_part_file(saving->part, lane->index, false);
     if (lane->file < 0) {
         return false;
     }
@@ -235,7 +235,7 @@ static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_
     }
     for (size_t i = 0; i <= lane->count; i++) {
         good = good && gm_npz_settle(npz, i, crcs[i]) &&
-               gm_bytes_check(lane->file, starts[i], size_of(lane, i), &crcs[i]);
+               gm_bytes_copy(lane->file, starts[i], size_of(lane, i), -1, 0, &crcs[i]);
     }
     adopt(lane, npz, lane->file, capacity, starts, crcs);
     for (size_t i = 0; i <= lane->count; i++) {

@@ -50,8 +50,7 @@ bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place)
     return true;
 }
 
-/* `to` < 0: they are only looked at. */
-static bool pass(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
+bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
 {
     unsigned char *block = malloc(BLOCK);
     bool good = block != NULL;
@@ -65,16 +64,6 @@ static bool pass(int from, uint64_t place, uint64_t size, int to, uint64_t there
     }
     free(block);
     return good;
-}
-
-bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc)
-{
-    return pass(file, place, size, -1, 0, crc);
-}
-
-bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
-{
-    return pass(from, place, size, to, there, crc);
 }
 
 bool gm_bytes_clear(int file, uint64_t place, uint64_t size)

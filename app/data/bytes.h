@@ -13,9 +13,7 @@ bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place);
 size_t gm_bytes_write_most(int file, const void *bytes, size_t size, uint64_t place);
 bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place);
 
-/* Goes on with the checksum (CRC-32) of bytes that lie in a file. */
-bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc);
-/* ... and copies them to another file. */
+/* Copies bytes to another file, none where `to` is below 0, and goes on with their checksum (CRC-32). */
 bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc);
 
 /* Zeros. */

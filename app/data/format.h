@@ -35,7 +35,8 @@ struct gm_saved {
 };
 
 struct gm_saving {
-    const char *path; /* of the file */
+    const char *path;   /* of the file */
+    const char *folder; /* the path without its ending: of the files beside it */
     const struct gm_part *part;
     struct gm_saved *lanes; /* `begun` of them are there */
     size_t begun, count;

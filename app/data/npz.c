@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/text.h"
 #include "app/data/bytes.h"
 #include "render/cells/text.h"
 
@@ -233,8 +234,8 @@ static uint64_t numbers_of(const struct entry *entry)
 static struct entry *reserve(struct gm_npz *npz, const char *name, const char *type, size_t item,
                              const uint64_t *shape, size_t axes)
 {
-    char head[NPY_HEAD], *file_name = NULL;
-    struct entry *entry = add_entry(npz, asprintf(&file_name, "%s.npy", name) < 0 ? NULL : file_name);
+    char head[NPY_HEAD];
+    struct entry *entry = add_entry(npz, gm_text("%s.npy", name));
     if (!entry) {
         return NULL;
     }
@@ -324,8 +325,8 @@ bool gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
     entry->shape[0] = length;
     entry->size = entry->head + numbers_of(entry);
     entry->crc = libdeflate_crc32(0, head, head_of(entry, head, entry->head));
-    return note(npz,
-                gm_bytes_check(npz->file, head_place(entry) + entry->head, numbers_of(entry), &entry->crc)) &&
+    return note(npz, gm_bytes_copy(npz->file, head_place(entry) + entry->head, numbers_of(entry), -1, 0,
+                                   &entry->crc)) &&
            settle(npz, entry);
 }
 

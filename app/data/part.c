@@ -15,6 +15,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include "app/base/text.h"
 #include "app/data/bytes.h"
 #include "app/output/folder.h"
 #include "render/message.h"
@@ -63,12 +64,14 @@ static bool hold(struct gm_part *part, bool *held)
 struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
 {
     struct gm_part *part = calloc(1, sizeof *part);
-    if (!part || asprintf(&part->path, "%s.part", path) < 0) {
+    char *folder = gm_text("%s.part", path);
+    if (!part || !folder) {
         free(part);
+        free(folder);
         gm_refuse(message, "not enough memory");
         return NULL;
     }
-    part->folder = -1;
+    *part = (struct gm_part){.path = folder, .folder = -1};
     bool held = false;
     const bool there = go_on || gm_folder_make(part->path, message);
     if (there && hold(part, &held)) {
@@ -133,21 +136,11 @@ static void name_of(char name[NAME], size_t lane, bool begun)
     snprintf(name, NAME, "lane-%zu%s", lane, begun ? ".new" : "");
 }
 
-static int open_file(const struct gm_part *part, size_t lane, bool begun)
+int gm_part_file(const struct gm_part *part, size_t lane, bool begun)
 {
     char name[NAME];
     name_of(name, lane, begun);
     return openat(part->folder, name, O_RDWR | O_CREAT | O_CLOEXEC | (begun ? O_TRUNC : 0), 0666);
-}
-
-int gm_part_lane(const struct gm_part *part, size_t lane)
-{
-    return open_file(part, lane, false);
-}
-
-int gm_part_begin(const struct gm_part *part, size_t lane)
-{
-    return open_file(part, lane, true);
 }
 
 bool gm_part_take(const struct gm_part *part, size_t lane)

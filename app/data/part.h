@@ -23,10 +23,9 @@ bool gm_part_sign(struct gm_part *part);
 /* That number; 0: it has none. */
 uint64_t gm_part_identity(const struct gm_part *part);
 
-/* A lane's file, for reading and writing; -1 with errno. */
-int gm_part_lane(const struct gm_part *part, size_t lane);
-/* An empty file that is to be a lane's, which is it once it is taken: the one before stays until then. */
-int gm_part_begin(const struct gm_part *part, size_t lane);
+/* A lane's file, for reading and writing; or an empty one that is begun to be it, which it is once it is taken: the one
+   before stays until then. -1 with errno. */
+int gm_part_file(const struct gm_part *part, size_t lane, bool begun);
 bool gm_part_take(const struct gm_part *part, size_t lane);
 /* Removes what was begun, or the lane's file. */
 void gm_part_drop(const struct gm_part *part, size_t lane, bool begun);

@@ -11,6 +11,7 @@
 #include "app/data/bytes.h"
 #include "app/data/format.h"
 #include "core/basics.h"
+#include "core/expression/reader.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
@@ -19,7 +20,7 @@ struct gm_save {
     struct gm_saving saving;
     const struct gm_data_format *format;
     struct gm_part *part;
-    char *path;
+    char *path, *folder;
     double due;   /* of a file that grows: when it is made anew */
     int cut;      /* errno of the write after which there are no more rows; 0: there was none */
     size_t lanes; /* of those that have begun, how many the file has */
@@ -31,11 +32,9 @@ enum { FORMATS = GM_COUNT(formats) };
 
 static const struct gm_data_format *format_of(const char *path)
 {
-    const size_t length = strlen(path);
+    const char *slash = strrchr(path, '/');
     for (size_t i = 0; i < FORMATS; i++) {
-        const size_t ending = strlen(formats[i]->ending);
-        if (length > ending && path[length - ending - 1] != '/' &&
-            strcmp(path + length - ending, formats[i]->ending) == 0) {
+        if (gm_word_ends(slash ? slash + 1 : path, formats[i]->ending)) {
             return formats[i];
         }
     }
@@ -69,8 +68,8 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
 {
     struct gm_save *save = calloc(1, sizeof *save);
     struct gm_saved *saved = calloc(lanes, sizeof *saved);
-    char *name = strdup(path);
-    const bool there = save && saved && name;
+    char *name = strdup(path), *folder = strndup(path, (size_t)(strrchr(path, '.') - path));
+    const bool there = save && saved && name && folder;
     if (!there || !gm_temporary_can_replace(path, message)) {
         if (!there) {
             gm_refuse(message, "not enough memory");
@@ -78,11 +77,14 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
         free(save);
         free(saved);
         free(name);
+        free(folder);
         return NULL;
     }
-    *save = (struct gm_save){.saving = {.path = name, .lanes = saved, .count = lanes, .kept = go_on},
-                             .format = format_of(path),
-                             .path = name};
+    *save = (struct gm_save){
+        .saving = {.path = name, .folder = folder, .lanes = saved, .count = lanes, .kept = go_on},
+        .format = format_of(path),
+        .path = name,
+        .folder = folder};
     save->saving.part = save->part = gm_part_open(path, go_on, message);
     if (!save->part) {
         gm_save_close(save, false, true, message);
@@ -107,8 +109,8 @@ static struct gm_saved *present(struct gm_save *save)
     return &save->saving.lanes[save->saving.begun - 1];
 }
 
-/* Its memory and its file, but for what the whole file is to be made of. */
-static void release(struct gm_saved *lane)
+/* Its memory and its file, but, unless `whole`, for what the whole file is to be made of. */
+static void release(struct gm_saved *lane, bool whole)
 {
     for (size_t i = 0; i < GM_COLUMNS; i++) {
         gm_column_close(&lane->columns[i]);
@@ -119,6 +121,10 @@ static void release(struct gm_saved *lane)
         close(lane->file);
     }
     lane->file = -1;
+    if (whole) {
+        gm_npz_close(lane->npz);
+        free(lane->meta);
+    }
 }
 
 /* Nothing of a lane could be written: the file will have those before it. */
@@ -128,9 +134,7 @@ static bool leave_out(struct gm_save *save, char *message)
     const int why = errno;
     save->cut = 0;
     if (!save->saving.kept && save->saving.begun > 1) {
-        release(lane);
-        gm_npz_close(lane->npz);
-        free(lane->meta);
+        release(lane, true);
         gm_part_drop(save->part, lane->index, false);
         save->saving.begun--;
         save->cut = why;
@@ -244,7 +248,7 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
     if (!lane->meta || !save->format->end(&save->saving, lane)) {
         return leave_out(save, message);
     }
-    release(lane);
+    release(lane, false);
     return true;
 }
 
@@ -259,7 +263,7 @@ static bool join(struct gm_save *save, int file, bool there)
         const struct gm_saved *lane = &saving->lanes[save->lanes];
         if (save->lanes > 0 || !there) {
             uint32_t crc = 0;
-            const int source = gm_part_lane(save->part, lane->index);
+            const int source = gm_part_file(save->part, lane->index, false);
             good = source >= 0 && (saving->kept ? gm_bytes_copy(source, 0, lane->size, file, place, &crc)
                                                 : gm_bytes_take(source, lane->size, file, place));
             if (source >= 0) {
@@ -317,7 +321,7 @@ static bool publish(struct gm_save *save, bool keep)
         return gm_temporary_make(save->path, copy, &save);
     }
     const size_t first = save->saving.lanes[0].index;
-    const int file = gm_part_lane(save->part, first);
+    const int file = gm_part_file(save->part, first, false);
     bool good = file >= 0 && join(save, file, true) && fsync(file) == 0;
     if (file >= 0) {
         good = close(file) == 0 && good;
@@ -347,14 +351,12 @@ bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message
     bool good = !makes || publish(save, keep && save->saving.kept) || complain(save, message);
     good = good && (!makes || save->cut == 0 || tell_cut(save, message));
     for (size_t i = 0; i < save->saving.begun; i++) {
-        struct gm_saved *lane = &save->saving.lanes[i];
-        release(lane);
-        gm_npz_close(lane->npz);
-        free(lane->meta);
+        release(&save->saving.lanes[i], true);
     }
     gm_part_close(save->part, !keep || !save->saving.kept);
     free(save->saving.lanes);
     free(save->path);
+    free(save->folder);
     free(save);
     return good;
 }

@@ -34,7 +34,7 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     struct gm_column *column = &lane->columns[0];
     const bool fresh = lane->rows == 0;
     lane->heads = saving->begun == 1;
-    lane->file = gm_part_lane(saving->part, lane->index);
+    lane->file = gm_part_file(saving->part, lane->index, false);
     return lane->file >= 0 && gm_lines_open(column, lane->file, fresh ? 0 : lane->heads + lane->rows) &&
            (lane->heads == 0 || !fresh || put_names(saving, lane, column));
 }

@@ -11,6 +11,7 @@
 
 #include "app/data/npz.h"
 #include "app/output/folder.h"
+#include "core/expression/reader.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
 
@@ -24,14 +25,11 @@ struct gm_tracks {
 
 bool gm_tracks_knows(const char *path, const struct gm_scene *scene, char *message)
 {
-    const size_t length = strlen(path), ending = strlen(".npz");
     if (scene->track_count == 0) {
         return gm_refuse(message, "scene %s records no tracks", scene->name);
     }
-    if (length <= ending || strcmp(path + length - ending, ".npz") != 0) {
-        return gm_refuse(message, "%.300s cannot be saved: tracks go to an .npz file", path);
-    }
-    return true;
+    return gm_word_ends(path, ".npz") ||
+           gm_refuse(message, "%.300s cannot be saved: tracks go to an .npz file", path);
 }
 
 static bool complain(const struct gm_tracks *tracks, char *message)
@@ -67,18 +65,15 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
 bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane *lane, const char *meta,
                    char *message)
 {
-    char meta_name[40] = "meta";
+    char prefix[40] = "", name[96];
     if (tracks->lanes > 1) {
-        snprintf(meta_name, sizeof meta_name, "lane%zu/meta", index);
+        snprintf(prefix, sizeof prefix, "lane%zu/", index);
     }
-    bool good = gm_npz_text(tracks->npz, meta_name, meta);
+    snprintf(name, sizeof name, "%smeta", prefix);
+    bool good = gm_npz_text(tracks->npz, name, meta);
     for (size_t i = 0; i < lane->scene->track_count && good; i++) {
         const struct gm_entries *entries = &lane->entries[i];
         const uint64_t shape[] = {entries->count, entries->width};
-        char name[96], prefix[40] = "";
-        if (tracks->lanes > 1) {
-            snprintf(prefix, sizeof prefix, "lane%zu/", index);
-        }
         snprintf(name, sizeof name, "%s%s_t", prefix, lane->scene->tracks[i].key);
         good = gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 1, entries->times);
         snprintf(name, sizeof name, "%s%s", prefix, lane->scene->tracks[i].key);

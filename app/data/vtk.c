@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/text.h"
 #include "app/data/format.h"
 #include "app/output/folder.h"
 #include "core/basics.h"
@@ -329,21 +330,13 @@ static bool write_group(const struct group *group, const char *path)
     return good;
 }
 
-/* The folder of the files beside the list, FILE without its ending; malloc'ed. */
-static char *folder_of(const struct gm_saving *saving)
-{
-    return strndup(saving->path, (size_t)(strrchr(saving->path, '.') - saving->path));
-}
-
 static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected)
 {
     (void)run, (void)expected;
     char message[GM_MESSAGE];
-    char *folder = folder_of(saving);
-    const bool made = folder && gm_folder_make(folder, message);
-    free(folder);
-    lane->file = made ? gm_part_lane(saving->part, lane->index) : -1;
+    const bool made = gm_folder_make(saving->folder, message);
+    lane->file = made ? gm_part_file(saving->part, lane->index, false) : -1;
     return lane->file >= 0 && gm_lines_open(&lane->columns[0], lane->file, lane->rows);
 }
 
@@ -351,15 +344,11 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
 static char *path_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t row,
                      const char *ending)
 {
-    char *folder = folder_of(saving), *path = NULL, prefix[40] = "";
+    char prefix[40] = "";
     if (saving->count > 1) {
         snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
     }
-    if (folder && asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, row, ending) < 0) {
-        path = NULL;
-    }
-    free(folder);
-    return path;
+    return gm_text("%s/%s%06" PRIu64 "%s.vtu", saving->folder, prefix, row, ending);
 }
 
 /* Which files a row has. */
@@ -432,12 +421,7 @@ static uint64_t place_of_row(const struct places *places, uint64_t row)
 /* The file of a lane's rows; malloc'ed. */
 static char *rows_path_of(const struct gm_saving *saving, const struct gm_saved *lane)
 {
-    char *folder = folder_of(saving), *path = NULL;
-    if (folder && asprintf(&path, "%s/lane%zu.bin", folder, lane->index) < 0) {
-        path = NULL;
-    }
-    free(folder);
-    return path;
+    return gm_text("%s/lane%zu.bin", saving->folder, lane->index);
 }
 
 /* An array that begins at a place of the file of that name. */
@@ -560,11 +544,7 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
             free(path);
         }
     }
-    char *folder = folder_of(saving);
-    if (folder) {
-        rmdir(folder);
-    }
-    free(folder);
+    rmdir(saving->folder);
 }
 
 /* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */
@@ -581,7 +561,7 @@ static bool put_meta(const char *meta, FILE *file)
 static bool copy_lines(const struct gm_saving *saving, const struct gm_saved *lane, FILE *file)
 {
     char block[1 << 14];
-    const int source = gm_part_lane(saving->part, lane->index);
+    const int source = gm_part_file(saving->part, lane->index, false);
     ssize_t got = 0;
     bool good = source >= 0;
     while (good && (got = read(source, block, sizeof block)) > 0) {
@@ -624,7 +604,7 @@ static bool drop(const struct gm_saving *saving, struct gm_saved *lane)
     /* a line of the list is short beside a row's file */
     const uint64_t rows = lane->rows, part = (rows + 63) / 64;
     struct gm_column lines;
-    const int file = rows > part ? gm_part_lane(saving->part, lane->index) : -1;
+    const int file = rows > part ? gm_part_file(saving->part, lane->index, false) : -1;
     const bool good = file >= 0 && gm_lines_open(&lines, file, rows - part);
     if (good) {
         gm_column_close(&lines);

@@ -2,16 +2,36 @@
 #ifndef GM_APP_EXPLORER_EVENTS_H
 #define GM_APP_EXPLORER_EVENTS_H
 
-#include "app/explorer/background/check.h"
-#include "app/explorer/background/measure.h"
-#include "app/explorer/open.h"
-#include "app/explorer/terminal/mouse.h"
-#include "app/explorer/view/start.h"
-#include "app/explorer/view/typed_system.h"
+#include "app/explorer/background/background.h"
+#include "app/explorer/terminal/device.h"
+#include "app/explorer/view/view.h"
+#include "app/explorer/worker/worker.h"
+#include "app/words/typed.h"
 
-/* What the files of the explorer share: explorer.c its beginning, its events and its end, choose.c the list
-   of what there is, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
-   mouse, show.c what is shown and when. Everything stands under who writes it. */
+/* What the files of the explorer share: explorer.c its beginning, its loop with what is shown, and its end; input.c the
+   list of what there is, the keys and the mouse; open.c what is open, and typed lines. Everything stands under who
+   writes it. */
+
+/* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
+
+enum { GM_NAME = 256 };
+
+struct gm_open {
+    int wake;                   /* the worker's shots are announced here */
+    struct gm_display *display; /* that may be painting a picture of the worker's */
+    struct gm_worker *worker;
+    const struct gm_scene *scene; /* the worker's; NULL: it makes it first */
+    char name[GM_NAME];           /* of that scene, in the list of what there is */
+    struct gm_shot *shot;         /* NULL: it has given none yet */
+    bool asked;                   /* for a shot */
+    int64_t next_shot;            /* in milliseconds: none is asked for earlier */
+    unsigned long told;           /* number of the last command line that was shown */
+    char said[GM_MESSAGE];        /* why there will be no shot, or "" */
+    struct gm_guide guide;        /* without a tour: none */
+    bool touring;                 /* the worker is led by it */
+    struct gm_studies studies;
+    char *partings; /* a line for every movie that was finished by leaving its scene, or NULL */
+};
 
 /* The list of what there is. */
 struct gm_list {
@@ -32,6 +52,17 @@ struct gm_pointer {
     struct gm_hit held; /* what the button went down on */
     bool holding;
     int column, row; /* where it was last, while it is down */
+};
+
+/* Whether a line could be read, and nothing is kept of it. */
+typedef bool gm_line_reader(const char *line, struct gm_typed_fault *fault);
+
+struct gm_check { /* {0} has found out nothing */
+    struct gm_job job;
+    bool open;
+    gm_line_reader *read;
+    char *line; /* that was asked about last */
+    struct gm_typed_fault fault;
 };
 
 struct gm_explorer {
@@ -65,26 +96,40 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
     explorer->status = status;
 }
 
+/* ---- what is open ---- */
+
+/* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
+bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
+/* A scene, a system or a room as its name alone gives it; a preview is for the list of them. */
+bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message);
+/* The scene of the tour's present step, from its start, and its study. */
+bool gm_open_step(struct gm_open *open, char *message);
+
+/* The study of the tour's present step, once its question is answered. */
+void gm_open_study(struct gm_open *open);
+
+/* Leaves what is open. A movie that is being made, and a file that was asked for, are finished first; otherwise a step
+   that is being made is not waited for. */
+void gm_open_leave(struct gm_open *open);
+
 /* ---- the list of scenes ---- */
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
 /* Whether the worker is a look at what is chosen. */
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
-/* The chosen scene is looked at in a while, unless it is open already; or now. Tours are only told of. */
-void gm_explorer_look_soon(struct gm_explorer *explorer);
+/* Looks at the chosen scene now. Tours are only told of. */
 void gm_explorer_look(struct gm_explorer *explorer);
-/* Opens the chosen scene or tour, or goes back to it where it was left. */
-void gm_explorer_enter(struct gm_explorer *explorer);
-void gm_explorer_press_in_list(struct gm_explorer *explorer, int key);
 
-/* ---- a system or scheme of one's own, a map ---- */
+/* ---- typed lines ---- */
 
+/* The run of a line (app/words/typed.h) takes the place of what is open, which stays where the line is wrong. */
+bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
 /* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
-void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
 void gm_explorer_ask_map(struct gm_explorer *explorer);
+void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
 /* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
 void gm_explorer_check_typed(struct gm_explorer *explorer);
@@ -97,12 +142,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key);
 void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);
 
-/* ---- output ---- */
-
 /* The terminal has another size, or may show anything. */
 void gm_explorer_resize(struct gm_explorer *explorer);
-/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
-   wait for input, in milliseconds; -1: as long as it takes. */
-int gm_explorer_output(struct gm_explorer *explorer);
 
 #endif

@@ -15,13 +15,103 @@
 
 #include "app/base/interrupt.h"
 #include "app/explorer/events.h"
-#include "app/explorer/terminal/console.h"
+#include "app/explorer/terminal/device.h"
+#include "app/explorer/view/view.h"
 #include "app/output/say.h"
 #include "render/clock.h"
 
 enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
 /* Frames come at their full pace while they take at most this part of a core. */
 static const double FRAMES_SHARE = 1.0 / 3;
+
+/* ---- what is shown, and when ---- */
+
+/* A scene that was opened says for a while what to watch. */
+static void begin_watch(struct gm_explorer *explorer)
+{
+    enum { WATCH_MILLISECONDS = 8000 };
+    struct gm_face *face = &explorer->face;
+    if (face->watched != explorer->open.shot->scene) {
+        face->watched = explorer->open.shot->scene;
+        face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
+    }
+}
+
+/* A page about a scheme wants it measured. */
+static void ask_measure(struct gm_explorer *explorer)
+{
+    struct gm_face *face = &explorer->face;
+    if (face->page == GM_PAGE_HELP) {
+        face->explained = explorer->open.shot->lanes[explorer->open.shot->selected].scheme;
+    }
+    if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
+        gm_measure_ask(&explorer->measure, face->explained);
+        face->measured = gm_measure_text(&explorer->measure);
+    }
+}
+
+static void draw(struct gm_explorer *explorer)
+{
+    struct gm_screen *screen = &explorer->screen;
+    if (explorer->list.shown) {
+        bool looked = gm_explorer_is_looked_at(explorer);
+        gm_screen_draw_start(screen, &explorer->face, &explorer->list.start,
+                             looked ? explorer->open.shot : NULL, explorer->fresh,
+                             looked ? explorer->open.said : "");
+    } else if (explorer->open.shot) {
+        ask_measure(explorer);
+        begin_watch(explorer);
+        gm_screen_draw_scene(screen, &explorer->face, explorer->open.shot, explorer->fresh);
+    } else {
+        return;
+    }
+    explorer->fresh = false;
+    explorer->dirty = !gm_display_show(
+        &explorer->display,
+        &(const struct gm_composed){.cells = &screen->cells,
+                                    .room = screen->pixels,
+                                    .pixels = explorer->face.pixels,
+                                    .theme = explorer->face.theme,
+                                    .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
+}
+
+/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
+   wait for input, in milliseconds; -1: as long as it takes. */
+static int put_out(struct gm_explorer *explorer)
+{
+    int64_t now = gm_clock_milliseconds();
+    if (explorer->list.shown && explorer->list.look_due >= 0 && explorer->list.look_due <= now) {
+        gm_explorer_look(explorer);
+    }
+    bool good = gm_writer_send(&explorer->display.writer);
+    if (explorer->dirty && gm_display_takes(&explorer->display)) {
+        const double begun = gm_clock_seconds();
+        draw(explorer);
+        explorer->draw_cost = gm_clock_seconds() - begun;
+        good = good && gm_writer_send(&explorer->display.writer);
+    }
+    if (!good) {
+        gm_explorer_leave(explorer, GM_EXIT_FILE);
+    }
+    if (explorer->list.shown && explorer->list.look_due >= 0) {
+        return (int)(explorer->list.look_due - now);
+    }
+    if (!gm_display_takes(&explorer->display)) {
+        return gm_writer_patience(&explorer->display.writer);
+    }
+    if (!explorer->open.worker || explorer->open.asked || explorer->dirty) {
+        return -1;
+    }
+    int64_t wait = explorer->open.next_shot - now;
+    if (wait > 0) {
+        return (int)wait;
+    }
+    gm_worker_want(explorer->open.worker);
+    explorer->open.asked = true;
+    return -1;
+}
+
+/* ---- what comes in ---- */
 
 /* Letters may have changed their size, which the system does not always know. */
 static void read_cell_size(struct gm_explorer *explorer)
@@ -200,13 +290,15 @@ static void read_news(struct gm_explorer *explorer)
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
-        gm_open_take(&explorer->open, shot);
+        explorer->open.shot = shot;
+        explorer->open.scene = shot->scene; /* which the worker has made by now */
+        explorer->open.asked = false;
         read_command(explorer);
         explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {
-            gm_display_renew(&explorer->display);
+            explorer->display.stale = true;
         }
     } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
                gm_worker_failed(explorer->open.worker, explorer->open.said)) {
@@ -224,7 +316,7 @@ static void run(struct gm_explorer *explorer)
     gm_explorer_resize(explorer);
     while (!explorer->leave) {
         read_late_answers(explorer);
-        int wait = gm_explorer_output(explorer);
+        int wait = put_out(explorer);
         const int hold = hold_keys(explorer);
         struct pollfd watched[COUNT] = {
             [KEYS] = {.fd = hold > 0 ? -1 : STDIN_FILENO, .events = POLLIN},
@@ -265,15 +357,13 @@ static void run(struct gm_explorer *explorer)
     }
 }
 
-/* A request or a tour, or neither: the list of scenes. */
-static int explore(const struct gm_request *request, const struct gm_tour *tour,
-                   const struct gm_overrides *overrides)
+int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
+                const struct gm_overrides *overrides)
 {
     struct gm_explorer explorer = {.wake = -1, .list = {.look_due = -1}, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
-        gm_complain("%s", explorer.message);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s", explorer.message);
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
                                      .pixels = explorer.terminal.graphics.pixels,
@@ -320,22 +410,12 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     free(explorer.open.partings);
     gm_console_release(); /* the eventfd stays: a worker that was left in a long step may yet write to it */
     if (!ok || explorer.status == GM_EXIT_USAGE) {
-        gm_complain("%s", explorer.message[0] ? explorer.message : "There is not enough memory.");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s",
+                          explorer.message[0] ? explorer.message : "There is not enough memory.");
     }
     if (number != 0 && number != SIGINT) {
         signal(number, SIG_DFL);
         raise(number);
     }
     return explorer.status;
-}
-
-int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides)
-{
-    return explore(request, NULL, overrides);
-}
-
-int gm_explorer_tour(const struct gm_tour *tour, const struct gm_overrides *overrides)
-{
-    return explore(NULL, tour, overrides);
 }

@@ -1,11 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is open: begun, left, and ended. */
-#include "app/explorer/open.h"
+/* What is open: begun, left, and ended; and the lines that are typed for a system or a scheme of one's own or a map of
+   many runs. */
+#include "app/explorer/events.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "app/explorer/surface/surface.h"
+#include "app/explorer/view/view.h"
+#include "app/grid/grid.h"
+#include "app/words/typed_file.h"
+#include "core/basics.h"
+#include "core/schemes.h"
 #include "render/cells/text.h"
+#include "render/message.h"
 
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
@@ -57,7 +68,7 @@ bool gm_open_request(struct gm_open *open, const struct gm_request *request, cha
     return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene, NULL);
 }
 
-bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault)
+static bool open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault)
 {
     struct gm_request request;
     if (!gm_typed_request(&request, line, FIRST_SCHEMES, fault)) {
@@ -77,13 +88,6 @@ bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *m
     gm_open_leave(open);
     const size_t schemes = preview ? LOOK_SCHEMES : FIRST_SCHEMES;
     return take_over(open, gm_worker_open_named(name, schemes, preview, open->wake, message), NULL, name);
-}
-
-void gm_open_take(struct gm_open *open, struct gm_shot *shot)
-{
-    open->shot = shot;
-    open->scene = shot->scene;
-    open->asked = false;
 }
 
 void gm_open_study(struct gm_open *open)
@@ -108,4 +112,358 @@ bool gm_open_step(struct gm_open *open, char *message)
     gm_open_study(open);
     open->touring = true;
     return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene, NULL);
+}
+
+/* ---- what is wrong with a line, found out by a thread: a sum may have many terms ---- */
+
+static void find_out(void *self)
+{
+    struct gm_check *check = self;
+    check->read(check->line, &check->fault);
+}
+
+/* Whether it is known; else that is found out, unless another line still is, and `wake` is written to at the end. */
+static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char *line, int wake,
+                        struct gm_typed_fault *fault)
+{
+    if (check->open && gm_job_is_busy(&check->job)) {
+        return false;
+    }
+    if (!check->line || check->read != read || strcmp(check->line, line) != 0) {
+        free(check->line);
+        check->line = strdup(line);
+        check->read = read;
+        check->fault = (struct gm_typed_fault){.at = -1};
+        char message[GM_MESSAGE];
+        check->open = check->open || gm_job_open(&check->job, find_out, NULL, check, wake, message);
+        if (check->line && check->open) {
+            gm_job_begin(&check->job);
+            return false;
+        }
+        gm_refuse(check->fault.sentence, "%s", check->line ? message : "There is not enough memory.");
+    }
+    *fault = check->fault;
+    return true;
+}
+
+static void close_check(struct gm_check *check)
+{
+    if (check->open) {
+        gm_job_close(&check->job);
+    }
+    free(check->line);
+    *check = (struct gm_check){0};
+}
+
+/* ---- typed lines ---- */
+
+static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
+
+static void open_prompt(struct gm_explorer *explorer, enum gm_typed_kind kind, const char *text, size_t at)
+{
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    prompt->kind = kind;
+    prompt->checked = prompt->entered = false;
+    prompt->fault = (struct gm_typed_fault){.at = -1};
+    gm_edit_set(&prompt->line, text, at);
+    explorer->dirty = explorer->fresh = true;
+    gm_explorer_check_typed(explorer);
+}
+
+static void close_prompt(struct gm_explorer *explorer)
+{
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    free(prompt->last[prompt->kind]);
+    prompt->last[prompt->kind] = strdup(prompt->line.text);
+    prompt->kind = GM_TYPED_NONE;
+    explorer->dirty = explorer->fresh = true;
+}
+
+/* Three steps of a scheme that fits, of which one goes back, or two stages. */
+static const char *scheme_example(const struct gm_shot *shot)
+{
+    static const char *const examples[][2] = {
+        {"verlet", "composition(verlet; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
+        {"midpoint", "composition(midpoint; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
+    };
+    for (size_t k = 0; k < GM_COUNT(examples); k++) {
+        for (size_t i = 0; i < shot->scheme_count; i++) {
+            if (strcmp(shot->schemes[i]->name, examples[k][0]) == 0) {
+                return examples[k][1];
+            }
+        }
+    }
+    return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
+}
+
+void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork)
+{
+    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
+    const struct gm_shot *shot = explorer->open.shot;
+    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
+    const char *last = explorer->typed_prompt.last[kind];
+    open_prompt(explorer, kind,
+                present->word ? gm_scheme_word(present)
+                : last        ? last
+                              : scheme_example(shot),
+                SIZE_MAX);
+}
+
+/* A system of one's own is told first, as a command line, by the thread that runs it. */
+void gm_explorer_ask_system(struct gm_explorer *explorer)
+{
+    const struct gm_open *open = &explorer->open;
+    const char *last = explorer->typed_prompt.last[GM_TYPED_SYSTEM];
+    if (open->shot && open->scene->text) {
+        explorer->editing = explorer->face.awaited = true;
+        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_TELL});
+        return;
+    }
+    const size_t formula = (size_t)(strstr(example, " q=") - example);
+    open_prompt(explorer, GM_TYPED_SYSTEM, last ? last : example, last ? SIZE_MAX : formula);
+}
+
+void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
+{
+    struct gm_arguments typed = {0}, words = {0};
+    bool good = command && gm_typed_split(&typed, command) && typed.count > 1;
+    struct gm_arguments formulas = {0};
+    explorer->editing = false;
+    /* without the program's name; `system` goes without saying, and behind a file's name stand its
+       formulas */
+    const bool formula = good && strcmp(typed.words[1], "system") == 0;
+    good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
+                                gm_typed_file_formulas(explorer->open.scene->text, &formulas)));
+    for (int i = 0; good && i < formulas.count; i++) {
+        good = gm_arguments_add(&words, formulas.words[i]);
+    }
+    for (int i = 2; good && i < typed.count; i++) {
+        good = gm_arguments_have(&formulas, typed.words[i]) || gm_arguments_add(&words, typed.words[i]);
+    }
+    char *text = good ? gm_typed_join(&words) : NULL;
+    if (text) { /* the cursor behind the first formula */
+        size_t at = words.count > 0 ? strlen(words.words[0]) : 0;
+        at += !formula && words.count > 1 ? 1 + strlen(words.words[1]) : 0;
+        open_prompt(explorer, GM_TYPED_SYSTEM, text, at);
+    }
+    free(text);
+    gm_arguments_close(&typed);
+    gm_arguments_close(&words);
+    gm_arguments_close(&formulas);
+}
+
+/* ---- maps ---- */
+
+/* A typed line as the words of the command `sweep`; malloc'ed, NULL: no memory. */
+static char *sweep_words(const char *line)
+{
+    static const char measure[] = "measure=";
+    struct gm_arguments typed = {0};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = gm_typed_split(&typed, line) ? open_memstream(&text, &size) : NULL;
+    if (stream && typed.count > 0 && strchr(typed.words[0], '=')) {
+        fputs("system ", stream);
+    }
+    for (int i = 0; stream && i < typed.count; i++) {
+        const char *word = typed.words[i];
+        const bool measured = strncmp(word, measure, strlen(measure)) == 0;
+        fputs(measured ? "--measure " : "", stream);
+        gm_arguments_put(stream, word + (measured ? strlen(measure) : 0));
+        fputc(' ', stream);
+    }
+    gm_arguments_close(&typed);
+    return stream && fclose(stream) == 0 ? text : NULL;
+}
+
+static bool check_map(const char *line, struct gm_typed_fault *fault)
+{
+    char *text = sweep_words(line);
+    struct gm_arguments words = {0};
+    struct gm_grid grid;
+    *fault = (struct gm_typed_fault){.at = -1};
+    const bool good = text && gm_arguments_split(&words, text)
+                          ? gm_grid_open(&grid, GM_STUDY_SWEEP, &words, NULL, fault->sentence)
+                          : gm_refuse(fault->sentence, "There is not enough memory.");
+    if (good) {
+        gm_grid_close(&grid);
+    }
+    gm_arguments_close(&words);
+    free(text);
+    return good;
+}
+
+/* A number that is swept: by a half of it to both sides. */
+static bool range_of(const struct gm_shot_parameter *parameter, char *word, size_t size)
+{
+    enum { ACROSS = 24 };
+    const struct gm_parameter *row = parameter->row;
+    double value;
+    if (row->type != GM_REAL || row->automatic || parameter->of_scheme || strcmp(row->key, "dt") == 0 ||
+        strcmp(row->key, "until") == 0 || !gm_number_parse(parameter->value, &value)) {
+        return false;
+    }
+    const double reach = value != 0 ? 0.5 * fabs(value) : 0.5;
+    const bool low = value - reach<row->lowest, high = value + reach> row->highest;
+    snprintf(word, size, "%s=%.*g..%.*g:%d", row->key, low ? DBL_DECIMAL_DIG : 4,
+             low ? row->lowest : value - reach, high ? DBL_DECIMAL_DIG : 4,
+             high ? row->highest : value + reach, ACROSS);
+    return true;
+}
+
+/* The open scene by the selected lane's scheme, over the chosen parameter and the next one that is a number,
+   to be edited. malloc'ed, NULL: no memory. */
+static char *map_example(const struct gm_explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    struct gm_arguments present = {0}, words = {0};
+    char ranges[2][64 + GM_TEXT_SIZE], *said = gm_studies_words(shot), *text = NULL;
+    size_t axes = 0;
+    for (size_t i = 0; i < shot->parameter_count && axes < 2; i++) {
+        const size_t at = (explorer->face.parameter + i) % shot->parameter_count;
+        axes += range_of(&shot->parameters[at], ranges[axes], sizeof ranges[axes]);
+    }
+    bool good = said && gm_arguments_split(&present, said);
+    for (int i = 0; good && i < present.count; i++) {
+        const size_t key = strcspn(present.words[i], "=") + 1;
+        const bool swept = (axes > 0 && strncmp(present.words[i], ranges[0], key) == 0) ||
+                           (axes > 1 && strncmp(present.words[i], ranges[1], key) == 0);
+        good = swept || gm_arguments_add(&words, present.words[i]);
+    }
+    char scheme[GM_MESSAGE], measure[GM_MESSAGE];
+    snprintf(scheme, sizeof scheme, "scheme=%.400s", gm_scheme_word(shot->lanes[shot->selected].scheme));
+    snprintf(measure, sizeof measure, "measure=%.100s",
+             shot->scene->observable_count > 0 ? shot->scene->observables[0].key : "");
+    good = good && gm_arguments_add(&words, scheme);
+    for (size_t i = 0; good && i < axes; i++) {
+        good = gm_arguments_add(&words, ranges[i]);
+    }
+    good = good && gm_arguments_add(&words, measure);
+    text = good ? gm_typed_join(&words) : NULL;
+    gm_arguments_close(&present);
+    gm_arguments_close(&words);
+    free(said);
+    return text;
+}
+
+/* With what was typed before, if that was of the same scene. */
+void gm_explorer_ask_map(struct gm_explorer *explorer)
+{
+    const char *last = explorer->typed_prompt.last[GM_TYPED_MAP];
+    char *usual = map_example(explorer);
+    const bool same = last && usual && strncmp(last, usual, strcspn(usual, " ") + 1) == 0;
+    if (usual) {
+        open_prompt(explorer, GM_TYPED_MAP, same ? last : usual, SIZE_MAX);
+    }
+    free(usual);
+}
+
+/* ---- what is typed is taken ---- */
+
+static bool take_map(struct gm_explorer *explorer)
+{
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    struct gm_open *open = &explorer->open;
+    char *words = sweep_words(prompt->line.text);
+    const bool good =
+        words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
+    if (!good) {
+        snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
+                 words ? open->studies.notice : "There is not enough memory.");
+    }
+    free(words);
+    return good;
+}
+
+/* For the selected lane, or for one more from its state; false: there is none. */
+static bool take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
+{
+    if (scheme) {
+        gm_worker_order(explorer->open.worker,
+                        (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+    }
+    return scheme != NULL;
+}
+
+bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
+{
+    struct gm_open *open = &explorer->open;
+    if (!open_line(open, line, fault)) {
+        return false;
+    }
+    open->guide.tour = NULL;
+    open->studies.shown = GM_STUDY_NONE;
+    explorer->face.guide = NULL;
+    explorer->face.parameter = 0;
+    explorer->list.shown = false;
+    return true;
+}
+
+/* What is typed is right: it takes the place of what runs, or of a lane's scheme. */
+static void take(struct gm_explorer *explorer)
+{
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    prompt->entered = false;
+    bool good;
+    if (prompt->kind == GM_TYPED_SYSTEM) {
+        good = gm_explorer_open_line(explorer, prompt->line.text, &prompt->fault);
+    } else if (prompt->kind == GM_TYPED_MAP) {
+        good = take_map(explorer);
+    } else {
+        good = take_scheme(explorer, prompt->kind == GM_TYPED_FORK,
+                           gm_typed_scheme(prompt->line.text, &prompt->fault));
+    }
+    if (good) {
+        close_prompt(explorer);
+    }
+}
+
+void gm_explorer_check_typed(struct gm_explorer *explorer)
+{
+    static gm_line_reader *const readers[GM_TYPED_KINDS] = {[GM_TYPED_SYSTEM] = gm_typed_check,
+                                                            [GM_TYPED_SWITCH] = gm_typed_check_scheme,
+                                                            [GM_TYPED_FORK] = gm_typed_check_scheme,
+                                                            [GM_TYPED_MAP] = check_map};
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    if (prompt->kind == GM_TYPED_NONE || prompt->checked) {
+        return;
+    }
+    prompt->checked = knows_fault(&explorer->check, readers[prompt->kind], prompt->line.text, explorer->wake,
+                                  &prompt->fault);
+    explorer->dirty = explorer->dirty || prompt->checked;
+    if (prompt->checked && prompt->entered) {
+        if (prompt->fault.sentence[0]) {
+            prompt->entered = false;
+        } else {
+            take(explorer);
+        }
+    }
+}
+
+void gm_explorer_press_typed(struct gm_explorer *explorer, int key)
+{
+    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    explorer->dirty = true;
+    if (gm_key_is_escape(key)) {
+        close_prompt(explorer);
+    } else if (gm_key_is_enter(key)) {
+        prompt->entered = !prompt->checked || !prompt->fault.sentence[0];
+        if (prompt->checked && prompt->entered) {
+            take(explorer);
+        }
+    } else {
+        if (prompt->entered) { /* more came at once: an end of a line in what was pasted is a blank */
+            gm_edit_press(&prompt->line, ' ');
+        }
+        prompt->entered = false;
+        prompt->checked = !gm_edit_press(&prompt->line, key) && prompt->checked;
+    }
+}
+
+void gm_explorer_close_typed(struct gm_explorer *explorer)
+{
+    close_check(&explorer->check);
+    for (size_t i = 0; i < GM_TYPED_KINDS; i++) {
+        free(explorer->typed_prompt.last[i]);
+    }
 }

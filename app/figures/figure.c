@@ -9,6 +9,7 @@
 
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
+#include "app/base/text.h"
 #include "app/output/still.h"
 #include "app/words/drive.h"
 #include "core/memory.h"
@@ -99,8 +100,7 @@ static bool has(const struct gm_request *request, const struct gm_lane_spec *spe
     return any;
 }
 
-/* Indices of the lanes with these values; returns how many. */
-static size_t choose(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known)
+size_t gm_figure_lanes(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known)
 {
     struct gm_arguments words = {0};
     size_t count = 0;
@@ -121,66 +121,6 @@ static size_t choose(const struct gm_request *request, const char *lanes, size_t
 static bool is_parameter(const struct gm_request *request, const char *key)
 {
     return gm_scene_parameter(request->scene, key) || gm_setting_find(key);
-}
-
-static bool check_statement(const struct gm_request *request, const struct gm_statement *statement,
-                            char *message)
-{
-    size_t chosen[GM_FIGURE_LANES];
-    bool known = true;
-    const size_t count = choose(request, statement->lanes, chosen, &known);
-    const size_t others = statement->against ? choose(request, statement->against, chosen, &known) : 1;
-    const bool paired = others == 1 || others == count || (statement->over && others > 0);
-    if (!known || count == 0 || !paired) {
-        return gm_refuse(message, "\"%s\" does not name its lanes: %s", statement->says, statement->lanes);
-    }
-    if (statement->measure != GM_LASTS && gm_scene_observable(request->scene, statement->observable) < 0) {
-        return gm_refuse(message, "\"%s\" names no observable: %s", statement->says, statement->observable);
-    }
-    if (statement->scale && statement->scale->observable &&
-        gm_scene_observable(request->scene, statement->scale->observable) < 0) {
-        return gm_refuse(message, "\"%s\" has a scale that is no observable", statement->says);
-    }
-    struct gm_arguments keys = {0};
-    known = gm_arguments_split(&keys, statement->open ? statement->open : "");
-    for (int i = 0; i < keys.count; i++) {
-        known &= is_parameter(request, keys.words[i]);
-    }
-    gm_arguments_close(&keys);
-    if (!known) {
-        return gm_refuse(message, "\"%s\" leaves open what is no parameter: %s", statement->says,
-                         statement->open);
-    }
-    if (statement->over && gm_scene_observable(request->scene, statement->over) < 0 &&
-        !gm_scene_parameter(request->scene, statement->over)) {
-        return gm_refuse(message, "\"%s\" is an order over nothing known: %s", statement->says,
-                         statement->over);
-    }
-    return true;
-}
-
-bool gm_figure_check(const struct gm_figure_job *job, char *message)
-{
-    struct gm_request request;
-    if (!job->published) {
-        return true;
-    }
-    if (job->published->count > GM_FIGURE_STATEMENTS ||
-        job->scene->observable_count > GM_FIGURE_OBSERVABLES) {
-        return gm_refuse(message, "%s has too many statements or observables", job->figure->name);
-    }
-    if (!parse(&request, job, message)) {
-        return false;
-    }
-    bool good = request.count <= GM_FIGURE_LANES;
-    if (!good) {
-        gm_refuse(message, "%s has more than %d lanes", job->figure->name, GM_FIGURE_LANES);
-    }
-    for (size_t i = 0; i < job->published->count && good; i++) {
-        good = check_statement(&request, &job->published->statements[i], message);
-    }
-    gm_request_close(&request);
-    return good;
 }
 
 /* The largest value of an observable after the time `from`, up to `to`. */
@@ -365,8 +305,9 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
 {
     size_t chosen[GM_FIGURE_LANES], others[GM_FIGURE_LANES];
     bool known = true, good[GM_FIGURE_LANES], all = true;
-    const size_t count = choose(request, statement->lanes, chosen, &known);
-    const size_t other_count = statement->against ? choose(request, statement->against, others, &known) : 0;
+    const size_t count = gm_figure_lanes(request, statement->lanes, chosen, &known);
+    const size_t other_count =
+        statement->against ? gm_figure_lanes(request, statement->against, others, &known) : 0;
     const size_t at = outcome->verdict_count++;
     double low = INFINITY, high = -INFINITY, scale = INFINITY;
     for (size_t i = 0; i < (statement->over ? 1 : count); i++) {
@@ -443,10 +384,8 @@ bool gm_outcome_has(const struct gm_outcome *outcome, size_t index)
 char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
                      enum gm_format format)
 {
-    char *path = NULL;
-    const int length = asprintf(&path, "%s/%s%s.%s", output->folder, name,
-                                theme == GM_THEME_DARK ? "-dark" : "", gm_format_name(format));
-    return length < 0 ? NULL : path;
+    return gm_text("%s/%s%s.%s", output->folder, name, theme == GM_THEME_DARK ? "-dark" : "",
+                   gm_format_name(format));
 }
 
 /* One picture; those of the page are PNG. */
@@ -457,11 +396,8 @@ static bool print_one(const struct gm_figure_job *job, const struct gm_request *
     char *path = gm_figure_path(output, job->figure->name, theme, format);
     struct gm_print print = {.path = path, .format = format, .look = output->look};
     print.look.theme = theme;
-    if (!path) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
-    }
-    const bool good = gm_still_write(&print, request, lanes, message);
+    const bool good =
+        path ? gm_still_write(&print, request, lanes, message) : gm_refuse(message, "not enough memory");
     free(path);
     return good;
 }
@@ -470,14 +406,11 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
                  struct gm_lane *const *lanes, const struct gm_figure_output *output, char *message)
 {
     const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
-    const struct gm_lane *looked_at[GM_FIGURE_LANES];
-    for (size_t i = 0; i < request->count; i++) {
-        looked_at[i] = lanes[i];
-    }
+    const struct gm_lane *const *shown = (const struct gm_lane *const *)lanes;
     for (size_t i = 0; i < 2; i++) {
-        if (!print_one(job, request, looked_at, output, themes[i], GM_FORMAT_PNG, message) ||
+        if (!print_one(job, request, shown, output, themes[i], GM_FORMAT_PNG, message) ||
             (output->format != GM_FORMAT_PNG &&
-             !print_one(job, request, looked_at, output, themes[i], output->format, message))) {
+             !print_one(job, request, shown, output, themes[i], output->format, message))) {
             return GM_EXIT_FILE;
         }
     }

@@ -81,8 +81,9 @@ static inline size_t gm_figure_observables(const struct gm_figure_job *job)
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
                     bool quick);
 
-/* Whether every statement names lanes and observables that there are; false with a sentence. */
-bool gm_figure_check(const struct gm_figure_job *job, char *message);
+/* The indices of the lanes with these values, "scheme=rk4 dt=0.1,0.2"; returns how many, GM_FIGURE_LANES at most. Where
+   a key or a value is none, *known becomes false. */
+size_t gm_figure_lanes(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known);
 
 /* Runs it, judges it and writes its pictures, as FOLDER/NAME.png and FOLDER/NAME-dark.png, and those of
    another format beside them, which the page may not show. An interruption is GM_EXIT_INTERRUPTED. */

@@ -4,11 +4,14 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/text.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/files/base64.h"
@@ -70,24 +73,25 @@ static const char style[] =
 
 static void put_text(FILE *page, const char *text)
 {
+    static const char *const escapes[UCHAR_MAX + 1] = {
+        ['&'] = "&amp;", ['<'] = "&lt;", ['>'] = "&gt;", ['"'] = "&quot;"};
     for (; *text; text++) {
-        switch (*text) {
-        case '&':
-            fputs("&amp;", page);
-            break;
-        case '<':
-            fputs("&lt;", page);
-            break;
-        case '>':
-            fputs("&gt;", page);
-            break;
-        case '"':
-            fputs("&quot;", page);
-            break;
-        default:
-            putc(*text, page);
-        }
+        const char *escape = escapes[(unsigned char)*text];
+        fputs(escape ? escape : (char[]){*text, '\0'}, page);
     }
+}
+
+/* Writes a format that has %s alone, for texts that are escaped. */
+__attribute__((format(printf, 2, 3))) static void put(FILE *page, const char *format, ...)
+{
+    va_list texts;
+    va_start(texts, format);
+    for (const char *at; (at = strstr(format, "%s")); format = at + 2) {
+        fwrite(format, 1, (size_t)(at - format), page);
+        put_text(page, va_arg(texts, const char *));
+    }
+    va_end(texts);
+    fputs(format, page);
 }
 
 /* As a sentence: with a capital letter in front. */
@@ -124,10 +128,7 @@ static bool put_picture(FILE *page, const struct gm_figure_output *output, const
           "srcset=\"data:image/png;base64,",
           page);
     bool good = dark && light && put_base64(page, dark);
-    fputs("\"><img loading=\"lazy\" alt=\"", page);
-    put_text(page, job->scene->title);
-    fputs(": ", page);
-    put_text(page, job->figure->statement);
+    put(page, "\"><img loading=\"lazy\" alt=\"%s: %s", job->scene->title, job->figure->statement);
     fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->look.width,
             output->look.height);
     good = good && put_base64(page, light);
@@ -166,12 +167,8 @@ static void put_statements(FILE *page, const struct gm_figure_job *job, const st
         const struct gm_statement *statement = &job->published->statements[i];
         fputs("<tr><td>", page);
         put_sentence(page, statement->says);
-        fputs("<td class=\"soft\">", page);
-        put_text(page, statement->lanes);
-        if (statement->against) {
-            fputs(" divided by ", page);
-            put_text(page, statement->against);
-        }
+        put(page, "<td class=\"soft\">%s%s%s", statement->lanes, statement->against ? " divided by " : "",
+            statement->against ? statement->against : "");
         gm_statement_expectation(statement, outcome->verdicts[i].scale, text, sizeof text);
         fprintf(page, "<td data-is=\"expected\">%s", text);
         gm_verdict_number(outcome->verdicts[i].low, outcome->verdicts[i].high, text, sizeof text);
@@ -189,14 +186,12 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
           page);
     for (size_t k = 0; k < gm_figure_observables(job); k++) {
         if (gm_outcome_has(outcome, k)) {
-            fputs("<th>", page);
-            put_text(page, job->scene->observables[k].key);
+            put(page, "<th>%s", job->scene->observables[k].key);
         }
     }
     fputs("</tr></thead><tbody>\n", page);
     for (size_t i = 0; i < outcome->lane_count; i++) {
-        fputs("<tr><td>", page);
-        put_text(page, outcome->lanes[i].label);
+        put(page, "<tr><td>%s", outcome->lanes[i].label);
         fprintf(page, "<td>%.6g", outcome->lanes[i].t);
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
             const double value = outcome->lanes[i].observables[k];
@@ -219,11 +214,8 @@ static void put_failures(FILE *page, const struct gm_outcome *outcome)
 {
     for (size_t i = 0; i < outcome->lane_count; i++) {
         if (outcome->lanes[i].failure[0]) {
-            fputs("<p class=\"soft\">", page);
-            put_text(page, outcome->lanes[i].label);
-            fputs(" ended early: ", page);
-            put_text(page, outcome->lanes[i].failure);
-            fputs(".</p>\n", page);
+            put(page, "<p class=\"soft\">%s ended early: %s.</p>\n", outcome->lanes[i].label,
+                outcome->lanes[i].failure);
         }
     }
 }
@@ -240,8 +232,7 @@ static void put_title(FILE *page, const struct gm_figure_job *job)
     const int digits = (int)strspn(number, "0123456789");
     fprintf(page, "Figure %.*s", digits, number);
     if (number[digits] == '-') {
-        fputs(", ", page);
-        put_text(page, number + digits + 1);
+        put(page, ", %s", number + digits + 1);
     }
 }
 
@@ -250,9 +241,7 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
 {
     fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
     put_title(page, job);
-    fputs("</a> <span class=\"soft\">", page);
-    put_text(page, gm_figure_word(job));
-    fputs("</span></h3>\n<p>", page);
+    put(page, "</a> <span class=\"soft\">%s</span></h3>\n<p>", gm_figure_word(job));
     if (gm_figure_is_user(job)) {
         put_text(page, job->scene->blurb);
     } else {
@@ -265,24 +254,15 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
         good = put_picture(page, output, job);
         put_statements(page, job, outcome);
         if (job->published && job->published->remark) {
-            fputs("<p>", page);
-            put_text(page, job->published->remark);
-            fputs("</p>\n", page);
+            put(page, "<p>%s</p>\n", job->published->remark);
         }
         put_failures(page, outcome);
     } else {
-        fputs("<p class=\"notice\">Not made", page);
-        if (outcome->message[0]) {
-            fputs(": ", page);
-            put_text(page, outcome->message);
-        }
-        fputs(".</p>\n", page);
+        put(page, "<p class=\"notice\">Not made%s%s.</p>\n", outcome->message[0] ? ": " : "",
+            outcome->message);
     }
-    fputs("<pre>geomint render ", page);
-    put_text(page, gm_figure_word(job));
-    fputs(*job->arguments ? " " : "", page);
-    put_text(page, job->arguments);
-    fputs("</pre>\n", page);
+    put(page, "<pre>geomint render %s%s%s</pre>\n", gm_figure_word(job), *job->arguments ? " " : "",
+        job->arguments);
     if (outcome->progress == GM_MADE) {
         put_numbers(page, job, outcome);
     }
@@ -397,9 +377,7 @@ static bool put_document(FILE *page, const struct gm_figure_output *output,
     if (!any) {
         return true;
     }
-    fprintf(page, "<section id=\"%s\">\n<h2>", document->prefix);
-    put_text(page, document->citation);
-    fputs("</h2>\n", page);
+    put(page, "<section id=\"%s\">\n<h2>%s</h2>\n", document->prefix, document->citation);
     if (document->link) {
         fprintf(page, "<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
     }
@@ -416,14 +394,10 @@ static bool put_document(FILE *page, const struct gm_figure_output *output,
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message)
 {
-    char *path = NULL, *partial = NULL;
-    const char *out = output->folder;
-    if (asprintf(&path, "%s/figures.html", out) < 0 || asprintf(&partial, "%s/.figures.html", out) < 0) {
-        free(path);
-        return gm_refuse(message, "not enough memory");
-    }
+    char *path = gm_text("%s/figures.html", output->folder),
+         *partial = gm_text("%s/.figures.html", output->folder);
     errno = 0;
-    FILE *page = fopen(partial, "w");
+    FILE *page = path && partial ? fopen(partial, "w") : NULL;
     bool good = page != NULL;
     if (good) {
         const struct gm_figure_sum sum = gm_figures_sum(jobs, outcomes, count);
@@ -441,9 +415,9 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
         good = good && rename(partial, path) == 0;
     }
     if (!good) {
-        gm_refuse(message, "%.200s could not be written: %s", path,
+        gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
                   gm_memory_was_short() ? "not enough memory" : strerror(errno));
-        remove(partial);
+        remove(partial ? partial : "");
     }
     free(path);
     free(partial);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "app/base/arguments.h"
+#include "app/base/text.h"
 #include "app/words/request.h"
 #include "core/field/field.h"
 #include "core/memory.h"
@@ -111,7 +112,7 @@ static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
     }
 }
 
-bool gm_certify_lane(const struct gm_lane *lane, struct gm_certificate *certificate, char *message)
+static bool certify_lane(const struct gm_lane *lane, struct gm_certificate *certificate, char *message)
 {
     const struct gm_scene *scene = lane->scene;
     const struct gm_kind *kind = lane->problem.kind;
@@ -171,9 +172,8 @@ static bool ask(const char *scheme, const char *system, int count, const char *c
                 struct gm_request *request, int *status, char *message)
 {
     struct gm_arguments typed = {0};
-    char *choice = NULL;
-    bool good = asprintf(&choice, "scheme=%s", scheme) >= 0 && gm_arguments_add(&typed, system) &&
-                gm_arguments_add(&typed, choice);
+    char *choice = gm_text("scheme=%s", scheme);
+    bool good = choice && gm_arguments_add(&typed, system) && gm_arguments_add(&typed, choice);
     for (int i = 0; good && i < count; i++) {
         good = gm_arguments_add(&typed, words[i]);
     }
@@ -204,7 +204,7 @@ bool gm_certify_words(const char *scheme, const char *system, int count, const c
     bool good = ask(scheme, system, count, words, &request, status, message);
     if (good) {
         struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
-        good = lane && gm_certify_lane(lane, certificate, message);
+        good = lane && certify_lane(lane, certificate, message);
         *status = good ? GM_EXIT_OK : gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
         gm_lane_close(lane);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_CHART_H
-#define GM_APP_STUDIES_CHART_H
+#ifndef GM_APP_GRID_CHART_H
+#define GM_APP_GRID_CHART_H
 
 #include "scenes/common/graph.h"
 

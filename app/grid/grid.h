@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_GRID_H
-#define GM_APP_STUDIES_GRID_H
+#ifndef GM_APP_GRID_GRID_H
+#define GM_APP_GRID_GRID_H
 
 #include "app/base/arguments.h"
 #include "app/grid/listener.h"
@@ -85,8 +85,11 @@ struct gm_grid_axis {
 struct gm_study_row;
 
 struct gm_grid {
+    struct gm_arena *arena;    /* of all that the others point to */
     struct gm_request request; /* its first lane has the parameters that all share */
     const struct gm_study_row *row;
+    const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
+    const char *requested;            /* ... and the measure or judge, NULL: what the scene says */
     struct gm_grid_line *lines;
     size_t count;                         /* of lines, */
     size_t begun;                         /* of which so many are shown: they are measured or under way */
@@ -126,33 +129,32 @@ struct gm_grid {
 struct gm_study_row {
     const char *name; /* of its command */
     int refusal;      /* the exit status where nothing can be measured */
-    bool (*open)(struct gm_grid *grid, const struct gm_arguments *arguments, const char *measure,
-                 char *message);
-    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
     void (*draw)(const struct gm_grid *grid, struct gm_picture *picture);
-    bool (*write)(const struct gm_grid *grid, const char *path);
-    void (*close)(struct gm_grid *grid);
     /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL
        where it shows none, and for a kind that has no runs of its own. In any thread, while it measures. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
 
-    /* ---- of gm_cells_open ---- */
+    /* ---- of a kind that has no cells, NULL for the others; `open` leaves the body of the grid's arena, with a
+       sentence, where it cannot ---- */
+    void (*open)(struct gm_grid *grid);
+    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
+    bool (*write)(const struct gm_grid *grid, const char *path);
+
+    /* ---- of a kind with cells, while it is opened, in the body of the grid's arena ---- */
     const char *which; /* what is asked where there is no scene */
     size_t schemes;    /* so many of the scene's preferred ones are taken where none is named */
-    /* The words unless overridden; malloc'ed. NULL with a sentence where the scene has nothing to ask for, or
-       where memory is short. */
-    char *(*usual)(const struct gm_scene *scene, char *message);
-    /* Changes the words before they are read; NULL: nothing. False with a sentence. */
-    bool (*edit)(struct gm_grid *grid, struct gm_arguments *words, char *message);
-    /* Fills axes, lines and cells; `words` are all, among them those typed. False with a sentence. */
-    bool (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words, const struct gm_arguments *typed,
-                    const char *measure, char *message);
+    /* The words unless overridden. */
+    const char *(*usual)(struct gm_grid *grid, const struct gm_scene *scene);
+    /* Changes the words before they are read; NULL: nothing. */
+    void (*edit)(struct gm_grid *grid, struct gm_arguments *words);
+    /* Fills axes, lines and cells; `words` are all, among them those typed. */
+    void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
-    /* ---- of gm_cells_measure ---- */
+    /* ---- of gm_cells_measure; `prepare` in a body ---- */
     bool
         alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
-    /* Finds what runs are compared with; NULL: nothing. False with a sentence. */
-    bool (*prepare)(struct gm_grid *grid, char *message);
+    /* Finds what runs are compared with; NULL: nothing. */
+    void (*prepare)(struct gm_grid *grid);
     /* Whether a cell is of no use, after those before it; NULL: all are of use. */
     bool (*is_needless)(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
     /* Makes the run of an open lane and fills its cell, in any thread; a message is why it has no numbers. */
@@ -166,7 +168,7 @@ struct gm_study_row {
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
                      int number);
 };
-extern const struct gm_study_row gm_study_rows[GM_STUDY_COUNT]; /* that of GM_STUDY_NONE is empty */
+extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: GM_STUDY_NONE */
 
 /* The kind of that name; GM_STUDY_NONE if there is none. */
 enum gm_study_kind gm_study_find(const char *name);

@@ -4,23 +4,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 /* ---- stability ---- */
-
-enum gm_cell_verdict gm_stability_verdict(const struct gm_grid *grid, const struct gm_grid_cell *cell)
-{
-    if (cell->status != GM_OK) {
-        return GM_FAILED;
-    }
-    if (fabs(cell->ratio) > 2 || (!grid->plan->kept && grid->plan->error && !(cell->error <= 1))) {
-        return GM_GAINED;
-    }
-    if (!(cell->ratio >= 0.5)) {
-        return GM_LOST;
-    }
-    return grid->accuracy < INFINITY && !(cell->error <= grid->accuracy) ? GM_WRONG : GM_BOUNDED;
-}
 
 const char *gm_stability_judge(const struct gm_grid *grid)
 {
@@ -159,24 +144,6 @@ size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm
     }
 }
 
-/* Errors of both may cancel by chance: a cell is credited with the largest error of its resolution at its step
-   and all shorter ones. */
-void gm_work_conclude(const struct gm_grid *grid, struct gm_grid_line *line)
-{
-    struct gm_grid_cell *credited = line->credited;
-    for (size_t k = line->count; grid->parameter && k-- > 0;) {
-        credited[k] = line->cells[k];
-        if (k + 1 < line->count && credited[k + 1].value == credited[k].value &&
-            credited[k + 1].error > credited[k].error) {
-            credited[k].error = credited[k + 1].error;
-        }
-    }
-    for (int cost = 0; grid->parameter && cost < GM_COST_COUNT; cost++) {
-        line->front_count[cost] =
-            gm_work_keep_best(credited, line->count, (enum gm_cost)cost, line->front[cost]);
-    }
-}
-
 const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count)
 {
     *count = line->front[cost] ? line->front_count[cost] : line->count;
@@ -277,55 +244,4 @@ const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size
         name_cheapest(grid, front, GM_COST_RESOLUTION, text + used, size - used);
     }
     return text;
-}
-
-/* ---- modified energies ---- */
-
-/* From the last two terms that are there, |dt^k H_k| = C k! (dt / gamma)^k. */
-static double gamma_of(const struct gm_grid_cell *cell)
-{
-    int last = GM_MODIFIED_POWER;
-    while (last > 0 && !(cell->terms[last] > 0)) {
-        last--;
-    }
-    int before = last - 1;
-    while (before > 0 && !(cell->terms[before] > 0)) {
-        before--;
-    }
-    if (before < 1) {
-        return NAN;
-    }
-    double factorials = 1;
-    for (int k = before + 1; k <= last; k++) {
-        factorials *= k;
-    }
-    return cell->dt * pow(factorials * cell->terms[before] / cell->terms[last], 1. / (last - before));
-}
-
-void gm_backward_judge(struct gm_grid_cell *cell)
-{
-    for (int k = 1; k < GM_POWERS; k++) {
-        cell->best = cell->errors[k] < cell->errors[cell->best] ? k : cell->best;
-    }
-    cell->gamma = gamma_of(cell);
-}
-
-void gm_backward_conclude(const struct gm_grid *grid, struct gm_grid_line *line)
-{
-    const double above_roundoff = 1e-12;
-    (void)grid;
-    line->shown[0] = true;
-    for (int k = 0; k < GM_POWERS; k++) {
-        const struct gm_grid_cell *fine = NULL, *coarse = NULL;
-        for (size_t i = line->count; i-- > 0 && !coarse;) {
-            const struct gm_grid_cell *cell = &line->cells[i];
-            line->shown[k] |= cell->tried && cell->terms[k] > 0;
-            if (cell->tried && cell->status == GM_OK && cell->errors[k] > above_roundoff) {
-                coarse = fine ? cell : NULL;
-                fine = fine ? fine : cell;
-            }
-        }
-        line->orders[k] =
-            coarse ? log(coarse->errors[k] / fine->errors[k]) / log(coarse->dt / fine->dt) : NAN;
-    }
 }

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_JUDGE_H
-#define GM_APP_STUDIES_JUDGE_H
+#ifndef GM_APP_GRID_JUDGE_H
+#define GM_APP_GRID_JUDGE_H
 
 #include "app/grid/grid.h"
 
 /* What the cells of a grid say together. */
 
 /* ---- stability ---- */
-
-/* Of a cell with ratio, error and status. */
-enum gm_cell_verdict gm_stability_verdict(const struct gm_grid *grid, const struct gm_grid_cell *cell);
 
 /* What is asked: "bounded" or "accurate"; and in a sentence, "accurate to 0.01 (position_error)". */
 const char *gm_stability_judge(const struct gm_grid *grid);
@@ -35,9 +32,6 @@ double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost);
 size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm_cost cost,
                          struct gm_grid_cell *best);
 
-/* Finds the fronts of a line, where resolution and step vary. */
-void gm_work_conclude(const struct gm_grid *grid, struct gm_grid_line *line);
-
 /* The cells that a line is drawn and priced by. */
 const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
 
@@ -54,12 +48,5 @@ const struct gm_grid_line *gm_work_cheapest(const struct gm_grid *grid, double e
 
 /* "Cheapest by run time: ..." */
 const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size);
-
-/* ---- modified energies ---- */
-
-/* Finds the best power of a cell with errors and terms, and its gamma. */
-void gm_backward_judge(struct gm_grid_cell *cell);
-/* Finds the slopes of a line, and which powers there are. */
-void gm_backward_conclude(const struct gm_grid *grid, struct gm_grid_line *line);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_LISTENER_H
-#define GM_APP_STUDIES_LISTENER_H
+#ifndef GM_APP_GRID_LISTENER_H
+#define GM_APP_GRID_LISTENER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,15 +2,13 @@
 /* The runs of a grid, cell by cell on all cores; where they are timed, one after the other. */
 #include "app/grid/hooks.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "app/base/pool.h"
-#include "app/grid/judge.h"
 #include "app/native/engine.h"
 #include "app/words/drive.h"
+#include "core/arena.h"
 
 struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_spec *spec,
                               struct gm_timing *parameters, const struct gm_scheme *scheme, char *message)
@@ -24,6 +22,19 @@ struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_s
     }
     free(parameters);
     return lane;
+}
+
+static void close_lane(void *lane)
+{
+    gm_lane_close(lane);
+}
+
+struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message)
+{
+    if (!lane) {
+        gm_arena_refuse(grid->arena, "%s", message);
+    }
+    return gm_arena_keep(grid->arena, lane, close_lane);
 }
 
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
@@ -61,143 +72,6 @@ double gm_grid_advance(const struct gm_grid *grid, struct gm_lane *lane, int64_t
     }
     return spent;
 }
-
-/* ---- stability ---- */
-
-/* A run that takes longer than this is judged where it is. */
-static const double most_seconds = 10;
-
-static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
-{
-    const int observable = key ? gm_scene_observable(scene, key) : -1;
-    return observable < 0 ? NULL : &scene->observables[observable];
-}
-
-static double value_of(const struct gm_lane *lane, const struct gm_observable *observable)
-{
-    const struct gm_view view = gm_lane_view(lane);
-    return observable ? gm_observe(observable, &view) : 1;
-}
-
-static double error_of(const struct gm_lane *lane, const struct gm_observable *error)
-{
-    return error ? fabs(gm_lane_observe(lane, (size_t)(error - lane->scene->observables))) : NAN;
-}
-
-/* Up to `steps` steps in all, one by one; returns the largest value after them, and at least `largest`. */
-static double largest_to(const struct gm_grid *grid, struct gm_lane *lane, int64_t steps,
-                         double (*value)(const struct gm_lane *lane, const struct gm_observable *observable),
-                         const struct gm_observable *observable, double largest)
-{
-    for (double spent = 0; gm_grid_goes_on(grid, lane, steps) && spent < most_seconds;) {
-        spent += gm_grid_advance(grid, lane, lane->run->steps + 1, INFINITY);
-        largest = fmax(largest, value(lane, observable));
-    }
-    return largest;
-}
-
-/* The end to the start; of a conserved quantity that may start at 0 as a part of its size. */
-static double ratio_of(const struct gm_lane *lane, const struct gm_observable *conserved, double before,
-                       double after)
-{
-    const double size = conserved && conserved->error
-                            ? gm_lane_divisor(lane, (size_t)(conserved - lane->scene->observables))
-                            : 0;
-    return size > fabs(before) ? 1 + copysign(after - before, (after - before) * before) / size
-                               : after / before;
-}
-
-void gm_stability_run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell,
-                      char *message)
-{
-    (void)message;
-    const struct gm_stability *plan = grid->plan;
-    const struct gm_observable *conserved = find(lane->scene, plan->kept),
-                               *error = find(lane->scene, plan->error);
-    const struct gm_timing *timing = lane->parameters;
-    const int64_t some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
-    double before = value_of(lane, conserved), after;
-    if (plan->settle > 0 && all > 2 * plan->settle && !lane->scheme->family->adaptive) {
-        before = largest_to(grid, lane, plan->settle, value_of, conserved, before);
-        gm_grid_advance(grid, lane, all - plan->settle, most_seconds);
-        after = largest_to(grid, lane, all, value_of, conserved, -INFINITY);
-        cell->error = error_of(lane, error);
-    } else if (error && plan->throughout) {
-        cell->error = largest_to(grid, lane, all, error_of, error, -INFINITY);
-        after = value_of(lane, conserved);
-    } else {
-        gm_grid_advance(grid, lane, all, most_seconds);
-        cell->error = error_of(lane, error);
-        after = value_of(lane, conserved);
-    }
-    cell->ratio = ratio_of(lane, conserved, before, after);
-    gm_grid_take_end(lane, cell);
-    cell->verdict = gm_stability_verdict(grid, cell);
-}
-
-/* ---- modified energies ---- */
-
-/* The terms of H~ in the lane's state, of its last member. */
-static void look(const struct gm_lane *lane, struct gm_modified_energy *energy, double *y, double *terms)
-{
-    const double *state = gm_run_state(lane->run);
-    const size_t m = lane->problem.m;
-    for (size_t i = 0; i < lane->problem.n; i++) {
-        y[i] = state[i * m + m - 1];
-    }
-    gm_modified_energy_terms(energy, y, terms);
-}
-
-/* Runs a lane; `y` is scratch. */
-static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_modified_energy *energy,
-                  double *y, struct gm_grid_cell *cell)
-{
-    enum { LOOKS = 400 }; /* at a run, at most */
-    double first[GM_POWERS], terms[GM_POWERS];
-    const int plain = gm_scene_observable(lane->scene, "energy_error");
-    const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
-    const int64_t steps = cell->spec->steps, looks = steps < LOOKS ? steps : LOOKS;
-    look(lane, energy, y, first);
-    for (int64_t i = 0; i <= looks && lane->run->status == GM_OK; i++) {
-        const int64_t step = looks == steps ? i : (int64_t)((double)steps * (double)i / (double)looks);
-        if (i > 0) {
-            gm_grid_advance(grid, lane, step, INFINITY);
-        }
-        /* by a shorter step, whose H~ is another one; or on the way */
-        if (gm_lane_stopped(lane) || gm_listener_stops(grid->listener)) {
-            break;
-        }
-        look(lane, energy, y, terms);
-        double difference = 0, power = 1;
-        for (int k = 0; k < GM_POWERS; k++, power *= cell->dt) {
-            difference += power * (terms[k] - first[k]);
-            const double error = fabs(difference) / divisor;
-            cell->errors[k] = isnan(error) || isnan(cell->errors[k]) ? NAN : fmax(cell->errors[k], error);
-            cell->terms[k] = fmax(cell->terms[k], fabs(power * terms[k]) / divisor);
-        }
-    }
-}
-
-void gm_backward_run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell,
-                     char *message)
-{
-    double *y = malloc(lane->problem.n * sizeof *y);
-    char reason[GM_MODIFIED_WHY] = "";
-    struct gm_modified_energy *energy =
-        y ? gm_modified_energy_open(&lane->problem, lane->scheme, GM_MODIFIED_POWER, reason) : NULL;
-    cell->tried = energy != NULL;
-    if (energy) {
-        watch(grid, lane, energy, y, cell);
-        gm_grid_take_end(lane, cell);
-        gm_backward_judge(cell);
-    } else {
-        gm_refuse(message, "%s", reason[0] ? reason : "not enough memory");
-    }
-    gm_modified_energy_close(energy);
-    free(y);
-}
-
-/* ---- all ---- */
 
 void gm_grid_take_end(const struct gm_lane *lane, struct gm_grid_cell *cell)
 {
@@ -312,26 +186,29 @@ static bool has_numbers(const struct gm_grid *grid, char *message)
     return any || gm_refuse(message, "%s", grid->lines[0].reason);
 }
 
+static void prepare(struct gm_arena *arena, void *grid)
+{
+    (void)arena;
+    ((struct gm_grid *)grid)->row->prepare(grid);
+}
+
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
 {
-    struct measuring *measuring = calloc(1, sizeof *measuring);
+    struct measuring measuring = {.grid = grid, .message = message};
+    const bool alone = grid->row->alone;
     grid->listener = listener;
-    bool good = measuring || gm_refuse(message, "not enough memory");
-    good = good && (!grid->row->prepare || grid->row->prepare(grid, message));
-    if (good) {
-        *measuring = (struct measuring){.grid = grid, .message = message};
-        const struct gm_pool pool = {.count = gm_grid_cells(grid),
-                                     .jobs = grid->row->alone ? 1 : grid->jobs,
-                                     .window = grid->row->alone ? 1 : WINDOW,
-                                     .work = try_cell,
-                                     .take = take_cell,
-                                     .stopped = is_stopped,
-                                     .self = measuring};
-        grid->begun = grid->begun > 1 ? grid->begun : 1;
-        gm_listener_hears(listener, grid->lines[0].scheme->name, 0, pool.count);
-        gm_pool_run(&pool);
-        good = !measuring->failed && has_numbers(grid, message);
+    if (grid->row->prepare && !gm_arena_run(grid->arena, prepare, grid)) {
+        return gm_refuse(message, "%s", gm_arena_reason(grid->arena));
     }
-    free(measuring);
-    return good;
+    const struct gm_pool pool = {.count = gm_grid_cells(grid),
+                                 .jobs = alone ? 1 : grid->jobs,
+                                 .window = alone ? 1 : WINDOW,
+                                 .work = try_cell,
+                                 .take = take_cell,
+                                 .stopped = is_stopped,
+                                 .self = &measuring};
+    grid->begun = grid->begun > 1 ? grid->begun : 1;
+    gm_listener_hears(listener, grid->lines[0].scheme->name, 0, pool.count);
+    gm_pool_run(&pool);
+    return !measuring.failed && has_numbers(grid, message);
 }

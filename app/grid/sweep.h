@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_STUDIES_SWEEP_H
-#define GM_APP_STUDIES_SWEEP_H
+#ifndef GM_APP_GRID_SWEEP_H
+#define GM_APP_GRID_SWEEP_H
 
 #include "app/base/arguments.h"
 #include "app/grid/listener.h"
@@ -17,26 +17,28 @@ struct gm_sweep {
     const struct gm_scene *scene;
     struct gm_words words;
     char *arguments;      /* "SCENE key=value ...", which reads as the same sweep */
+    char *head;           /* the names of the columns, as a line */
     char *measure;        /* the observables as a list, where they were chosen; else NULL */
     size_t count;         /* runs */
     size_t shard, shards; /* of the share that is made: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
+    bool unreadable;      /* why it is not open: because of a file */
     struct gm_chosen chosen; /* observables, which have a column each */
 };
 
 /* Reads a scene and its key=value, and a list of observables, or NULL for all. False with a sentence
-   (GM_MESSAGE bytes); `unreadable` says whether because of a file. To be closed in both cases. */
+   (GM_MESSAGE bytes). To be closed in both cases. */
 bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
-                   bool *unreadable, char *message);
+                   char *message);
 void gm_sweep_close(struct gm_sweep *sweep);
 
 /* How many runs the share has, and the number of its k-th. */
 size_t gm_sweep_share(const struct gm_sweep *sweep);
 size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k);
 
-/* The names of the columns; how the row of a run begins, with its comma; how `geomint run` would be asked for
-   the run. malloc'ed, NULL when memory is short. */
-char *gm_sweep_head(const struct gm_sweep *sweep);
-char *gm_sweep_front(const struct gm_sweep *sweep, size_t run);
+/* How many letters a line begins with as the row of a run does; 0: it begins otherwise, or memory is short. */
+size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line);
+
+/* How `geomint run` would be asked for the run. malloc'ed, NULL when memory is short. */
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 
 /* A run's row, malloc'ed; NULL where it was interrupted or memory is short. */
@@ -51,11 +53,9 @@ struct gm_sweep_row {
 /* Makes a run. In any thread. */
 void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row);
 
-/* What all runs of the share will take of a processor, in seconds, judged by the first steps of some of
-   them. */
-double gm_sweep_seconds(const struct gm_sweep *sweep);
-/* How many steps all runs make, judged by a few of them. */
-double gm_sweep_steps(const struct gm_sweep *sweep);
+/* The sum over all runs of the share of a number that `of` finds for a request, judged by some of them. */
+double gm_sweep_total(const struct gm_sweep *sweep,
+                      double (*of)(const struct gm_request *request, size_t index));
 
 /* The words that a row's status may be, and `warning`, of one that is ok with a warning: as a list. */
 extern const char gm_sweep_statuses[];

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/base/arguments.h"
+#include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/words/request.h"
@@ -73,18 +74,12 @@ static bool name_files(struct gm_chart *chart)
 /* Whether two files begin with the same line, a table's head. */
 static bool have_one_head(const char *one, const char *other)
 {
-    FILE *files[2] = {fopen(one, "r"), fopen(other, "r")};
-    int letters[2] = {0, 0};
-    while (files[0] && files[1] && letters[0] == letters[1] && letters[0] != '\n' && letters[0] != EOF) {
-        letters[0] = getc(files[0]);
-        letters[1] = getc(files[1]);
-    }
-    for (int i = 0; i < 2; i++) {
-        if (files[i]) {
-            fclose(files[i]);
-        }
-    }
-    return files[0] && files[1] && letters[0] == letters[1];
+    struct gm_csv_lines tables[] = {{.stream = fopen(one, "r")}, {.stream = fopen(other, "r")}};
+    const char *head = gm_csv_next(&tables[0]), *second = gm_csv_next(&tables[1]);
+    const bool same = head && second && strcmp(head, second) == 0;
+    gm_csv_close(&tables[0]);
+    gm_csv_close(&tables[1]);
+    return same;
 }
 
 /* The numbers' name follows from the picture's: nobody has asked for it, so a table that was there before the

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/text.h"
 #include "app/output/folder.h"
-#include "app/output/snapshot.h"
 #include "render/files/temporary.h"
 
 static char *identify(const struct gm_schedule *schedule, const struct gm_provenance *provenance,
@@ -22,31 +22,18 @@ static char *identify(const struct gm_schedule *schedule, const struct gm_proven
         const char *text = provenance->texts[i].text;
         checksum = libdeflate_crc32(checksum, text, strlen(text) + 1);
     }
-    char *text = NULL;
-    if (asprintf(&text, "%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count,
-                 schedule->first, schedule->last, checksum, program) < 0) {
-        return NULL;
-    }
-    return text;
+    return gm_text("%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count, schedule->first,
+                   schedule->last, checksum, program);
 }
 
 char *gm_frames_text(const struct gm_frames *frames, long frame)
 {
-    char *text = NULL;
-    return asprintf(&text, "%ld of %s", frame + 1, frames->identity) < 0 ? NULL : text;
+    return gm_text("%ld of %s", frame + 1, frames->identity);
 }
 
 char *gm_frames_path(const struct gm_frames *frames, long frame)
 {
-    char *path = NULL;
-    return asprintf(&path, "%s/%s-%06ld.png", frames->folder, frames->name, frame) < 0 ? NULL : path;
-}
-
-/* FOLDER/NAME-%06ld.png */
-static char *pattern_of(const char *folder, const char *name)
-{
-    char *text = NULL;
-    return asprintf(&text, "%s/%s-%%06ld.png", folder, name) < 0 ? NULL : text;
+    return gm_text("%s/%s-%06ld.png", frames->folder, frames->name, frame);
 }
 
 /* Looks at one file of the folder: a frame, or what a killed run left of one. */
@@ -106,7 +93,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
         .schedule = schedule,
         .folder = strdup(folder),
         .name = strdup(name),
-        .pattern = pattern_of(folder, name),
+        .pattern = gm_text("%s/%s-%%06ld.png", folder, name),
         .identity = identify(schedule, provenance, program),
     };
     if (!gm_folder_make(folder, message)) {
@@ -131,29 +118,15 @@ void gm_frames_close(struct gm_frames *frames)
     *frames = (struct gm_frames){0};
 }
 
-static bool is_missing(const struct gm_frames *frames, long frame)
+long gm_frames_missing(const struct gm_frames *frames, bool last)
 {
-    return !frames->there[frame] && gm_schedule_is_ours(frames->schedule, frame);
-}
-
-long gm_frames_first_missing(const struct gm_frames *frames)
-{
-    for (long frame = 0; frame < frames->schedule->count; frame++) {
-        if (is_missing(frames, frame)) {
-            return frame;
+    long found = -1;
+    for (long frame = 0; frame < frames->schedule->count && (last || found < 0); frame++) {
+        if (!frames->there[frame] && gm_schedule_is_ours(frames->schedule, frame)) {
+            found = frame;
         }
     }
-    return -1;
-}
-
-long gm_frames_last_missing(const struct gm_frames *frames)
-{
-    for (long frame = frames->schedule->count - 1; frame >= 0; frame--) {
-        if (is_missing(frames, frame)) {
-            return frame;
-        }
-    }
-    return -1;
+    return found;
 }
 
 void gm_frames_remove(const struct gm_frames *frames)

@@ -27,9 +27,8 @@ void gm_frames_close(struct gm_frames *frames);
 char *gm_frames_text(const struct gm_frames *frames, long frame);
 char *gm_frames_path(const struct gm_frames *frames, long frame);
 
-/* The first and the last frame of ours that is missing; -1 if there is none. */
-long gm_frames_first_missing(const struct gm_frames *frames);
-long gm_frames_last_missing(const struct gm_frames *frames);
+/* The first frame of ours that is missing, or the last; -1 if there is none. */
+long gm_frames_missing(const struct gm_frames *frames, bool last);
 
 /* Removes the frames, and the folder if nothing else is in it. */
 void gm_frames_remove(const struct gm_frames *frames);

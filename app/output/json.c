@@ -3,17 +3,9 @@
 #include "app/output/json.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 
 #include "render/cells/text.h"
-
-/* Whether a letter of so many bytes is the only way to write this code. */
-static bool is_proper(uint32_t code, size_t bytes)
-{
-    const size_t needed = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
-    return bytes == needed && (code < 0xD800 || code > 0xDFFF) && code <= 0x10FFFF;
-}
 
 void gm_json_put_text(FILE *stream, const char *text)
 {
@@ -25,7 +17,7 @@ void gm_json_put_text(FILE *stream, const char *text)
             fputs("\\n", stream);
         } else if (code < ' ') {
             fprintf(stream, "\\u%04x", (unsigned)code);
-        } else if (!is_proper(code, (size_t)(text - letter))) {
+        } else if (code == 0xFFFD) { /* malformed bytes, too */
             fputs("\\ufffd", stream);
         } else {
             fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
@@ -34,16 +26,11 @@ void gm_json_put_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-void gm_json_put_pair(FILE *stream, const char *key, const char *text)
-{
-    gm_json_put_text(stream, key);
-    fputc(':', stream);
-    gm_json_put_text(stream, text);
-}
-
 void gm_json_pair(const char *key, const char *text)
 {
-    gm_json_put_pair(stdout, key, text);
+    gm_json_put_text(stdout, key);
+    putchar(':');
+    gm_json_put_text(stdout, text);
 }
 
 void gm_json_put_number(FILE *stream, double value)
@@ -60,14 +47,9 @@ void gm_json_number(double value)
     gm_json_put_number(stdout, value);
 }
 
-void gm_json_put_number_pair(FILE *stream, const char *key, double value)
-{
-    gm_json_put_text(stream, key);
-    fputc(':', stream);
-    gm_json_put_number(stream, value);
-}
-
 void gm_json_number_pair(const char *key, double value)
 {
-    gm_json_put_number_pair(stdout, key, value);
+    gm_json_put_text(stdout, key);
+    putchar(':');
+    gm_json_number(value);
 }

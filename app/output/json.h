@@ -10,10 +10,8 @@
 void gm_json_put_text(FILE *stream, const char *text);
 /* "key":"text" */
 void gm_json_pair(const char *key, const char *text);
-void gm_json_put_pair(FILE *stream, const char *key, const char *text);
 /* "key":number, as gm_json_number writes it */
 void gm_json_number_pair(const char *key, double value);
-void gm_json_put_number_pair(FILE *stream, const char *key, double value);
 /* 17 significant digits; null where it is no finite number. */
 void gm_json_number(double value);
 void gm_json_put_number(FILE *stream, double value);

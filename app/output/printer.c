@@ -128,8 +128,7 @@ int gm_printer_fail(const char *path, const char *message)
     if (path && strcmp(path, "-") == 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR)) {
         return GM_EXIT_PIPE;
     }
-    gm_complain("%s", message);
-    return GM_EXIT_FILE;
+    return gm_give_up(GM_EXIT_FILE, "%s", message);
 }
 
 /* The letters that the font lacks, the last place of them for that there are more. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_OUTPUT_PRESS_H
-#define GM_APP_OUTPUT_PRESS_H
+#ifndef GM_APP_OUTPUT_PRINTER_H
+#define GM_APP_OUTPUT_PRINTER_H
 
 #include "render/files/png.h"
 #include "render/layout/appearance.h"

@@ -9,7 +9,7 @@
 
 /* What a PNG tells of how it was made: enough for `geomint again`. */
 
-enum { GM_PROVENANCE_TEXTS = 13 };
+enum { GM_PROVENANCE_TEXTS = 15 };
 
 struct gm_provenance {
     struct gm_png_text texts[GM_PROVENANCE_TEXTS];
@@ -45,6 +45,14 @@ bool gm_provenance_of_command(struct gm_provenance *provenance, const char *comm
                               const struct gm_appearance *look, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
+/* Writes the parameters of every lane that have an effect, a line a lane; as the identity of a run that a checkpoint
+   continues, all of them but until, which may change. */
+void gm_provenance_put_lanes(FILE *stream, const struct gm_request *request, bool identity);
+
+/* The checksum of the running program: what another build made is not ours, whatever its version says. False
+   if the program cannot be read. */
+bool gm_program_checksum(unsigned *checksum);
+
 /* Which word of a command is the scene's: the first behind its name, or what GM_ON says of `certify`, which
    then comes first. */
 #define GM_ON "--on"
@@ -56,5 +64,9 @@ char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
 
 /* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
 char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count);
+
+/* Adds the steps of the lanes and, with `failures`, a line for each lane that has failed. False when memory is short. */
+bool gm_provenance_take_lanes(struct gm_provenance *provenance, const struct gm_lane *const *lanes,
+                              size_t count, bool failures);
 
 #endif

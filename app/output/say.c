@@ -34,6 +34,15 @@ void gm_complain(const char *format, ...)
     va_end(arguments);
 }
 
+int gm_give_up(int status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    put_line(stderr, "geomint: ", format, arguments);
+    va_end(arguments);
+    return status;
+}
+
 bool gm_complained_of_memory(void)
 {
     return atomic_load(&complained_of_memory);

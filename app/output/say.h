@@ -11,6 +11,8 @@
 /* Prints "geomint: sentence" to standard error. What a terminal would obey instead of showing it is replaced:
    sentences quote files and arguments. */
 __attribute__((format(printf, 1, 2))) void gm_complain(const char *format, ...);
+/* The same, where that is the end: returns the status to exit with. */
+__attribute__((format(printf, 2, 3))) int gm_give_up(int status, const char *format, ...);
 /* Whether such a sentence has spoken of memory that there was not. */
 bool gm_complained_of_memory(void);
 /* The same for a line of standard output, without a front. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_PAST_H
-#define GM_APP_LANES_PAST_H
+#ifndef GM_APP_RUNS_PAST_H
+#define GM_APP_RUNS_PAST_H
 
 #include "scenes/common/lane.h"
 

@@ -283,17 +283,6 @@ static bool log_open(struct gm_session *session, const struct gm_request *reques
     return session->log.lanes && (session->log.arguments || !request->arguments);
 }
 
-static void log_close(struct gm_session *session)
-{
-    for (size_t i = 0; i < session->count; i++) {
-        free(session->log.lanes[i].parameters);
-    }
-    free(session->log.lanes);
-    gm_changes_drop(&session->log, NULL, NULL);
-    free(session->log.arguments);
-    session->log = (struct gm_request){0};
-}
-
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message)
 {
     *session = (struct gm_session){.scene = request->scene, .overlaid = request->overlay};
@@ -302,7 +291,7 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
                          request->count);
     }
     if (!log_open(session, request)) {
-        log_close(session);
+        gm_request_close(&session->log);
         return short_of_memory(message);
     }
     for (size_t i = 0; i < request->count; i++) {
@@ -327,7 +316,7 @@ void gm_session_close(struct gm_session *session)
         gm_past_close(&session->pasts[i]);
         gm_lane_close(session->lanes[i]);
     }
-    log_close(session);
+    gm_request_close(&session->log);
     session->count = 0;
 }
 
@@ -749,46 +738,29 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
 
 /* ---- schemes ---- */
 
-static bool is_among(const struct gm_scheme *scheme, const struct gm_scheme *const *schemes, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (schemes[i] == scheme) {
-            return true;
-        }
-    }
-    return false;
-}
-
-size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes, size_t bound)
+size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes)
 {
     const struct gm_problem *problem = &session->lanes[0]->problem;
     size_t count = 0;
-    for (size_t i = 0; session->scene->schemes && session->scene->schemes[i] && count < bound; i++) {
-        const struct gm_scheme *scheme = gm_scheme_find_for(session->scene->schemes[i], problem);
-        if (scheme && gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count)) {
-            schemes[count++] = scheme;
-        }
+    for (size_t i = 0; session->scene->schemes && session->scene->schemes[i]; i++) {
+        gm_fitting_add(gm_scheme_find_for(session->scene->schemes[i], problem), problem, schemes, &count);
     }
-    for (size_t i = 0; i < gm_scheme_count() && count < bound; i++) {
-        const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count)) {
-            schemes[count++] = scheme;
-        }
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        gm_fitting_add(gm_scheme_at(i), problem, schemes, &count);
     }
     return count;
 }
 
 const struct gm_scheme *gm_session_unused(const struct gm_session *session)
 {
-    enum { MOST = 256 };
-    const struct gm_scheme *schemes[MOST];
-    size_t count = gm_session_fits(session, schemes, MOST);
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
+    const size_t count = gm_session_fits(session, schemes);
     for (size_t i = 0; i < count; i++) {
-        bool used = false;
-        for (size_t k = 0; k < session->count; k++) {
-            used = used || session->lanes[k]->scheme == schemes[i];
+        size_t k = 0;
+        while (k < session->count && session->lanes[k]->scheme != schemes[i]) {
+            k++;
         }
-        if (!used) {
+        if (k == session->count) {
             return schemes[i];
         }
     }

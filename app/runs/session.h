@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_SESSION_H
-#define GM_APP_LANES_SESSION_H
+#ifndef GM_APP_RUNS_SESSION_H
+#define GM_APP_RUNS_SESSION_H
 
 #include "app/runs/past.h"
+#include "app/words/fitting.h"
 #include "app/words/request.h"
 
 /* What is explored: lanes of one scene that go through model time together, what was changed in flight, and
@@ -96,7 +97,7 @@ bool gm_session_overlay(struct gm_session *session, char *message);
 
 /* The first scheme, in the scene's order, that fits and that no lane has; NULL if there is none. */
 const struct gm_scheme *gm_session_unused(const struct gm_session *session);
-/* The schemes that fit, those the scene prefers first; at most `bound`. */
-size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes, size_t bound);
+/* The schemes that fit, those the scene prefers first; returns how many, at most GM_FITTING_SCHEMES. */
+size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
 
 #endif

@@ -61,11 +61,8 @@ static void take_parameter(struct gm_shot *shot, const struct gm_session *sessio
 static bool is_used(const struct gm_session *session, const struct gm_parameter *row)
 {
     for (size_t i = 0; i < session->count; i++) {
-        const struct gm_parameter *const *used = session->lanes[i]->scheme->family->parameters;
-        for (; used && *used; used++) {
-            if (*used == row) {
-                return true;
-            }
+        if (gm_scheme_takes(session->lanes[i]->scheme, row)) {
+            return true;
         }
     }
     return false;
@@ -150,7 +147,7 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
             take_parameter(shot, session, &gm_settings_parameters[i], true);
         }
     }
-    shot->scheme_count = gm_session_fits(session, shot->schemes, GM_SHOT_SCHEMES);
+    shot->scheme_count = gm_session_fits(session, shot->schemes);
     if (draw) {
         gm_picture_clear(shot->picture);
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);

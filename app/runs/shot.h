@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_SHOT_H
-#define GM_APP_LANES_SHOT_H
+#ifndef GM_APP_RUNS_SHOT_H
+#define GM_APP_RUNS_SHOT_H
 
 #include "app/runs/session.h"
 #include "app/runs/slider.h"
@@ -11,7 +11,7 @@
 enum {
     GM_SHOT_OBSERVABLES = 24,
     GM_SHOT_PARAMETERS = 48,
-    GM_SHOT_SCHEMES = 256,
+    GM_SHOT_SCHEMES = GM_FITTING_SCHEMES,
     GM_SPARK = 16, /* places of a tiny graph */
 };
 

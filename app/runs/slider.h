@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_SLIDER_H
-#define GM_APP_LANES_SLIDER_H
+#ifndef GM_APP_RUNS_SLIDER_H
+#define GM_APP_RUNS_SLIDER_H
 
 #include "core/parameter.h"
 

@@ -126,22 +126,16 @@ static bool write_page(struct show *show, const char *suffix)
     snprintf(path, sizeof path, "%s/%s-%02zu%s.png", output->folder ? output->folder : ".", show->tour->name,
              number, suffix);
     struct gm_provenance provenance = {0};
-    struct gm_png_text texts[GM_PROVENANCE_TEXTS + 1];
-    char *steps = gm_provenance_steps((const struct gm_lane *const *)session->lanes, session->count);
-    bool good = steps && gm_provenance_make(&provenance, &session->log, &output->look,
-                                            gm_canvas_backend(show->canvas));
-    if (!good) {
-        fail(show, "not enough memory");
+    if (gm_provenance_make(&provenance, &session->log, &output->look, gm_canvas_backend(show->canvas)) &&
+        gm_provenance_take_lanes(&provenance, (const struct gm_lane *const *)session->lanes, session->count,
+                                 false)) {
+        show->failed = !gm_png_write(path, output->look.width, output->look.height, output->look.dpi,
+                                     show->rgb, provenance.texts, provenance.count, show->message);
     } else {
-        memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
-        texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        good = gm_png_write(path, output->look.width, output->look.height, output->look.dpi, show->rgb, texts,
-                            provenance.count + 1, show->message);
-        show->failed = !good;
+        fail(show, "not enough memory");
     }
     gm_provenance_close(&provenance);
-    free(steps);
-    return good;
+    return !show->failed;
 }
 
 /* ---- one step ---- */

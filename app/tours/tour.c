@@ -1,29 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a tour tells of its steps. */
 #include "app/tours/tour.h"
-#include "core/basics.h"
 
-#include <stdlib.h>
+#include "core/arena.h"
 
 void gm_tour_close(struct gm_tour *tour)
 {
-    for (size_t i = 0; i < tour->count; i++) {
-        struct gm_tour_step *step = &tour->steps[i];
-        char *texts[] = {step->title, step->say,     step->ask,  step->answer,
-                         step->watch, step->attempt, step->show, step->study_words};
-        for (size_t k = 0; k < GM_COUNT(texts); k++) {
-            free(texts[k]);
-        }
-        gm_request_close(&step->request);
-        for (size_t k = 0; k < step->change_count; k++) {
-            free(step->changes[k].text);
-        }
-        free(step->changes);
-    }
-    free(tour->steps);
-    free(tour->name);
-    free(tour->title);
-    free(tour->about);
+    gm_arena_close(tour->arena);
     *tour = (struct gm_tour){0};
 }
 

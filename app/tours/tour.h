@@ -35,7 +35,8 @@ struct gm_tour_step {
 };
 
 struct gm_tour {
-    char *name; /* of the file, without folder and ending */
+    struct gm_arena *arena; /* has all that follows */
+    char *name;             /* of the file, without folder and ending */
     char *title;
     char *about; /* one line for the list */
     long place;  /* in the list */

@@ -15,56 +15,36 @@
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
-/* Whether the parameter has no effect in any lane; such a one is not told. */
-static bool is_idle(const struct gm_request *request, const char *key)
+/* The value of a row in a lane, which a scheme's settings or the scene's parameters have; NULL: the scheme. */
+static const char *value_of(const struct gm_request *request, size_t lane, const struct gm_parameter *row,
+                            bool setting, char *text)
 {
-    for (size_t i = 0; i < request->count; i++) {
-        if (!gm_scene_idle(request->scene, request->lanes[i].parameters, key)) {
-            return false;
-        }
-    }
-    return true;
+    const struct gm_lane_spec *spec = &request->lanes[lane];
+    const void *owner = setting ? (const void *)&spec->settings : spec->parameters;
+    return row ? gm_parameter_format(row, owner, text, GM_TEXT_SIZE) : gm_scheme_word(spec->scheme);
 }
 
-/* One key of the formatted request: the value of every lane. */
-static void format_key(FILE *stream, const struct gm_request *request, const char *key,
-                       const char *(*value)(const struct gm_request *, size_t lane, const void *row,
-                                            char *text),
-                       const void *row, const char *standard, size_t *lists)
+/* One key of the formatted request: the value of every lane, unless all have the standard one. Returns whether they
+   are a list. */
+static bool format_key(FILE *stream, const struct gm_request *request, const struct gm_parameter *row,
+                       bool setting, const char *standard)
 {
     char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
     bool same = true;
-    const char *first = value(request, 0, row, room);
+    const char *first = value_of(request, 0, row, setting, room);
     for (size_t i = 1; i < request->count; i++) {
-        same &= strcmp(first, value(request, i, row, text)) == 0;
+        same &= strcmp(first, value_of(request, i, row, setting, text)) == 0;
     }
     if (same && standard && strcmp(first, standard) == 0) {
-        return;
+        return false;
     }
-    fprintf(stream, " %s=", key);
+    fprintf(stream, " %s=", row ? row->key : "scheme");
     gm_arguments_put(stream, first);
     for (size_t i = 1; i < request->count && !same; i++) {
         fputc(',', stream);
-        gm_arguments_put(stream, value(request, i, row, text));
+        gm_arguments_put(stream, value_of(request, i, row, setting, text));
     }
-    *lists += same ? 0 : 1;
-}
-
-static const char *scheme_value(const struct gm_request *request, size_t lane, const void *row, char *text)
-{
-    (void)row;
-    (void)text;
-    return gm_scheme_word(request->lanes[lane].scheme);
-}
-
-static const char *parameter_value(const struct gm_request *request, size_t lane, const void *row, char *text)
-{
-    return gm_parameter_format(row, request->lanes[lane].parameters, text, GM_TEXT_SIZE);
-}
-
-static const char *setting_value(const struct gm_request *request, size_t lane, const void *row, char *text)
-{
-    return gm_parameter_format(row, &request->lanes[lane].settings, text, GM_TEXT_SIZE);
+    return !same;
 }
 
 static bool has_key(const struct gm_arguments *words, const char *key)
@@ -85,7 +65,6 @@ char *gm_request_format(const struct gm_request *request)
     if (!stream) {
         return NULL;
     }
-    size_t lists = 0;
     /* what the scene's own lanes name is always written: else it would be theirs */
     struct gm_arguments arguments = {0};
     if (request->scene->lanes && !gm_arguments_split(&arguments, request->scene->lanes)) {
@@ -95,18 +74,18 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     gm_arguments_put_scene(stream, request->scene);
-    format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
+    int lists = format_key(stream, request, NULL, false, NULL);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
-        if (!is_idle(request, row->key)) {
-            const bool told = row->required || has_key(&arguments, row->key);
-            format_key(stream, request, row->key, parameter_value, row, told ? NULL : row->standard, &lists);
+        const bool always = row->required || has_key(&arguments, row->key);
+        if (!gm_request_idle(request, row->key)) {
+            lists += format_key(stream, request, row, false, always ? NULL : row->standard);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        format_key(stream, request, row->key, setting_value, row,
-                   has_key(&arguments, row->key) ? NULL : row->standard, &lists);
+        const bool always = has_key(&arguments, row->key);
+        lists += format_key(stream, request, row, true, always ? NULL : row->standard);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);

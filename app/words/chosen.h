@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_CHOSEN_H
-#define GM_APP_REQUEST_CHOSEN_H
+#ifndef GM_APP_WORDS_CHOSEN_H
+#define GM_APP_WORDS_CHOSEN_H
 
 #include "scenes/common/scene.h"
 

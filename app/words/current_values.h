@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system with the values that it has now, as the text of a file. */
-#ifndef GM_APP_OWN_NOW_H
-#define GM_APP_OWN_NOW_H
+#ifndef GM_APP_WORDS_CURRENT_VALUES_H
+#define GM_APP_WORDS_CURRENT_VALUES_H
 
 struct gm_scene;
 

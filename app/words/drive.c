@@ -225,30 +225,26 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
 {
     const struct gm_run *run = lane->run;
+    const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
     text[0] = '\0';
+    if ((!solved || run->status == GM_STEP_COLLAPSE) &&
+        tell_part(lane, solved ? "was not found" : "led to no number", text, size)) {
+        return;
+    }
     switch (run->status) {
     case GM_OK:
         return;
     case GM_BLOW_UP:
-        if (tell_part(lane, "led to no number", text, size)) {
-            return;
-        }
         snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
                  run->limit);
         return;
     case GM_NO_CONVERGENCE:
-        if (tell_part(lane, "led to no number", text, size)) {
-            return;
-        }
         tell_unsolved(run, text, size);
         return;
     case GM_MESH_CROSSING:
         snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
         return;
     case GM_STEP_COLLAPSE:
-        if (tell_part(lane, "was not found", text, size)) {
-            return;
-        }
         snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
         return;
     case GM_OUT_OF_MEMORY:

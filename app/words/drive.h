@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_DRIVE_H
-#define GM_APP_REQUEST_DRIVE_H
+#ifndef GM_APP_WORDS_DRIVE_H
+#define GM_APP_WORDS_DRIVE_H
 
 #include "app/words/request.h"
 

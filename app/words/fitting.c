@@ -6,6 +6,18 @@
 
 #include "core/schemes.h"
 
+void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *problem,
+                    const struct gm_scheme **schemes, size_t *count)
+{
+    size_t i = 0;
+    while (i < *count && schemes[i] != scheme) {
+        i++;
+    }
+    if (i == *count && i < GM_FITTING_SCHEMES && scheme && gm_scheme_fits(scheme, problem)) {
+        schemes[(*count)++] = scheme;
+    }
+}
+
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes)
 {
     size_t count = 0;
@@ -16,10 +28,8 @@ size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme *
         return 0;
     }
     if (scene->setup(parameters, &problem, sentence)) {
-        for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
-            if (gm_scheme_fits(gm_scheme_at(i), &problem)) {
-                schemes[count++] = gm_scheme_at(i);
-            }
+        for (size_t i = 0; i < gm_scheme_count(); i++) {
+            gm_fitting_add(gm_scheme_at(i), &problem, schemes, &count);
         }
         if (scene->close) {
             scene->close(&problem);

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_FITTING_H
-#define GM_APP_REQUEST_FITTING_H
+#ifndef GM_APP_WORDS_FITTING_H
+#define GM_APP_WORDS_FITTING_H
 
 #include "scenes/common/lane.h"
 
 /* Which schemes can be asked for with a scene. */
 
 enum { GM_FITTING_SCHEMES = 256 };
+
+/* Adds a scheme, or NULL, to `*count` of them if it fits a problem, is not among them, and there are less than
+   GM_FITTING_SCHEMES. */
+void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *problem,
+                    const struct gm_scheme **schemes, size_t *count);
 
 /* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names of scenes, systems and rooms. */
-#ifndef GM_APP_OWN_FOUND_H
-#define GM_APP_OWN_FOUND_H
+#ifndef GM_APP_WORDS_LOOKUP_H
+#define GM_APP_WORDS_LOOKUP_H
 
 #include <stdbool.h>
 

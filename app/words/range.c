@@ -10,16 +10,23 @@
 #include "core/parameter.h"
 #include "render/message.h"
 
-bool gm_range_is(const char *text)
+size_t gm_word_first(const char *value)
 {
-    int depth = 0; /* those of a sum, sum(i = 1 .. 3, q[i]), make no range */
-    for (const char *at = text; *at; at++) {
-        depth += (*at == '(' || *at == '[') - (*at == ')' || *at == ']');
-        if (depth == 0 && at[0] == '.' && at[1] == '.') {
-            return true;
+    int depth = 0;
+    size_t length = 0;
+    for (; value[length]; length++) {
+        const char here = value[length];
+        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
+        if (depth == 0 && (here == ',' || (here == '.' && value[length + 1] == '.'))) {
+            break;
         }
     }
-    return false;
+    return length;
+}
+
+bool gm_range_is(const char *text)
+{
+    return text[gm_word_first(text)] == '.';
 }
 
 static double to_15_digits(double value)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_RANGE_H
-#define GM_APP_REQUEST_RANGE_H
+#ifndef GM_APP_WORDS_RANGE_H
+#define GM_APP_WORDS_RANGE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,6 +12,9 @@ struct gm_range {
     size_t count;       /* at least 2, at most 1e15 */
     bool logarithmic;
 };
+
+/* How long the first value of a list, or of a range, is: the sum in sum(i = 1 .. 3, q[i]) is one. */
+size_t gm_word_first(const char *value);
 
 /* Whether a text is to be read as a range: ".." is read before numbers. */
 bool gm_range_is(const char *text);

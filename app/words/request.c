@@ -13,7 +13,7 @@
 #include "app/words/lookup.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
-#include "app/words/worded.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
@@ -241,17 +241,20 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
     return true;
 }
 
+const char *gm_request_idle(const struct gm_request *request, const char *key)
+{
+    const char *why = NULL;
+    for (size_t k = 0; k < request->count && (k == 0 || why); k++) {
+        why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
+    }
+    return why;
+}
+
 /* A key that has no effect in any lane is not taken: whoever types it expects one. */
 static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < words->count; i++) {
-        const char *key = words->list[i].key, *why = NULL;
-        for (size_t k = 0; k < request->count; k++) {
-            why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
-            if (!why) {
-                break;
-            }
-        }
+        const char *key = words->list[i].key, *why = gm_request_idle(request, key);
         if (why) {
             snprintf(request->refused, sizeof request->refused, "%s", key);
             return gm_refuse(message, "%s= has no effect here: %s", key, why);
@@ -499,7 +502,7 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }
-    if (!scene && gm_worded_is_formula(words[0])) {
+    if (!scene && gm_typed_is_formula(words[0])) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
     } else if (!scene) {
         char near[GM_NEAR], folder[GM_MESSAGE];

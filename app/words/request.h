@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_REQUEST_H
-#define GM_APP_REQUEST_REQUEST_H
+#ifndef GM_APP_WORDS_REQUEST_H
+#define GM_APP_WORDS_REQUEST_H
 
 #include "app/base/exit.h"
 #include "render/message.h"
@@ -63,6 +63,9 @@ void gm_request_close(struct gm_request *request);
 /* Whether the runs of a comparison end together, as they do not where steps= is typed beside several steps; a
    sentence if not. */
 bool gm_request_ends_together(const struct gm_request *request, char *message);
+
+/* Why a key has no effect in any lane; NULL: it has one. */
+const char *gm_request_idle(const struct gm_request *request, const char *key);
 
 /* The exit status for a request that gm_request_parse refused. */
 int gm_request_refusal(const struct gm_request *request);

@@ -15,7 +15,6 @@
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
-#include "render/files/regular_file.h"
 
 static bool is_path(const char *name)
 {
@@ -31,34 +30,109 @@ static bool is_user(const char *name)
 
 enum { DEEPEST = 8 };
 
-/* Files that are being read, each named by the one before. */
+/* A text of a scheme that is read: a word, or a file, which the text before may name. */
 struct reading {
     const struct reading *by;
-    const char *path;
+    const char *path; /* NULL: a word */
+    char *text, title[64];
+    struct gm_user_scheme_source source;
+    struct gm_fault fault;
     bool unreadable;
-    char message[GM_MESSAGE];
+    char *message;
 };
 
-static const struct gm_scheme *read_file(const char *name, const struct gm_file *file,
-                                         struct reading *reading);
+static const struct gm_scheme *bring(void *data, const char *name, char *sentence);
+
+/* Reads the text of a file, or of a name that is a word. False with a message. The text is to be freed. */
+static bool open_source(struct reading *reading, const char *name, const struct gm_file *file)
+{
+    size_t length = strlen(name);
+    const char *text = name;
+    if (file) {
+        reading->path = file->path;
+        text = reading->text = gm_file_read(file, GM_LARGEST_SCHEME, &length, reading->message);
+        reading->unreadable = !text;
+        if (!text) {
+            return false;
+        }
+        const char *slash = strrchr(file->path, '/'), *base = slash ? slash + 1 : file->path;
+        /* a title, without what ends one where the scheme is one word, and no half letter */
+        size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
+        letters = letters < sizeof reading->title ? letters : sizeof reading->title - 1;
+        while (letters > 0 && ((unsigned char)base[letters] & 0xC0) == 0x80) {
+            letters--;
+        }
+        for (size_t i = 0; i < letters; i++) {
+            reading->title[i] = (char)(strchr(";()#", base[i]) ? '-' : base[i]);
+        }
+    }
+    const size_t skipped = file && gm_text_has_mark(text, length) ? GM_TEXT_MARK : 0;
+    reading->source = (struct gm_user_scheme_source){.text = text + skipped,
+                                                     .length = length - skipped,
+                                                     .name = name,
+                                                     .title = file ? reading->title : NULL,
+                                                     .part = reading->by != NULL,
+                                                     .bring = bring,
+                                                     .data = reading};
+    return true;
+}
+
+/* Reports what is wrong, and where: in a file its line and column, in a word the column. */
+static void report(const struct reading *reading)
+{
+    const struct gm_user_scheme_source *source = &reading->source;
+    size_t line, column;
+    if (!reading->fault.sentence[0]) {
+        gm_refuse(reading->message, "not enough memory");
+        return;
+    }
+    if (reading->path) {
+        gm_place_report(reading->path, source->text, &reading->fault, reading->message);
+    } else {
+        gm_text_place(source->text, reading->fault.offset, &line, &column);
+        gm_refuse(reading->message, "scheme, column %zu: %.250s", column, reading->fault.sentence);
+    }
+    gm_place_show(source->text, source->length, reading->fault.offset, reading->message);
+}
+
+/* Makes the scheme of a file or a word, or finds the one that is the same under that name. */
+static const struct gm_scheme *read_scheme(struct reading *reading, const char *name,
+                                           const struct gm_file *file)
+{
+    const struct gm_scheme *made = NULL, *known = NULL;
+    if (open_source(reading, name, file)) {
+        made = gm_user_scheme_open(&reading->source, &reading->fault);
+        known = made ? gm_scheme_find(made->name) : NULL;
+        known = known && known->word && strcmp(known->word, made->word) == 0 ? known : NULL;
+        if (!made) {
+            report(reading);
+        } else if (known || !gm_scheme_bring(made)) {
+            gm_user_scheme_close(made);
+            made = known;
+            gm_refuse(reading->message, known ? "" : "not enough memory");
+        }
+    }
+    free(reading->text);
+    return made;
+}
 
 /* A file that a file names is found from the folder of that one. */
 static const struct gm_scheme *bring(void *data, const char *name, char *sentence)
 {
-    struct reading *by = data, reading = {.by = by};
+    struct reading *by = data;
+    char message[GM_MESSAGE] = "";
+    struct reading reading = {.by = by, .message = message};
     const char *slash = by->path ? strrchr(by->path, '/') : NULL;
     struct gm_file file = {0};
-    char *path = file.path;
     const int folder = slash && name[0] != '/' ? (int)(slash - by->path) + 1 : 0;
     sentence[0] = '\0';
-    if (snprintf(path, sizeof file.path, "%.*s%s", folder, by->path ? by->path : "", name) >=
+    if (snprintf(file.path, sizeof file.path, "%.*s%s", folder, by->path ? by->path : "", name) >=
         (int)sizeof file.path) {
         snprintf(sentence, GM_FAULT_SENTENCE, "the path is too long");
         return NULL;
     }
-    reading.path = path;
     struct stat here, there;
-    const bool found = stat(path, &here) == 0;
+    const bool found = stat(file.path, &here) == 0;
     int depth = 0;
     for (const struct reading *before = by; before; before = before->by, depth++) {
         if (found && before->path && stat(before->path, &there) == 0 && here.st_dev == there.st_dev &&
@@ -71,133 +145,33 @@ static const struct gm_scheme *bring(void *data, const char *name, char *sentenc
         snprintf(sentence, GM_FAULT_SENTENCE, "files name files at most %d deep", DEEPEST);
         return NULL;
     }
-    const struct gm_scheme *scheme = read_file(path, &file, &reading);
+    const struct gm_scheme *scheme = read_scheme(&reading, file.path, &file);
+    by->unreadable = by->unreadable || reading.unreadable;
     if (!scheme) {
-        by->unreadable = reading.unreadable;
-        const char *line = strchr(reading.message, '\n');
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s",
-                 line ? (int)(line - reading.message) : GM_FAULT_SENTENCE - 1, reading.message);
+        message[strcspn(message, "\n")] = '\0';
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s", GM_FAULT_SENTENCE - 1, message);
     }
-    return scheme;
-}
-
-/* The one that says the same under that name, or the new one. */
-static const struct gm_scheme *keep(const struct gm_scheme *made, struct reading *reading)
-{
-    const struct gm_scheme *known = gm_scheme_find(made->name);
-    if (known && known->word && strcmp(known->word, made->word) == 0) {
-        gm_user_scheme_close(made);
-        return known;
-    }
-    if (!gm_scheme_bring(made)) {
-        gm_user_scheme_close(made);
-        gm_refuse(reading->message, "not enough memory");
-        return NULL;
-    }
-    return made;
-}
-
-/* What is wrong, and where: in a file its line and column, in a word the column. */
-static void tell(const struct gm_user_scheme_source *source, const struct gm_fault *fault,
-                 struct reading *reading)
-{
-    size_t line, column;
-    if (!fault->sentence[0]) {
-        gm_refuse(reading->message, "not enough memory");
-        return;
-    }
-    gm_text_place(source->text, fault->offset, &line, &column);
-    if (reading->path) {
-        gm_refuse(reading->message, "%.120s:%zu:%zu: %.250s", reading->path, line, column, fault->sentence);
-    } else {
-        gm_refuse(reading->message, "scheme, column %zu: %.250s", column, fault->sentence);
-    }
-    gm_place_show(source->text, source->length, fault->offset, reading->message);
-}
-
-static const struct gm_scheme *read_text(const struct gm_user_scheme_source *source, struct reading *reading)
-{
-    struct gm_fault fault;
-    const struct gm_scheme *made = gm_user_scheme_open(source, &fault);
-    if (!made) {
-        tell(source, &fault, reading);
-        return NULL;
-    }
-    return keep(made, reading);
-}
-
-/* What a file says, as a source; the text is to be freed. NULL with a message. */
-struct file {
-    char *text, title[64];
-    struct gm_user_scheme_source source;
-};
-
-static bool open_file(struct file *file, const char *name, const struct gm_file *from,
-                      struct reading *reading)
-{
-    char reason[GM_REGULAR_REASON];
-    size_t length = 0;
-    file->text = gm_file_read(from, GM_LARGEST_SCHEME, &length, reason);
-    if (!file->text) {
-        reading->unreadable = true;
-        return gm_refuse(reading->message, "%.300s could not be read: %s", from->path, reason);
-    }
-    const char *slash = strrchr(from->path, '/'), *base = slash ? slash + 1 : from->path;
-    /* a title, without what ends one where the scheme is one word, and no half letter */
-    size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
-    letters = letters < sizeof file->title ? letters : sizeof file->title - 1;
-    while (letters > 0 && ((unsigned char)base[letters] & 0xC0) == 0x80) {
-        letters--;
-    }
-    for (size_t i = 0; i < letters; i++) {
-        file->title[i] = (char)(strchr(";()#", base[i]) ? '-' : base[i]);
-    }
-    file->title[letters] = '\0';
-    const size_t skipped = gm_text_has_mark(file->text, length) ? GM_TEXT_MARK : 0;
-    file->source = (struct gm_user_scheme_source){.text = file->text + skipped,
-                                                  .length = length - skipped,
-                                                  .name = name,
-                                                  .title = file->title,
-                                                  .part = reading->by != NULL,
-                                                  .bring = bring,
-                                                  .data = reading};
-    return true;
-}
-
-static const struct gm_scheme *read_file(const char *name, const struct gm_file *from,
-                                         struct reading *reading)
-{
-    struct file file;
-    if (!open_file(&file, name, from, reading)) {
-        return NULL;
-    }
-    const struct gm_scheme *scheme = read_text(&file.source, reading);
-    free(file.text);
     return scheme;
 }
 
 char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unreadable, char *message)
 {
     struct gm_file from;
+    struct reading reading = {.message = message};
     const bool path = is_path(name) && gm_file_find(GM_FILE_SCHEME, name, &from);
-    struct reading reading = {.path = path ? from.path : NULL};
-    struct file file = {
-        .source = {.text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading}};
     char *text = NULL;
     if (!gm_text_is_plain(name)) {
-        gm_refuse(reading.message, "the scheme's name holds a character that cannot be shown");
+        gm_refuse(message, "the scheme's name holds a character that cannot be shown");
     } else if (!is_user(name)) {
-        gm_refuse(reading.message, "--polish takes a file or a word, not a scheme of the program");
-    } else if (!reading.path || open_file(&file, name, &from, &reading)) {
-        struct gm_fault fault;
-        text = gm_user_scheme_polish(&file.source, polish, &fault);
+        gm_refuse(message, "--polish takes a file or a word, not a scheme of the program");
+    } else if (open_source(&reading, name, path ? &from : NULL)) {
+        text = gm_user_scheme_polish(&reading.source, polish, &reading.fault);
         if (!text) {
-            tell(&file.source, &fault, &reading);
+            report(&reading);
         }
     }
-    free(file.text);
+    free(reading.text);
     *unreadable = reading.unreadable;
-    memcpy(message, reading.message, sizeof reading.message);
     return text;
 }
 
@@ -223,28 +197,23 @@ static void tell_kind(const char *word, char *message)
 
 const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char *message)
 {
-    struct reading reading = {.by = NULL};
-    if (!gm_text_is_plain(name)) {
-        gm_refuse(message, "the scheme's name holds a character that cannot be shown");
-        *unreadable = false;
-        return NULL;
-    }
+    struct reading reading = {.message = message};
     struct gm_file file;
-    const struct gm_scheme *scheme = is_path(name) ? NULL : gm_scheme_find(name);
-    if (!scheme && gm_file_find(GM_FILE_SCHEME, name, &file)) {
-        reading.path = file.path;
-        scheme = read_file(name, &file, &reading);
+    const bool plain = gm_text_is_plain(name);
+    message[0] = '\0';
+    const struct gm_scheme *scheme = plain && !is_path(name) ? gm_scheme_find(name) : NULL;
+    if (!plain) {
+        gm_refuse(message, "the scheme's name holds a character that cannot be shown");
+    } else if (!scheme && gm_file_find(GM_FILE_SCHEME, name, &file)) {
+        scheme = read_scheme(&reading, name, &file);
     } else if (!scheme && is_user(name)) {
-        const struct gm_user_scheme_source source = {
-            .text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading};
-        scheme = read_text(&source, &reading);
-    } else if (!scheme && gm_files_folder_opens(GM_FILE_SCHEME, reading.message)) {
-        tell_kind(name, reading.message);
+        scheme = read_scheme(&reading, name, NULL);
+    } else if (!scheme && gm_files_folder_opens(GM_FILE_SCHEME, message)) {
+        tell_kind(name, message);
     } else if (!scheme) {
         reading.unreadable = true;
     }
     *unreadable = reading.unreadable;
-    memcpy(message, reading.message, sizeof reading.message);
     return scheme;
 }
 
@@ -268,52 +237,44 @@ const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *me
 char *gm_scheme_words_from(const char *path, const char *word)
 {
     static const char key[] = "scheme=";
-    const char *ending = gm_file_endings[GM_FILE_SCHEME];
-    const size_t end_length = strlen(ending);
-    const char *slash = strrchr(path, '/');
+    const char *ending = gm_file_endings[GM_FILE_SCHEME], *slash = strrchr(path, '/'), *before = key;
     char *text = NULL;
     size_t size = 0;
+    struct gm_span rest = {sizeof key - 1, strlen(word)}, name;
     if (!slash || strncmp(word, key, sizeof key - 1) != 0 || !strstr(word, ending)) {
         return strdup(word);
     }
     FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    struct gm_span rest = {sizeof key - 1, strlen(word)};
-    const char *before = key;
-    while (rest.begin < rest.end) {
-        const size_t end = gm_span_until(word, rest, ",");
-        const char *name = word + rest.begin;
-        const int length = (int)(end - rest.begin);
-        const bool file = length > (int)end_length &&
-                          memcmp(name + length - end_length, ending, end_length) == 0 && name[0] != '/';
-        fprintf(stream, "%s%.*s%.*s", before, file ? (int)(slash - path) + 1 : 0, path, length, name);
+    while (stream && rest.begin < rest.end) {
+        name = (struct gm_span){rest.begin, gm_span_until(word, rest, ",")};
+        const size_t length = name.end - name.begin, letters = strlen(ending);
+        const bool file = length > letters && memcmp(word + name.end - letters, ending, letters) == 0 &&
+                          word[name.begin] != '/';
+        fprintf(stream, "%s%.*s%.*s", before, file ? (int)(slash - path) + 1 : 0, path, (int)length,
+                word + name.begin);
         before = ",";
-        rest.begin = end + 1;
+        rest.begin = name.end + 1;
     }
-    return fclose(stream) == 0 ? text : (free(text), NULL);
+    return stream && fclose(stream) == 0 ? text : NULL;
 }
 
 bool gm_scheme_check(const char *name, size_t *at, char *message)
 {
-    struct reading reading = {.by = NULL};
-    struct gm_fault fault;
+    struct reading reading = {.message = message};
+    const struct gm_scheme *made = NULL;
     bool unreadable;
     *at = 0;
     if (is_path(name) || !is_user(name) || !gm_text_is_plain(name)) {
-        const bool found = gm_scheme_named(name, &unreadable, message) != NULL;
-        if (!found && !message[0]) {
-            gm_refuse(message, "there is no scheme \"%.60s\"", name);
-        }
-        return found;
+        made = gm_scheme_named(name, &unreadable, message);
+        return made || (!message[0] && gm_refuse(message, "there is no scheme \"%.60s\"", name));
     }
-    const struct gm_user_scheme_source source = {
-        .text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading};
-    const struct gm_scheme *made = gm_user_scheme_open(&source, &fault);
+    if (open_source(&reading, name, NULL)) {
+        made = gm_user_scheme_open(&reading.source, &reading.fault);
+    }
     if (!made) {
-        *at = fault.offset;
-        return gm_refuse(message, "%.400s", fault.sentence[0] ? fault.sentence : "not enough memory");
+        *at = reading.fault.offset;
+        return gm_refuse(message, "%.400s",
+                         reading.fault.sentence[0] ? reading.fault.sentence : "not enough memory");
     }
     gm_user_scheme_close(made);
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_OWN_SCHEME_H
-#define GM_APP_OWN_SCHEME_H
+#ifndef GM_APP_WORDS_SCHEME_H
+#define GM_APP_WORDS_SCHEME_H
 
 #include <stdbool.h>
 

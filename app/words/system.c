@@ -1,76 +1,63 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems, of files and of formulas. */
+/* The scenes that are made of systems and rooms, of files and of formulas. */
 #include "app/words/system.h"
 
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "app/base/arguments.h"
 #include "app/base/exit.h"
 #include "app/base/files.h"
-#include "app/base/place.h"
-#include "app/words/lines.h"
-#include "app/words/replacing.h"
-#include "app/words/room.h"
-#include "app/words/worded.h"
-#include "core/expression/reader.h"
+#include "app/words/range.h"
+#include "app/words/typed_file.h"
+#include "core/expression/lines.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/model/reader.h"
 #include "render/message.h"
 #include "scenes/field/user_field.h"
+#include "scenes/flow/user_room.h"
 #include "scenes/ode/system.h"
 
 const char gm_system_typed[] = "system";
 
-/* The exit status, and the sentence: where memory was short, that, whatever else is blamed. */
-static int lines_fault(const struct gm_system_lines *written, char *const words[], struct gm_fault *fault,
-                       unsigned long refusals, struct gm_word_place *place, char *message)
+/* The whole of a file; of a system's that is too large nothing but its length, since its reader refuses it. */
+static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
-    if (gm_memory_refusals() != refusals) {
-        *fault = (struct gm_fault){0};
-    }
-    return gm_system_lines_fault(written, words, fault, place, message);
+    struct stat about;
+    const bool large = most == GM_LARGEST_SYSTEM && !file->built_in && stat(file->path, &about) == 0 &&
+                       S_ISREG(about.st_mode) && about.st_size > GM_LARGEST_SYSTEM;
+    written->path = file->path;
+    written->length = large ? (size_t)about.st_size : 0;
+    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, message);
+    return written->text || (large && gm_refuse(message, "not enough memory"));
 }
 
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
-                   const struct gm_system_value *values, size_t count, char *message)
+                   const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
+                   char *message)
 {
-    size_t length = 0;
-    const unsigned long refusals = gm_memory_refusals();
-    char *text = gm_system_lines_read(file, &length, message);
-    *system = (struct gm_user_system){0};
-    if (!text) {
-        return gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : GM_EXIT_FILE;
-    }
-    struct gm_fault fault;
-    struct gm_word_place place;
-    struct gm_system_lines written = {.path = file->path, .text = text, .length = length};
-    int status = GM_EXIT_OK;
-    if (!gm_equations_open(system, text, length, values, count, &fault)) {
-        status = lines_fault(&written, NULL, &fault, refusals, &place, message);
-    }
-    gm_system_lines_close(&written);
-    return status;
-}
-
-int gm_system_open_typed(struct gm_user_system *system, int count, char *const words[], char *message)
-{
-    struct gm_system_lines written = {0};
+    struct gm_typed_file written = {.count = file ? 0 : arguments->count, .words = arguments->words};
     struct gm_word_place place;
     struct gm_fault fault;
     int status = GM_EXIT_OK;
     const unsigned long refusals = gm_memory_refusals();
     *system = (struct gm_user_system){0};
-    if (!gm_worded_write(&written, count, words, &place, message)) {
-        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
-    } else if (!gm_equations_open(system, written.text, written.length, NULL, 0, &fault)) {
-        status = lines_fault(&written, words, &fault, refusals, &place, message);
+    if (file ? !read_file(&written, file, GM_LARGEST_SYSTEM, message)
+             : !gm_typed_file_write(&written, &place, message)) {
+        status = file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : status;
+    } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault)) {
+        if (gm_memory_refusals() != refusals) { /* whatever else is blamed */
+            fault = (struct gm_fault){0};
+        }
+        status = gm_typed_file_fault(&written, &fault, &place, message);
     }
-    system->typed = true;
-    gm_system_lines_close(&written);
+    system->typed = !file;
+    free(written.text);
     return status;
 }
 
@@ -87,7 +74,7 @@ struct gm_made_system {
     void (*close)(const struct gm_scene *scene);
 };
 static struct gm_made_system *all_made, *all_texts;
-static pthread_mutex_t making = PTHREAD_MUTEX_INITIALIZER;
+static pthread_mutex_t making_one = PTHREAD_MUTEX_INITIALIZER;
 
 static const struct gm_made_system *find_made(const struct gm_made_system *list, const char *key)
 {
@@ -120,6 +107,12 @@ bool gm_system_recall(const char *word, const char *text)
     return true;
 }
 
+/* Whether a word means a room, where a system of that name comes first. */
+static bool is_room(const char *word)
+{
+    return gm_file_is(GM_FILE_ROOM, word) && !gm_file_is(GM_FILE_SYSTEM, word);
+}
+
 bool gm_system_is(const char *word)
 {
     return strcmp(word, gm_system_typed) == 0 || find_made(all_texts, word) ||
@@ -127,11 +120,10 @@ bool gm_system_is(const char *word)
 }
 
 /* The file's name, without what no file's name should have. */
-static char *name_of(const char *word)
+static char *name_of(const char *word, const char *ending)
 {
     const char *slash = strrchr(word, '/');
     char *name = strdup(slash ? slash + 1 : word);
-    const char *ending = gm_file_endings[GM_FILE_SYSTEM];
     if (name && gm_word_ends(name, ending)) {
         name[strlen(name) - strlen(ending)] = '\0';
     }
@@ -143,288 +135,288 @@ static char *name_of(const char *word)
     return name;
 }
 
-/* Of the words those that the scene is made of: formulas, and values that the graph is built on. */
-static bool choose_words(struct gm_made_system *made, const struct gm_user_system *system, bool typed,
-                         int count, char *const words[], struct gm_system_value *values, size_t *value_count,
-                         struct gm_word_place *place, char *message)
+/* A scene while it is made. */
+struct making {
+    struct gm_system_trial *trial;
+    struct gm_typed_file written;
+    struct gm_file file;
+    bool room;
+    struct gm_user_system first, system; /* as it is read, and with the values that it is built on */
+    struct gm_system_value *values;
+    size_t value_count;
+    bool moves;     /* a field, with schemes that move its mesh */
+    double largest; /* of the numbers that lists and sums are as long as; 0: there is none */
+    size_t largest_place;
+    char largest_name[64];
+    char *message;
+};
+
+/* Reports what is wrong with the text, with its exit status. Returns false. */
+static bool refuse_text(struct making *making, const struct gm_fault *fault)
 {
-    bool good = gm_arguments_add(&made->words, words[0]);
-    for (int i = 1; i < count && good; i++) {
-        const size_t length = strcspn(words[i], "=");
-        for (size_t k = 0; gm_worded_keys[k] && typed && good; k++) {
-            if (gm_word_after(words[i], gm_worded_keys[k], strlen(gm_worded_keys[k]))) {
-                good = gm_arguments_add(&made->words, words[i]);
-            }
-        }
-        if (!typed && gm_replacing_has(system->source, words[i])) {
-            good = gm_arguments_add(&made->words, words[i]);
-        }
-        for (size_t k = system->parameters; k < system->velocities && good && words[i][length]; k++) {
-            const struct gm_system_variable *variable = &system->variables[k];
-            if (!variable->fixed || !gm_word_after(words[i], variable->name, strlen(variable->name))) {
-                continue;
-            }
-            const char *value = words[i] + length + 1;
-            if (gm_word_first(value) < strlen(value)) {
-                *place = (struct gm_word_place){i, length + 1};
-                return gm_refuse(message,
+    making->trial->status =
+        gm_typed_file_fault(&making->written, fault, &making->trial->place, making->message);
+    return false;
+}
+
+/* The words that the scene is made of: formulas, and values that the graph is built on. */
+static bool choose_words(struct making *making)
+{
+    const struct gm_typed_file *written = &making->written;
+    struct gm_arguments *words = &making->trial->made->words;
+    const struct gm_user_system *system = &making->first;
+    bool good = gm_arguments_add(words, written->words[0]);
+    for (int i = 1; i < written->count && good; i++) {
+        const char *word = written->words[i];
+        bool chosen = gm_typed_file_has(written, word);
+        for (size_t k = system->parameters; k < system->velocities; k++) {
+            const char *name = system->variables[k].name;
+            const char *value = system->variables[k].fixed ? gm_word_after(word, name) : NULL;
+            if (value && gm_word_first(value) < strlen(value)) {
+                making->trial->place = (struct gm_word_place){i, (size_t)(value - word)};
+                return gm_refuse(making->message,
                                  "%s= takes one value: it is in an index, and the equations are built on it",
-                                 variable->name);
+                                 name);
             }
-            values[*value_count] = (struct gm_system_value){variable->name, value};
-            ++*value_count;
-            good = gm_arguments_add(&made->words, words[i]);
+            if (value) {
+                making->values[making->value_count++] = (struct gm_system_value){name, value};
+                chosen = true;
+            }
         }
+        good = !chosen || gm_arguments_add(words, word);
     }
-    return good || gm_refuse(message, "not enough memory");
+    return good;
+}
+
+/* Whether a scheme of moving meshes is named, or, where none is, is the file's. False with a sentence where a field
+   would be on both kinds of grids. */
+static bool choose_mesh(struct making *making)
+{
+    const char *schemes = making->first.texts[GM_WORD_SCHEMES];
+    for (int i = 1; i < making->written.count; i++) {
+        const char *typed = gm_word_after(making->written.words[i], "scheme");
+        schemes = typed ? typed : schemes;
+    }
+    size_t others;
+    making->moves = making->first.kind == GM_FIELD && gm_user_field_moving(schemes, &others) > 0;
+    return !making->moves || others == 0 ||
+           gm_refuse(making->message,
+                     "some of these schemes move their mesh, and others do not know how: a picture has one "
+                     "kind of them");
 }
 
 /* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in such a
    line, or the value of the first one; 0: nowhere. */
-static size_t line_told(const char *text, const char *sentence)
+static size_t line_of(const struct gm_typed_file *written, const char *sentence)
 {
-    const size_t word = strcspn(sentence, ": ") + 1;
-    const char *line = sentence[word - 1] == ':' ? text : NULL;
-    const char *wrong = sentence + word + strspn(sentence + word, " ");
-    const size_t length = strcspn(wrong, " ");
-    size_t first = 0; /* the value of the first such line */
-    for (const char *next; line; line = next) {
-        next = strchr(line, '\n');
-        next += next != NULL;
-        if (strncmp(line, sentence, word) != 0) {
+    const size_t word = strcspn(sentence, ": ");
+    const char *wrong = sentence + word + strspn(sentence + word, ": ");
+    size_t at = 0, first = 0; /* the value of the first such line */
+    struct gm_text_line line;
+    struct gm_fault fault;
+    while (sentence[word] == ':' && gm_lines_next(written->text, written->length, &at, &line, &fault)) {
+        if (line.word.end - line.word.begin != word ||
+            memcmp(written->text + line.word.begin, sentence, word) != 0) {
             continue;
         }
-        const char *value = line + word + strspn(line + word, " \t");
-        const size_t capacity = strcspn(value, "\n");
-        first = first > 0 ? first : (size_t)(value - text);
-        for (size_t i = 0; length > 0 && i + length <= capacity; i++) {
-            if (strncmp(value + i, wrong, length) == 0) {
-                return (size_t)(value + i - text);
-            }
+        const char *value = written->text + line.value.begin;
+        const char *found = memmem(value, line.value.end - line.value.begin, wrong, strcspn(wrong, " "));
+        first = first > 0 ? first : line.value.begin;
+        if (found && wrong[0]) {
+            return (size_t)(found - written->text);
         }
     }
     return first;
 }
 
-/* The equations of a system that was read, with the values that these are built on. What was read is emptied. */
-static bool derive(struct gm_user_system *system, struct gm_user_system *first,
-                   const struct gm_system_lines *written, const struct gm_system_value *values, size_t count,
-                   struct gm_fault *fault)
+/* The equations of a system that was read, with the values that these are built on; what was read is emptied. Then the
+   scene. */
+static bool open_system(struct making *making)
 {
-    if (count > 0) {
-        gm_formula_close(&first->graph); /* the names of the values stay */
-        return gm_equations_open(system, written->text, written->length, values, count, fault);
+    struct gm_typed_file *written = &making->written;
+    struct gm_made_system *made = making->trial->made;
+    struct gm_fault fault;
+    bool derived;
+    if (making->value_count > 0) {
+        gm_formula_close(&making->first.graph); /* the names of the values stay */
+        derived = gm_equations_open(&making->system, written->text, written->length, making->values,
+                                    making->value_count, &fault);
+    } else {
+        making->system = making->first;
+        making->first = (struct gm_user_system){0};
+        derived = gm_equations_derive(&making->system, &fault);
     }
-    *system = *first;
-    *first = (struct gm_user_system){0};
-    return gm_equations_derive(system, fault);
+    if (!derived) {
+        gm_system_close(&making->system);
+        return refuse_text(making, &fault);
+    }
+    const char *const *words = (const char *const *)made->words.words;
+    const bool field = gm_system_is_field(&making->system);
+    made->close = field ? gm_user_field_close : gm_system_scene_close;
+    made->scene =
+        field ? gm_user_field_open(&making->system, made->name, words, making->moves, making->message)
+              : gm_system_scene_open(&making->system, made->name, words, !written->path, making->message);
+    fault =
+        (struct gm_fault){.offset = made->scene || !written->path ? 0 : line_of(written, making->message)};
+    if (fault.offset > 0) {
+        snprintf(fault.sentence, sizeof fault.sentence, "%s", making->message);
+        refuse_text(making, &fault);
+    }
+    return made->scene != NULL;
 }
 
-/* Whether a scheme of moving meshes is asked for, or, where none is, is the file's: *moves. False with a sentence
-   where a field would be on both kinds of grids. */
-static bool choose_mesh(const struct gm_user_system *system, int count, char *const words[], bool *moves,
-                        char *message)
+static bool open_room(struct making *making)
 {
-    static const char key[] = "scheme=";
-    const char *schemes = system->texts[GM_WORD_SCHEMES];
-    for (int i = 1; i < count; i++) {
-        if (strncmp(words[i], key, strlen(key)) == 0) {
-            schemes = words[i] + strlen(key);
-        }
+    struct gm_made_system *made = making->trial->made;
+    const struct gm_room_file file = {making->written.text, making->written.length,
+                                      made->name,           making->written.words[0],
+                                      making->file.path,    making->file.built_in};
+    struct gm_fault fault;
+    made->close = gm_user_room_close;
+    made->scene = gm_user_room_open(&file, &fault, making->message);
+    if (fault.sentence[0]) {
+        return refuse_text(making, &fault);
     }
-    size_t others;
-    *moves = system->kind == GM_FIELD && gm_user_field_moving(schemes, &others) > 0;
-    return !*moves || others == 0 ||
-           gm_refuse(message,
-                     "some of these schemes move their mesh, and others do not know how: a picture has one "
-                     "kind of them");
+    making->trial->status = made->scene ? GM_EXIT_USAGE : GM_EXIT_FILE;
+    return made->scene != NULL;
 }
 
-/* The largest of the numbers that lists and sums are as long as, and where the text says it; name "": there is
-   none. */
-struct largest {
-    char name[64];
-    double value;
-    size_t place;
-};
-
-/* Where the text gives a parameter its value; 0: nowhere. */
-static size_t place_of_parameter(const char *text, const char *name)
+/* Finds the largest of the numbers that lists and sums are as long as. */
+static void find_largest(struct making *making)
 {
-    static const char word[] = "parameter:";
-    for (const char *line = text; line; line = strchr(line, '\n')) {
-        line += *line == '\n';
-        const char *value = line + strlen(word);
-        if (strncmp(line, word, strlen(word)) == 0) {
-            value += strspn(value, " \t");
-            const size_t length = strlen(name);
-            if (strncmp(value, name, length) == 0 && strchr(" \t=", value[length])) {
-                return (size_t)(value - text);
-            }
-        }
-    }
-    return 0;
-}
-
-static struct largest find_largest(const struct gm_user_system *system, const char *text,
-                                   const struct gm_system_value *values, size_t count)
-{
-    struct largest largest = {.value = 0};
+    const struct gm_user_system *system = &making->first;
     for (size_t k = system->parameters; system->variables && k < system->velocities; k++) {
         const struct gm_system_variable *variable = &system->variables[k];
         double value = variable->value;
-        for (size_t i = 0; i < count; i++) {
-            value = strcmp(values[i].name, variable->name) == 0 ? strtod(values[i].text, NULL) : value;
+        for (size_t i = 0; i < making->value_count; i++) {
+            const bool given = strcmp(making->values[i].name, variable->name) == 0;
+            value = given ? strtod(making->values[i].text, NULL) : value;
         }
-        if (variable->fixed && value > largest.value) {
-            largest.value = value;
-            largest.place = place_of_parameter(text, variable->name);
-            snprintf(largest.name, sizeof largest.name, "%s", variable->name);
+        if (variable->fixed && value > making->largest) {
+            making->largest = value;
+            making->largest_place = variable->start_place;
+            snprintf(making->largest_name, sizeof making->largest_name, "%s", variable->name);
         }
     }
-    return largest;
 }
 
-/* Says what there is not enough memory for. */
-static void tell_memory(const struct gm_system_lines *written, const struct largest *largest, char *message)
+/* Reports what there is not enough memory for. */
+static void refuse_memory(const struct making *making)
 {
-    if (!largest->name[0] || !written->path) {
-        gm_refuse(message, "not enough memory%s",
-                  largest->name[0] ? " for lists and sums of this length" : "");
+    const struct gm_typed_file *written = &making->written;
+    struct gm_fault fault = {.offset = making->largest_place};
+    if (!(making->largest > 0) || !written->path) {
+        gm_refuse(making->message, "not enough memory%s",
+                  making->largest > 0 ? " for lists and sums of this length" : "");
         return;
     }
-    size_t line, column;
-    gm_text_place(written->text, largest->place, &line, &column);
-    gm_refuse(message, "%.150s:%zu:%zu: not enough memory for %.60s = %.6g", written->path, line, column,
-              largest->name, largest->value);
-    gm_place_show(written->text, written->length, largest->place, message);
+    snprintf(fault.sentence, sizeof fault.sentence, "not enough memory for %s = %.6g", making->largest_name,
+             making->largest);
+    gm_place_report(written->path, written->text, &fault, making->message);
+    gm_place_show(written->text, written->length, fault.offset, making->message);
 }
 
-/* Makes a scene of the lines, or finds the one that was kept. */
-static bool make(struct gm_made_system *made, const struct gm_system_lines *written, int count,
-                 char *const words[], struct gm_system_trial *trial, char *message)
+/* Makes a scene of the text, or finds the one that was kept. */
+static void make(struct making *making)
 {
-    struct gm_user_system first, system;
+    const struct gm_typed_file *written = &making->written;
+    struct gm_made_system *made = making->trial->made;
     struct gm_fault fault;
-    const bool typed = !written->path;
-    bool moves = false;
-    const unsigned long refusals = gm_memory_refusals();
-    struct gm_system_value *values = calloc((size_t)count, sizeof *values);
-    size_t value_count = 0;
-    if (!values) {
-        trial->status = GM_EXIT_MEMORY;
-        return gm_refuse(message, "not enough memory");
-    }
-    const bool read = gm_system_read(&first, written->text, written->length, NULL, 0, &fault);
-    struct largest largest = find_largest(&first, written->text, NULL, 0);
-    if (!read) {
-        trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
-    } else if (choose_mesh(&first, count, words, &moves, message) &&
-               choose_words(made, &first, typed, count, words, values, &value_count, &trial->place,
-                            message)) {
-        largest = find_largest(&first, written->text, values, value_count);
-        char *all = gm_arguments_join("", &made->words);
-        if (!all || asprintf(&made->key, "%d %s\n%s", moves, all, written->text) < 0) {
-            made->key = NULL;
-        }
-        free(all);
-        const struct gm_made_system *known = made->key ? find_made(all_made, made->key) : NULL;
-        made->name = name_of(words[0]);
-        if (known) {
-            trial->scene = known->scene;
-        } else if (!made->key || !made->name) {
-            gm_refuse(message, "not enough memory");
-        } else if (!derive(&system, &first, written, values, value_count, &fault)) {
-            trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
-            gm_system_close(&system);
-        } else if (gm_arguments_end(&made->words)) {
-            const char *const *own = (const char *const *)made->words.words;
-            const bool field = gm_system_is_field(&system);
-            made->close = field ? gm_user_field_close : gm_system_scene_close;
-            trial->scene = made->scene = field
-                                             ? gm_user_field_open(&system, made->name, own, moves, message)
-                                             : gm_system_scene_open(&system, made->name, own, typed, message);
-            fault.offset = trial->scene || typed ? 0 : line_told(written->text, message);
-            if (fault.offset > 0) {
-                snprintf(fault.sentence, sizeof fault.sentence, "%s", message);
-                trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
-            }
-        } else {
-            gm_system_close(&system);
-            trial->status = GM_EXIT_MEMORY;
-            gm_refuse(message, "not enough memory");
+    if (making->room) {
+        gm_arguments_add(&made->words, written->words[0]);
+    } else if (!gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault)) {
+        refuse_text(making, &fault);
+        return;
+    } else {
+        const bool chosen = choose_mesh(making) && choose_words(making);
+        find_largest(making);
+        if (!chosen) {
+            return;
         }
     }
-    gm_system_close(&first);
-    free(values);
-    if (gm_memory_refusals() != refusals) { /* whatever else was blamed, and what is only there in part */
-        if (made->scene) {
-            made->close(made->scene);
-        }
-        trial->scene = made->scene = NULL;
-        trial->status = GM_EXIT_MEMORY;
-        tell_memory(written, &largest, message);
+    char *words = gm_arguments_join("", &made->words);
+    if (!words || asprintf(&made->key, "%d %s\n%s", making->moves, words, written->text) < 0) {
+        made->key = NULL;
     }
-    return trial->scene != NULL;
+    free(words);
+    const struct gm_made_system *known = made->key ? find_made(all_made, made->key) : NULL;
+    made->name = name_of(making->room ? making->file.path : written->words[0],
+                         gm_file_endings[making->room ? GM_FILE_ROOM : GM_FILE_SYSTEM]);
+    if (known) {
+        making->trial->scene = known->scene;
+    } else if (made->key && made->name && (making->room ? open_room(making) : open_system(making))) {
+        making->trial->scene = made->scene;
+    }
 }
 
-/* The lines that the words mean. */
-static bool write_lines(struct gm_system_lines *written, struct gm_file *file, int count, char *const words[],
-                        struct gm_system_trial *trial, char *message)
+/* The text that the words mean. */
+static bool write_text(struct making *making)
 {
-    const struct gm_made_system *recalled = find_made(all_texts, words[0]);
-    if (strcmp(words[0], gm_system_typed) == 0) {
-        return gm_worded_write(written, count, words, &trial->place, message);
+    struct gm_typed_file *written = &making->written;
+    const char *word = written->words[0];
+    const struct gm_made_system *recalled = making->room ? NULL : find_made(all_texts, word);
+    struct gm_fault fault;
+    if (strcmp(word, gm_system_typed) == 0) {
+        return gm_typed_file_write(written, &making->trial->place, making->message);
     }
-    written->path = file->path;
     if (recalled) {
+        snprintf(making->file.path, sizeof making->file.path, "%s", word);
+        written->path = making->file.path;
         written->text = strdup(recalled->text);
         written->length = strlen(recalled->text);
-        snprintf(file->path, sizeof file->path, "%s", words[0]);
-    } else if (gm_file_find(GM_FILE_SYSTEM, words[0], file)) {
-        trial->status = GM_EXIT_FILE;
-        written->text = gm_system_lines_read(file, &written->length, message);
-    } else {
-        return gm_refuse(message, "there is no system \"%.60s\"", words[0]);
-    }
-    if (!written->text) {
-        return recalled ? gm_refuse(message, "not enough memory") : false;
-    }
-    if (written->length > GM_LARGEST_SYSTEM ||
-        gm_text_valid(written->text, written->length) < written->length) {
-        /* what is too long was not read, what is no text ends strings early: the reader says so */
-        struct gm_user_system system;
-        struct gm_fault fault;
-        if (!gm_system_read(&system, written->text, written->length, NULL, 0, &fault)) {
-            trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
+        if (!written->text) {
+            return gm_refuse(making->message, "not enough memory");
         }
-        gm_system_close(&system);
-        return false;
+    } else if (gm_file_find(making->room ? GM_FILE_ROOM : GM_FILE_SYSTEM, word, &making->file)) {
+        making->trial->status = GM_EXIT_FILE;
+        if (!read_file(written, &making->file, making->room ? GM_LARGEST_ROOM : GM_LARGEST_SYSTEM,
+                       making->message)) {
+            return false;
+        }
+    } else {
+        return gm_refuse(making->message, "there is no system \"%.60s\"", word);
     }
-    return gm_replacing_lines(written, count, words) || gm_refuse(message, "not enough memory");
+    making->trial->status = GM_EXIT_USAGE;
+    if (making->room) {
+        return true;
+    }
+    if (written->length > GM_LARGEST_SYSTEM || !gm_lines_are_text(written->text, written->length, &fault)) {
+        /* what is too long was not read, what is no text ends strings early: the reader says so */
+        gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault);
+        return refuse_text(making, &fault);
+    }
+    return gm_typed_file_replace(written) || gm_refuse(making->message, "not enough memory");
 }
 
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message)
 {
-    struct gm_file file;
-    struct gm_system_lines written = {0};
+    struct making making = {.trial = trial,
+                            .written = {.count = count, .words = words},
+                            .room = is_room(words[0]),
+                            .message = message};
     *trial = (struct gm_system_trial){.status = GM_EXIT_USAGE, .place = {.word = -1}};
-    if (gm_file_is(GM_FILE_ROOM, words[0]) && !gm_file_is(GM_FILE_SYSTEM, words[0])) {
-        trial->scene = gm_room_scene(words[0], &trial->status, message);
-        return trial->scene != NULL;
+    trial->made = calloc(1, sizeof *trial->made);
+    making.values = calloc((size_t)count, sizeof *making.values);
+    if (!trial->made || !making.values) {
+        gm_refuse(message, "not enough memory");
+    } else if (write_text(&making)) {
+        const unsigned long refusals = gm_memory_refusals();
+        pthread_mutex_lock(&making_one);
+        make(&making);
+        if (gm_memory_refusals() != refusals) { /* whatever else was blamed, and what is only there in part */
+            if (trial->made->scene) {
+                trial->made->close(trial->made->scene);
+            }
+            trial->scene = trial->made->scene = NULL;
+            trial->status = GM_EXIT_MEMORY;
+            refuse_memory(&making);
+        }
+        pthread_mutex_unlock(&making_one);
     }
-    struct gm_made_system *made = calloc(1, sizeof *made);
-    trial->made = made;
-    bool good = made || gm_refuse(message, "not enough memory");
-    good = good && write_lines(&written, &file, count, words, trial, message);
-    if (good) {
-        trial->status = GM_EXIT_USAGE;
-        pthread_mutex_lock(&making);
-        good = make(made, &written, count, words, trial, message);
-        pthread_mutex_unlock(&making);
-    }
-    gm_system_lines_close(&written);
-    return good;
+    gm_system_close(&making.first);
+    free(making.values);
+    free(making.written.text);
+    return trial->scene != NULL;
 }
 
 void gm_system_trial_close(struct gm_system_trial *trial)
@@ -441,10 +433,10 @@ void gm_system_trial_keep(struct gm_system_trial *trial)
     if (!trial->made || !trial->made->scene) {
         return;
     }
-    pthread_mutex_lock(&making);
+    pthread_mutex_lock(&making_one);
     trial->made->next = all_made;
     all_made = trial->made;
-    pthread_mutex_unlock(&making);
+    pthread_mutex_unlock(&making_one);
     trial->made = NULL;
 }
 
@@ -461,5 +453,5 @@ const struct gm_scene *gm_system_scene(int count, char *const words[], int *stat
 
 const char *const *gm_system_keys(const char *word)
 {
-    return strcmp(word, gm_system_typed) == 0 ? gm_worded_keys : gm_replacing_keys;
+    return strcmp(word, gm_system_typed) == 0 ? gm_typed_keys : gm_replacing_keys;
 }

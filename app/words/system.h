@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems that somebody wrote. Sentences may have three lines: what is wrong, the
+/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
    text, a caret below the place. */
-#ifndef GM_APP_OWN_SYSTEM_H
-#define GM_APP_OWN_SYSTEM_H
+#ifndef GM_APP_WORDS_SYSTEM_H
+#define GM_APP_WORDS_SYSTEM_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "app/base/place.h"
 
+struct gm_arguments;
 struct gm_file;
 struct gm_user_system;
 struct gm_scene;
@@ -16,19 +17,18 @@ struct gm_system_value;
 
 extern const char gm_system_typed[]; /* "system": what stands before a formula */
 
-/* Opens the system of a file. Returns 0, or an exit status with a sentence. To be closed in both cases. */
+/* Opens the system of a file; without one, of the words "system H=... key=value ...". Returns 0, or an exit status with a
+   sentence. To be closed in both cases. */
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
-                   const struct gm_system_value *values, size_t count, char *message);
-
-/* The same of what words "system H=... key=value ..." say. */
-int gm_system_open_typed(struct gm_user_system *system, int count, char *const words[], char *message);
+                   const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
+                   char *message);
 
 /* Whether the first of some words means a system: one of a file, or `system` with a formula behind it; or a
-   room of a file (app/words/room.h), which is opened the same way. */
+   room of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
 /* The keys that say, or replace, the formulas of some words whose first means a system, until NULL. */
 const char *const *gm_system_keys(const char *word);
-/* The scene of the system that words "NAME key=value ..." mean; a parameter that the equations are built on
+/* The scene of the system or room that words "NAME key=value ..." mean; a parameter that the equations are built on
    has the value that is given there, and formulas behind a file's name take the place of its own. It lives as
    long as the program, and the same words mean the same scene. NULL with a sentence, and then an exit
    status. */

@@ -102,19 +102,12 @@ bool gm_typed_split(struct gm_arguments *words, const char *line)
 static size_t place_of(const char *line, int word, size_t offset)
 {
     struct walk walk = {.line = line, .word = -1};
-    while (next_letter(&walk) != '\0') {
+    size_t at = 0; /* behind its last letter */
+    while (next_letter(&walk) != '\0' && walk.word <= word) {
         if (walk.word == word && offset-- == 0) {
             return walk.at - 1;
         }
-        if (walk.word > word) {
-            break;
-        }
-    }
-    /* behind its last letter */
-    struct walk again = {.line = line, .word = -1};
-    size_t at = 0;
-    while (next_letter(&again) != '\0' && again.word <= word) {
-        at = again.at;
+        at = walk.at;
     }
     return at;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_TYPED_H
-#define GM_APP_REQUEST_TYPED_H
+#ifndef GM_APP_WORDS_TYPED_H
+#define GM_APP_WORDS_TYPED_H
 
 #include "app/base/arguments.h"
 #include "app/words/request.h"

@@ -56,6 +56,7 @@ void gm_words_close(struct gm_words *words)
     words->count = 0;
 }
 
+/* False: out of memory, or with a sentence. */
 static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
 {
     if (length == 0) {
@@ -67,12 +68,9 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     }
     struct gm_word_piece *piece = &list->pieces[list->piece_count];
     *piece = (struct gm_word_piece){.text = strndup(text, length)};
-    if (!piece->text) {
-        return gm_refuse(message, "not enough memory");
-    }
-    list->piece_count++;
+    list->piece_count += piece->text != NULL;
     list->count++;
-    return true;
+    return piece->text != NULL;
 }
 
 /* Where the last piece of a number's list is a range, it stands for its values. */
@@ -235,7 +233,7 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
     struct gm_word *list = &words->list[words->count];
     *list = (struct gm_word){.key = strndup(word, (size_t)(equals - word))};
     if (!list->key) {
-        return gm_refuse(message, "not enough memory");
+        return false;
     }
     words->count++;
     if (!known_key(scene, list->key)) {
@@ -320,18 +318,17 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
     return true;
 }
 
-/* Whether "key=value" is among the words, that value alone. */
-static bool says(const struct gm_words *words, const char *text)
+/* The schemes that a scene prefers where these words are typed. */
+static const struct gm_preference *preferred(const struct gm_scene *scene, int count, char *const typed[])
 {
-    const char *equals = strchr(text, '=');
-    for (size_t i = 0; i < words->count; i++) {
-        const struct gm_word *word = &words->list[i];
-        if (strlen(word->key) == (size_t)(equals - text) &&
-            strncmp(word->key, text, (size_t)(equals - text)) == 0) {
-            return word->count == 1 && strcmp(word->pieces[0].text, equals + 1) == 0;
+    for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
+        for (int i = 0; i < count; i++) {
+            if (strcmp(row->word, typed[i]) == 0) {
+                return row;
+            }
         }
     }
-    return false;
+    return NULL;
 }
 
 /* Whether the typed words leave a usual one without effect, as a mesh file does rows, or bring schemes. */
@@ -339,17 +336,13 @@ static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typ
 {
     char key[64];
     void *self = gm_scene_defaults(scene);
-    bool idle = false;
+    bool idle = strncmp(word, "scheme=", 7) == 0 && preferred(scene, typed->count, typed->words);
     for (int i = 1; self && i < typed->count; i++) {
         const char *value = strchr(typed->words[i], '=');
         snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
         const struct gm_parameter *row = gm_scene_parameter(scene, key);
         if (row && value) {
             gm_parameter_set(row, self, value + 1); /* a list, or nonsense, is the request's to judge */
-        }
-        for (const struct gm_preference *preference = scene->preferences; preference && preference->word;
-             preference++) {
-            idle |= strcmp(preference->word, typed->words[i]) == 0 && strncmp(word, "scheme=", 7) == 0;
         }
     }
     snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
@@ -377,19 +370,8 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
     return good;
 }
 
-/* The schemes that a scene prefers where these words are typed. */
-static const char *const *preferred(const struct gm_words *words, const struct gm_scene *scene)
-{
-    for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
-        if (says(words, row->word)) {
-            return row->schemes;
-        }
-    }
-    return scene->schemes;
-}
-
-/* The first `schemes` of the scene's preferred ones, as if they had been typed in front. */
-static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t schemes, char *message)
+/* The first `count` of these schemes, as if they had been typed in front. */
+static bool prefer(struct gm_words *words, const char *const *names, size_t count, char *message)
 {
     if (gm_words_find(words, "scheme")) {
         return true;
@@ -398,15 +380,14 @@ static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t 
         return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
     }
     struct gm_word list = {.key = strdup("scheme")};
-    const char *const *names = preferred(words, scene);
     bool good = list.key != NULL;
-    for (size_t i = 0; good && i < schemes && names[i]; i++) {
+    for (size_t i = 0; good && i < count && names[i]; i++) {
         good = add_value(&list, names[i], strlen(names[i]), message);
     }
     memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
     words->list[0] = list;
     words->count++;
-    return good || gm_refuse(message, "not enough memory");
+    return good;
 }
 
 /* Those of the common keys that are not the lane's have one value, of their choices. */
@@ -447,16 +428,20 @@ bool gm_words_chosen(const struct gm_words *words, const char *key)
 bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
                    size_t schemes, char *message)
 {
+    const struct gm_preference *preference = preferred(scene, count, typed);
     memset(words, 0, sizeof *words);
+    gm_refuse(message, "not enough memory");
     for (int i = 0; i < count; i++) {
         if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], message)) {
             return false;
         }
     }
-    if (!check_choices(words, message) || !prefer(words, scene, schemes, message)) {
+    if (!check_choices(words, message) ||
+        !prefer(words, preference ? preference->schemes : scene->schemes, schemes, message)) {
         return false;
     }
     words->zip = gm_words_chosen(words, "zip");
+    message[0] = '\0';
     return true;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_REQUEST_WORDS_H
-#define GM_APP_REQUEST_WORDS_H
+#ifndef GM_APP_WORDS_WORDS_H
+#define GM_APP_WORDS_WORDS_H
 
 #include "app/base/arguments.h"
 #include "app/words/range.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What formulas compute and the mathematical library does not, apart from the graph: loops that are built
    while the program runs need it too. */
-#ifndef GM_CORE_FORMULA_ARITHMETIC_H
-#define GM_CORE_FORMULA_ARITHMETIC_H
+#ifndef GM_CORE_EXPRESSION_ARITHMETIC_H
+#define GM_CORE_EXPRESSION_ARITHMETIC_H
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact derivatives, as further nodes of the same graph: a value and its slope share what they have in
    common, so that exp' is exp. */
-#ifndef GM_CORE_FORMULA_DERIVATIVE_H
-#define GM_CORE_FORMULA_DERIVATIVE_H
+#ifndef GM_CORE_EXPRESSION_DERIVATIVE_H
+#define GM_CORE_EXPRESSION_DERIVATIVE_H
 
 #include "core/expression/graph.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A formula as a graph: nodes that stand behind what they are made of, each of them once. */
-#ifndef GM_CORE_FORMULA_GRAPH_H
-#define GM_CORE_FORMULA_GRAPH_H
+#ifndef GM_CORE_EXPRESSION_GRAPH_H
+#define GM_CORE_EXPRESSION_GRAPH_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whether a formula is 0 whatever its variables are. */
-#ifndef GM_CORE_FORMULA_IDENTITY_H
-#define GM_CORE_FORMULA_IDENTITY_H
+#ifndef GM_CORE_EXPRESSION_IDENTITY_H
+#define GM_CORE_EXPRESSION_IDENTITY_H
 
 #include "core/expression/graph.h"
 

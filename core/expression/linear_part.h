@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_LINEAR_PART_H
-#define GM_CORE_FORMULA_LINEAR_PART_H
+#ifndef GM_CORE_EXPRESSION_LINEAR_PART_H
+#define GM_CORE_EXPRESSION_LINEAR_PART_H
 
 #include "core/expression/graph.h"
 

@@ -116,6 +116,16 @@ bool gm_span_take(const char *text, struct gm_span *rest, const char *separator,
     return true;
 }
 
+size_t gm_span_among(const char *text, struct gm_span span, const char *const *words)
+{
+    const size_t length = span.end - span.begin;
+    size_t k = 0;
+    while (words[k] && (strlen(words[k]) != length || memcmp(words[k], text + span.begin, length) != 0)) {
+        k++;
+    }
+    return k;
+}
+
 char *gm_span_words(const char *text, struct gm_span span)
 {
     char *words = malloc(span.end - span.begin + 1), *out = words;

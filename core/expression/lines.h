@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_LINES_H
-#define GM_CORE_FORMULA_LINES_H
+#ifndef GM_CORE_EXPRESSION_LINES_H
+#define GM_CORE_EXPRESSION_LINES_H
 
 #include "core/expression/reader.h"
 
@@ -31,6 +31,8 @@ size_t gm_span_until(const char *text, struct gm_span span, const char *separato
 /* Takes the piece before the next separator off the front, trimmed; false, and an empty piece, where nothing is
    left. */
 bool gm_span_take(const char *text, struct gm_span *rest, const char *separator, struct gm_span *piece);
+/* Which of some words, NULL behind the last, a span is; their number, if it is none of them. */
+size_t gm_span_among(const char *text, struct gm_span span, const char *const *words);
 /* Its words with one blank between them; malloc'ed, NULL: out of memory. */
 char *gm_span_words(const char *text, struct gm_span span);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_NEAREST_H
-#define GM_CORE_FORMULA_NEAREST_H
+#ifndef GM_CORE_EXPRESSION_NEAREST_H
+#define GM_CORE_EXPRESSION_NEAREST_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FORMULA_NUMBER_H
-#define GM_CORE_FORMULA_NUMBER_H
+#ifndef GM_CORE_EXPRESSION_NUMBER_H
+#define GM_CORE_EXPRESSION_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas as people type them: text to graph. */
-#ifndef GM_CORE_FORMULA_READER_H
-#define GM_CORE_FORMULA_READER_H
+#ifndef GM_CORE_EXPRESSION_READER_H
+#define GM_CORE_EXPRESSION_READER_H
 
 #include "core/expression/graph.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas as a reader of them would write them. */
-#ifndef GM_CORE_FORMULA_TIDIED_H
-#define GM_CORE_FORMULA_TIDIED_H
+#ifndef GM_CORE_EXPRESSION_TIDIED_H
+#define GM_CORE_EXPRESSION_TIDIED_H
 
 #include "core/expression/writer.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas as text, with no more parentheses than are needed: to be read again, or by LaTeX. */
-#ifndef GM_CORE_FORMULA_WRITER_H
-#define GM_CORE_FORMULA_WRITER_H
+#ifndef GM_CORE_EXPRESSION_WRITER_H
+#define GM_CORE_EXPRESSION_WRITER_H
 
 #include "core/expression/graph.h"
 

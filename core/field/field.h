@@ -26,7 +26,6 @@ static inline bool gm_field_within(const double *values, size_t count, double li
 struct gm_form {
     size_t dimension;    /* of s */
     const double *m, *k; /* dimension * dimension, row by row */
-    void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
     /* Of an equation whose state is s itself, at all nodes, [component * points + node]: S at one point, its
        gradient and its second derivatives at `count` of them, [component * count + point] and [(row * dimension
        + column) * count + point], and s(x + the ring) - s(x); NULL where the state is what elimination leaves. */
@@ -48,7 +47,6 @@ enum { GM_MOST_OF_FORM = 8 }; /* components of a state that is s itself */
 /* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries, and may be the same. */
 struct gm_wave {
     double (*potential)(const struct gm_problem *problem, double u); /* V */
-    double (*slope)(const struct gm_problem *problem, double u);     /* V' */
     double (*curvature)(const struct gm_problem *problem, double u); /* V'' */
     void (*slopes)(const struct gm_problem *problem, const double *u, double *slope, size_t count);
     /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */

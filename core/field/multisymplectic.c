@@ -3,7 +3,8 @@
 #include "core/field/multisymplectic.h"
 
 #include <math.h>
-#include <stdlib.h>
+
+#include "core/basics.h"
 
 /* a0' G b1 - b0' G a1 with the upper triangle of a skew matrix or the whole of it for G. With the triangle
    and both at one place this is a' matrix b. */
@@ -27,27 +28,67 @@ static double form_at(size_t d, const double *matrix, const double *a, const dou
     return form(d, matrix, false, a, a, b, b);
 }
 
-bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_lattice *cells)
+struct measurement {
+    struct gm_law *law;
+    void (*measure)(const struct gm_law *law, void *data);
+    void *data;
+};
+
+static void measure(struct gm_arena *arena, void *data)
 {
-    const size_t face = cells->points * cells->r * field->dimension;
-    const size_t sides = (cells->points + 1) * cells->s * field->dimension;
-    faces->lower = calloc(2 * face + sides + cells->points, sizeof(double));
-    faces->upper = faces->lower + face;
-    faces->sides = faces->upper + face;
-    faces->scratch = faces->sides + sides;
-    return faces->lower != NULL;
+    const struct measurement *self = data;
+    struct gm_law *law = self->law;
+    const struct gm_family *family = law->scheme->family;
+    law->arena = arena;
+    law->work =
+        gm_arena_keep(arena, family->workspace_open(law->problem, law->scheme), family->workspace_close);
+    self->measure(law, self->data);
 }
 
-void gm_faces_close(struct gm_faces *faces)
+bool gm_law_measure(struct gm_law *law, void (*body)(const struct gm_law *law, void *data), void *data)
 {
-    free(faces->lower);
+    struct measurement self = {law, body, data};
+    struct gm_arena *arena = gm_arena_open();
+    const bool whole = gm_arena_run(arena, measure, &self);
+    gm_arena_close(arena);
+    return whole;
 }
 
-double gm_lattice_law(const struct gm_form *field, const struct gm_lattice *cells, const struct gm_faces *a,
-                      const struct gm_faces *b)
+bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,
+                 double *memory_out)
 {
+    const struct gm_task task = {
+        .problem = law->problem,
+        .scheme = law->scheme,
+        .dt = law->dt,
+        .steps = steps,
+        .limit = INFINITY,
+        .y = y,
+        .out = out,
+        .memory = memory,
+        .memory_out = memory_out,
+        .workspace = law->work,
+    };
+    return law->scheme->family->loop(&task).status == GM_OK;
+}
+
+struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells)
+{
+    const size_t d = gm_field_of(law->problem)->form->dimension;
+    const size_t face = cells->points * cells->r * d, sides = (cells->points + 1) * cells->s * d;
+    double *lower = gm_arena_take(law->arena, 2 * face + sides + cells->points, sizeof *lower);
+    return (struct gm_faces){lower, lower + face, lower + 2 * face, lower + 2 * face + sides};
+}
+
+double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
+                      void (*advance)(const struct gm_law *law, struct gm_faces faces[2]))
+{
+    const struct gm_form *field = gm_field_of(law->problem)->form;
     const size_t d = field->dimension;
+    struct gm_faces faces[2] = {gm_faces_of(law, cells), gm_faces_of(law, cells)};
+    const struct gm_faces *a = &faces[0], *b = &faces[1];
     double largest = 0;
+    advance(law, faces);
     for (size_t i = 0; i < cells->points; i++) {
         double residual = 0;
         for (size_t m = 0; m < cells->r; m++) {
@@ -62,15 +103,17 @@ double gm_lattice_law(const struct gm_form *field, const struct gm_lattice *cell
                         (form_at(d, field->k, a->sides + right, b->sides + right) -
                          form_at(d, field->k, a->sides + left, b->sides + left));
         }
-        largest = fabs(residual) > largest || isnan(residual) ? fabs(residual) : largest;
+        largest = gm_larger(fabs(residual), largest);
     }
     return largest;
 }
 
-double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, double dx, double dt,
-                    gm_complete_node *complete, const void *a, const void *b)
+double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *complete, const void *a,
+                    const void *b)
 {
-    const size_t d = field->dimension;
+    const struct gm_form *field = gm_field_of(law->problem)->form;
+    const size_t d = field->dimension, points = law->problem->line.points;
+    const double dx = law->problem->line.dx, dt = law->dt;
     const double over_t = 1 / (centred ? 2 * dt : dt), over_x = 1 / (centred ? 2 * dx : dx);
     /* both tangents at a node and the next; the flux in space behind a node is that before the next */
     double sides[2][2][3 * GM_LARGEST_FORM] = {{{0}}};
@@ -88,23 +131,34 @@ double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, do
             const double later =
                 form(d, field->m, centred, left[0] + d, left[0] + 2 * d, left[1] + d, left[1] + 2 * d);
             const double residual = fabs(over_t * (later - earlier) + over_x * (behind - before));
-            largest = residual > largest || isnan(residual) ? residual : largest;
+            largest = gm_larger(residual, largest);
         }
         before = behind;
     }
     return largest;
 }
 
+static void find_residual(const struct gm_law *law, void *residual)
+{
+    *(double *)residual = law->scheme->family->form(law);
+}
+
+static double residual_of(struct gm_law law)
+{
+    double residual = NAN;
+    return law.scheme->family->form && gm_law_measure(&law, find_residual, &residual) ? residual : NAN;
+}
+
 double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, const double *memory)
 {
-    return scheme->family->form ? scheme->family->form(problem, scheme, dt, y, memory, false) : NAN;
+    return residual_of((struct gm_law){problem, scheme, dt, y, memory, .by_differences = false});
 }
 
 double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                       const double *y, const double *memory)
 {
-    return scheme->family->form ? scheme->family->form(problem, scheme, dt, y, memory, true) : NAN;
+    return residual_of((struct gm_law){problem, scheme, dt, y, memory, .by_differences = true});
 }
 
 void gm_tangent_start(double *tangent, size_t points, double waves, double phase)

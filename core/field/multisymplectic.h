@@ -2,6 +2,7 @@
 #ifndef GM_CORE_FIELD_MULTISYMPLECTIC_H
 #define GM_CORE_FIELD_MULTISYMPLECTIC_H
 
+#include "core/arena.h"
 #include "core/field/field.h"
 
 /* The law that a multisymplectic scheme for M s_t + K s_x = grad S(s), M and K skew, keeps for any two
@@ -27,13 +28,32 @@ struct gm_lattice {
     double dx, dt;
 };
 
-/* Makes room for the faces of one tangent, all 0; false where memory is short. gm_faces_close frees it. */
-bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_lattice *cells);
-void gm_faces_close(struct gm_faces *faces);
+/* What a law is measured of: a state, and steps from it that are made aside. A measurement takes its memory from the
+   arena, and leaves it where a step fails. */
+struct gm_law {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    const double *y, *memory; /* the state, and the scheme's own memory, or NULL */
+    bool by_differences;      /* tangents are differences of the scheme's own steps */
+    struct gm_arena *arena;
+    void *work; /* the scheme's workspace */
+};
 
-/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell. */
-double gm_lattice_law(const struct gm_form *field, const struct gm_lattice *cells, const struct gm_faces *a,
-                      const struct gm_faces *b);
+/* Opens the arena and the workspace for a measurement, and closes them; false where it was left. */
+bool gm_law_measure(struct gm_law *law, void (*measure)(const struct gm_law *law, void *data), void *data);
+
+/* Makes steps from a state and a memory, both of which may be parts of the law; false where one fails. */
+bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,
+                 double *memory_out);
+
+/* The faces of one tangent, all 0, of the arena. */
+struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
+
+/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents, makes a
+   step, and fills in their faces. */
+double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
+                      void (*advance)(const struct gm_law *law, struct gm_faces faces[2]));
 
 /* Fills in a tangent at a node at the three levels n - 1, n, n + 1, [level * dimension + component]. */
 typedef void gm_complete_node(const void *tangent, size_t node, double *s);
@@ -43,8 +63,8 @@ typedef void gm_complete_node(const void *tangent, size_t node, double *s);
    or with `centred` the whole matrices and centred differences (midpoint). Tangents a and b on a ring; no
    dimension is above GM_LARGEST_FORM. */
 enum { GM_LARGEST_FORM = 4 };
-double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, double dx, double dt,
-                    gm_complete_node *complete, const void *a, const void *b);
+double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *complete, const void *a,
+                    const void *b);
 
 /* The residual of the scheme's multisymplectic law (core/field/multisymplectic.h) over the grid, with two
    tangent solutions that start from unit waves at the last levels of the state `y` and make one step of the

@@ -7,6 +7,7 @@
 
 #include "core/expression/reader.h"
 #include "core/files/files.h"
+#include "core/files/generated.h"
 
 /* Of "../share/systems/toda.system" what stands behind share/. */
 static const char *path_of(const char *path)
@@ -18,27 +19,12 @@ static const char *path_of(const char *path)
     return slash ? slash : path;
 }
 
-/* A string of C; a line of the text is a line of it. */
-static void put_string(FILE *out, const char *text, size_t length)
-{
-    fputs("\"", out);
-    for (size_t i = 0; i < length; i++) {
-        const unsigned char byte = (unsigned char)text[i];
-        if (byte < ' ' || byte > '~' || strchr("\"\\?", byte)) {
-            fprintf(out, byte == '\n' ? "\\n\"\n\"" : "\\%03o", byte);
-        } else {
-            fputc(byte, out);
-        }
-    }
-    fputs("\"", out);
-}
-
 /* A member and its line, which is freed. False if there is none: out of memory. */
 static bool put_line(FILE *out, const char *member, char *line)
 {
     if (line) {
         fprintf(out, ", .%s = ", member);
-        put_string(out, line, strlen(line));
+        gm_string_put(out, line, strlen(line));
     }
     free(line);
     return line;
@@ -47,22 +33,13 @@ static bool put_line(FILE *out, const char *member, char *line)
 static bool put_file(FILE *out, const char *given)
 {
     const char *path = path_of(given), *name = strrchr(path, '/');
-    char *text = NULL, part[4096];
     size_t length = 0;
     enum gm_file_kind kind = GM_FILE_SYSTEM;
     while (kind < GM_FILE_KINDS && !gm_word_ends(path, gm_file_endings[kind])) {
         kind++;
     }
-    FILE *in = kind < GM_FILE_KINDS && name ? fopen(given, "r") : NULL,
-         *memory = in ? open_memstream(&text, &length) : NULL;
-    for (size_t count; memory && (count = fread(part, 1, sizeof part, in)) > 0;) {
-        fwrite(part, 1, count, memory);
-    }
-    bool good = memory && !ferror(in);
-    good = memory && fclose(memory) == 0 && good;
-    if (in) {
-        fclose(in);
-    }
+    char *text = kind < GM_FILE_KINDS && name ? gm_input_read(given, &length) : NULL;
+    bool good = text != NULL;
     if (good) {
         const size_t letters = strlen(name + 1) - (kind == GM_FILE_MESH ? 0 : strlen(gm_file_endings[kind]));
         fprintf(out, "{.kind = %d, .path = \"%s\", .name = \"%.*s\"", (int)kind, path, (int)letters,
@@ -71,7 +48,7 @@ static bool put_file(FILE *out, const char *given)
         good = put_line(out, "title", gm_file_title(text, described)) &&
                put_line(out, "about", gm_file_line(text, described, "about"));
         fprintf(out, ", .length = %zu, .text = ", length);
-        put_string(out, text, length);
+        gm_string_put(out, text, length);
         fputs("},\n", out);
     }
     free(text);

@@ -83,6 +83,15 @@ void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double
     }
 }
 
+void gm_complex_middle(const struct gm_complex *complex, size_t edge, double middle[2])
+{
+    const double *a = complex->point + 2 * complex->edge[2 * edge],
+                 *b = complex->point + 2 * complex->edge[2 * edge + 1];
+    for (int c = 0; c < 2; c++) {
+        middle[c] = (a[c] + b[c]) / 2;
+    }
+}
+
 static double twice_area(const double p[6])
 {
     return (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);

@@ -117,6 +117,9 @@ void gm_complex_corners(const struct gm_complex *complex, size_t triangle, doubl
 /* The dual vertex of a triangle. */
 void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2]);
 
+/* The middle of an edge; not where a torus is cut. */
+void gm_complex_middle(const struct gm_complex *complex, size_t edge, double middle[2]);
+
 /* The boundary edge behind another one on its loop, and before it. */
 size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge);
 size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gmsh's file formats 2.2 and 4.1, ASCII and binary (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009)
-   1309; Gmsh's reference manual, "MSH file format"): by tables of the sections to a complex with names on its
-   edges. */
+/* Gmsh's file formats 2.2 and 4.1, ASCII and binary (Geuzaine & Remacle, Int.
+   J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's reference manual, "MSH file
+   format"): by tables of the sections to a complex with names on its edges. */
 #include "core/flow/gmsh.h"
+#include "core/arena.h"
 #include "core/basics.h"
 
 #include <ctype.h>
@@ -12,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A Gmsh file on its way to a mesh: its text, and the tables that are made of its sections. */
+/* A Gmsh file on its way to a mesh: its text, and the tables that are made of
+ * its sections. */
 
 /* At most so many nodes, elements and entities are read. */
 enum { MOST = 5000000 };
@@ -36,6 +38,7 @@ struct curve {
 };
 
 struct reader {
+    struct gm_arena *arena;
     const char *at, *end;
     long line;
     struct gm_triangulation_fault *fault;
@@ -51,26 +54,36 @@ struct reader {
     struct gm_triangulation_group *groups;
     size_t node_count, triangle_count, line_count, curve_count, group_count;
     struct gm_complex_origin origin;
+    enum gm_star star;
+    struct gm_triangulation *mesh; /* that is made */
 };
 
-/* The text: words, numbers, counts. All return false with the reader's fault where the text is not what is
-   expected; `what` says in words what that is. Announced counts are believed only as far as the text is
-   long. */
+/* The text: words, numbers, counts. What is not as expected leaves the arena
+   with the reader's fault; `what` says in words what that is. Announced counts
+   are believed only as far as the text is long. */
 
-/* Sets the fault, at the present line; false. */
-static bool fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
+/* Sets the fault, at the present line, and leaves. */
+_Noreturn static void fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
 {
     *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->raw ? 0 : reader->line};
     snprintf(reader->fault->text, sizeof reader->fault->text, "%.*s", (int)sizeof reader->fault->text - 1,
              text);
-    return false;
+    gm_arena_leave(reader->arena);
 }
 
-static bool fail_at_node(struct reader *reader, enum gm_triangulation_fault_kind kind, long line, long node)
+static void expect(struct reader *reader, bool good, const char *what)
+{
+    if (!good) {
+        fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    }
+}
+
+_Noreturn static void fail_at_node(struct reader *reader, enum gm_triangulation_fault_kind kind, long line,
+                                   long node)
 {
     *reader->fault =
         (struct gm_triangulation_fault){.kind = kind, .line = reader->binary ? 0 : line, .nodes = {node}};
-    return false;
+    gm_arena_leave(reader->arena);
 }
 
 /* Blanks and line ends, which are counted. */
@@ -82,7 +95,8 @@ static void skip_blanks(struct reader *reader)
     }
 }
 
-/* The next word, at most size - 1 bytes of it; false, without a fault, at the end or where it is longer. */
+/* The next word, at most size - 1 bytes of it; false, without a fault, at the
+ * end or where it is longer. */
 static bool take_word(struct reader *reader, char *word, size_t size)
 {
     skip_blanks(reader);
@@ -105,95 +119,90 @@ static bool at_end(struct reader *reader)
 }
 
 /* Bytes as they are. */
-static bool take_raw(struct reader *reader, void *value, size_t size)
+static void take_raw(struct reader *reader, void *value, size_t size)
 {
     if ((size_t)(reader->end - reader->at) < size) {
-        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+        fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
     }
     memcpy(value, reader->at, size);
     reader->at += size;
-    return true;
 }
 
-static bool take_number(struct reader *reader, double *value, const char *what)
+/* A word that has to be there. */
+static void take_expected(struct reader *reader, char *word, size_t size, const char *what)
 {
-    char word[64], *rest = NULL;
-    if (reader->raw) {
-        return take_raw(reader, value, sizeof *value) &&
-               (isfinite(*value) || fail(reader, GM_TRIANGULATION_SYNTAX, what));
-    }
     if (at_end(reader)) {
-        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+        fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
     }
-    if (!take_word(reader, word, sizeof word)) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    expect(reader, take_word(reader, word, size), what);
+}
+
+static double take_number(struct reader *reader, const char *what)
+{
+    char word[64], *rest = word;
+    double value = 0;
+    if (reader->raw) {
+        take_raw(reader, &value, sizeof value);
+        word[0] = '\0';
+    } else {
+        take_expected(reader, word, sizeof word, what);
+        value = strtod(word, &rest);
     }
-    *value = strtod(word, &rest);
-    return (*rest == '\0' && isfinite(*value)) || fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    expect(reader, *rest == '\0' && isfinite(value), what);
+    return value;
 }
 
 /* A whole number: of 4 bytes where they are raw. */
-static bool take_whole(struct reader *reader, long *value, const char *what)
+static long take_whole(struct reader *reader, const char *what)
 {
     char word[32], *rest = NULL;
+    int32_t number = 0;
     if (reader->raw) {
-        int32_t number = 0;
-        const bool good = take_raw(reader, &number, sizeof number);
-        *value = number;
-        return good;
+        take_raw(reader, &number, sizeof number);
+        return number;
     }
-    if (at_end(reader)) {
-        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
-    }
-    if (!take_word(reader, word, sizeof word) || strlen(word) > 18) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
-    }
-    *value = strtol(word, &rest, 10);
-    return *rest == '\0' || fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    take_expected(reader, word, sizeof word, what);
+    const long value = strlen(word) > 18 ? 0 : strtol(word, &rest, 10);
+    expect(reader, rest && *rest == '\0', what);
+    return value;
 }
 
 /* One that takes 8 bytes there: tags of nodes and elements. */
-static bool take_tag(struct reader *reader, long *value, const char *what)
+static long take_tag(struct reader *reader, const char *what)
 {
+    const int64_t largest = 1000000000000000000;
     int64_t number = 0;
     if (!reader->raw || reader->old) {
-        return take_whole(reader, value, what);
+        return take_whole(reader, what);
     }
-    const bool good = take_raw(reader, &number, sizeof number);
-    *value = (long)number;
-    const int64_t largest = 1000000000000000000;
-    return good && ((number < largest && number > -largest) || fail(reader, GM_TRIANGULATION_SYNTAX, what));
+    take_raw(reader, &number, sizeof number);
+    expect(reader, number < largest && number > -largest, what);
+    return (long)number;
 }
 
-/* A count of things that each need at least two bytes of the text that is left. */
-static bool take_count(struct reader *reader, long *value, const char *what)
+/* A count of things that each need at least two bytes of the text that is left.
+ */
+static long take_count(struct reader *reader, const char *what)
 {
-    if (!take_tag(reader, value, what)) {
-        return false;
+    const long value = take_tag(reader, what);
+    expect(reader, value >= 0, what);
+    if (value > MOST) {
+        fail(reader, GM_TRIANGULATION_HUGE, what);
     }
-    if (*value < 0) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    if (value > (reader->end - reader->at) / 2 + 1) {
+        fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
     }
-    if (*value > MOST) {
-        return fail(reader, GM_TRIANGULATION_HUGE, what);
-    }
-    if (*value > (reader->end - reader->at) / 2 + 1) {
-        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
-    }
-    return true;
+    return value;
 }
 
 /* "$EndNodes" after the section "$Nodes" */
-static bool expect_end(struct reader *reader)
+static void expect_end(struct reader *reader)
 {
     char wanted[44], word[44];
     reader->raw = false;
     snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
-    if (at_end(reader)) {
-        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
-    }
-    return (take_word(reader, word, sizeof word) && strcmp(word, wanted) == 0) ||
-           fail(reader, GM_TRIANGULATION_SYNTAX, wanted);
+    take_expected(reader, word, sizeof word, wanted);
+    expect(reader, strcmp(word, wanted) == 0, wanted);
 }
 
 /* The sections, as tables. */
@@ -209,59 +218,40 @@ static void begin_raw(struct reader *reader)
     reader->raw = reader->binary;
 }
 
-static bool read_format(struct reader *reader)
+static void read_format(struct reader *reader)
 {
     char version[16];
-    long binary = 0, size = 0, one = 1;
-    if (!take_word(reader, version, sizeof version)) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "a version");
-    }
+    expect(reader, take_word(reader, version, sizeof version), "a version");
     reader->old = strcmp(version, "2.2") == 0;
     if (!reader->old && strcmp(version, "4.1") != 0) {
-        return fail(reader, GM_TRIANGULATION_VERSION, version);
+        fail(reader, GM_TRIANGULATION_VERSION, version);
     }
-    if (!take_whole(reader, &binary, "0 for ASCII, 1 for binary") || !take_whole(reader, &size, "a size")) {
-        return false;
-    }
-    if (binary < 0 || binary > 1 || size != 8) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX,
-                    "0 for ASCII or 1 for binary, and 8 for the size of numbers");
-    }
+    const long binary = take_whole(reader, "0 for ASCII, 1 for binary"), size = take_whole(reader, "a size");
+    expect(reader, binary >= 0 && binary <= 1 && size == 8,
+           "0 for ASCII or 1 for binary, and 8 for the size of numbers");
     reader->binary = binary == 1;
     begin_raw(reader);
-    if (reader->raw && !take_whole(reader, &one, "1")) {
-        return false;
+    if (reader->raw && take_whole(reader, "1") != 1) {
+        fail(reader, GM_TRIANGULATION_BYTES, "");
     }
-    return one == 1 || fail(reader, GM_TRIANGULATION_BYTES, "");
 }
 
-static bool read_names(struct reader *reader)
+static void read_names(struct reader *reader)
 {
-    long count = 0;
-    if (reader->groups || !take_count(reader, &count, "the number of names")) {
-        return reader->groups ? fail(reader, GM_TRIANGULATION_SYNTAX, "one section $PhysicalNames") : false;
-    }
-    reader->groups = calloc((size_t)count + 1, sizeof *reader->groups);
-    if (!reader->groups) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
+    expect(reader, !reader->groups, "one section $PhysicalNames");
+    const long count = take_count(reader, "the number of names");
+    reader->groups = gm_arena_take(reader->arena, (size_t)count + 1, sizeof *reader->groups);
     for (long i = 0; i < count; i++) {
-        long dimension = 0, tag = 0;
-        if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &tag, "a tag")) {
-            return false;
-        }
+        const long dimension = take_whole(reader, "a dimension"), tag = take_whole(reader, "a tag");
         skip_blanks(reader);
-        if (reader->at >= reader->end || *reader->at != '"') {
-            return fail(reader, GM_TRIANGULATION_SYNTAX, "a name in quotation marks");
-        }
+        expect(reader, reader->at < reader->end && *reader->at == '"', "a name in quotation marks");
         const char *name = ++reader->at;
         while (reader->at < reader->end && *reader->at != '"' && *reader->at != '\n') {
             reader->at++;
         }
         const size_t length = (size_t)(reader->at - name);
-        if (reader->at >= reader->end || *reader->at != '"' || length >= sizeof reader->groups->name) {
-            return fail(reader, GM_TRIANGULATION_SYNTAX, "a name of at most 63 bytes in quotation marks");
-        }
+        expect(reader, reader->at < reader->end && *reader->at == '"' && length < sizeof reader->groups->name,
+               "a name of at most 63 bytes in quotation marks");
         reader->at++;
         if (dimension == 1) {
             struct gm_triangulation_group *group = &reader->groups[reader->group_count++];
@@ -269,118 +259,91 @@ static bool read_names(struct reader *reader)
             memcpy(group->name, name, length);
         }
     }
-    return true;
 }
 
-static bool skip_numbers(struct reader *reader, long count)
+static void skip_numbers(struct reader *reader, long count)
 {
-    double value = 0;
     for (long i = 0; i < count; i++) {
-        if (!take_number(reader, &value, "a number")) {
-            return false;
-        }
+        take_number(reader, "a number");
     }
-    return true;
 }
 
-static bool add_curve(struct reader *reader, long tag, long physical)
+static void add_curve(struct reader *reader, long tag, long physical)
 {
-    struct curve *more = realloc(reader->curves, (reader->curve_count + 1) * sizeof *more);
-    if (!more) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-    reader->curves = more;
-    more[reader->curve_count++] = (struct curve){tag, labs(physical)}; /* the sign is an orientation */
-    return true;
+    reader->curves =
+        gm_arena_resize(reader->arena, reader->curves, reader->curve_count + 1, sizeof *reader->curves);
+    reader->curves[reader->curve_count++] =
+        (struct curve){tag, labs(physical)}; /* the sign is an orientation */
 }
 
-/* What a part of an entity is of, in which parts of the mesh; a part of a curve is in its groups, too. */
-static bool read_parent(struct reader *reader, long tag, int dimension)
+/* What a part of an entity is of, in which parts of the mesh; a part of a curve
+ * is in its groups, too. */
+static void read_parent(struct reader *reader, long tag, int dimension)
 {
-    long whole = 0, parent = 0, count = 0, part = 0;
-    bool good = take_whole(reader, &whole, "a dimension") && take_whole(reader, &parent, "an entity's tag") &&
-                take_count(reader, &count, "a number of parts");
-    for (long i = 0; good && i < count; i++) {
-        good = take_whole(reader, &part, "a part");
+    const long whole = take_whole(reader, "a dimension"), parent = take_whole(reader, "an entity's tag");
+    for (long i = take_count(reader, "a number of parts"); i > 0; i--) {
+        take_whole(reader, "a part");
     }
     const size_t known = reader->curve_count;
-    for (size_t i = 0; good && dimension == 1 && whole == 1 && i < known; i++) {
-        good = reader->curves[i].tag != parent || tag == parent ||
-               add_curve(reader, tag, reader->curves[i].physical);
-    }
-    return good;
-}
-
-/* tag, of a part its whole, bounding box, physical tags and, from curves on, bounding entities */
-static bool read_entity(struct reader *reader, int dimension, bool partitioned)
-{
-    long tag = 0, count = 0, physical = 0, bound = 0;
-    if (!take_whole(reader, &tag, "an entity's tag") ||
-        (partitioned && !read_parent(reader, tag, dimension)) ||
-        !skip_numbers(reader, dimension == 0 ? 3 : 6) ||
-        !take_count(reader, &count, "the number of physical tags")) {
-        return false;
-    }
-    for (long i = 0; i < count; i++) {
-        if (!take_whole(reader, &physical, "a physical tag") ||
-            (dimension == 1 && labs(physical) < MOST && !add_curve(reader, tag, physical))) {
-            return false;
+    for (size_t i = 0; dimension == 1 && whole == 1 && i < known; i++) {
+        if (reader->curves[i].tag == parent && tag != parent) {
+            add_curve(reader, tag, reader->curves[i].physical);
         }
     }
-    long bounds = 0;
-    if (dimension == 0) {
-        return true;
-    }
-    bool good = take_count(reader, &bounds, "a number of entities");
-    for (long i = 0; good && i < bounds; i++) {
-        good = take_whole(reader, &bound, "an entity's tag");
-    }
-    return good;
 }
 
-static bool read_all_entities(struct reader *reader, bool partitioned)
+/* tag, of a part its whole, bounding box, physical tags and, from curves on,
+ * bounding entities */
+static void read_entity(struct reader *reader, int dimension, bool partitioned)
+{
+    const long tag = take_whole(reader, "an entity's tag");
+    if (partitioned) {
+        read_parent(reader, tag, dimension);
+    }
+    skip_numbers(reader, dimension == 0 ? 3 : 6);
+    for (long i = take_count(reader, "the number of physical tags"); i > 0; i--) {
+        const long physical = take_whole(reader, "a physical tag");
+        if (dimension == 1 && labs(physical) < MOST) {
+            add_curve(reader, tag, physical);
+        }
+    }
+    for (long i = dimension == 0 ? 0 : take_count(reader, "a number of entities"); i > 0; i--) {
+        take_whole(reader, "an entity's tag");
+    }
+}
+
+static void read_all_entities(struct reader *reader, bool partitioned)
 {
     long counts[4];
     for (int i = 0; i < 4; i++) {
-        if (!take_count(reader, &counts[i], "a number of entities")) {
-            return false;
-        }
+        counts[i] = take_count(reader, "a number of entities");
     }
     for (int dimension = 0; dimension < 4; dimension++) {
         for (long i = 0; i < counts[dimension]; i++) {
-            if (!read_entity(reader, dimension, partitioned)) {
-                return false;
-            }
+            read_entity(reader, dimension, partitioned);
         }
     }
-    return true;
 }
 
-static bool read_entities(struct reader *reader)
+static void read_entities(struct reader *reader)
 {
-    if (reader->entities) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
-    }
+    expect(reader, !reader->entities, "one section $Entities");
     reader->entities = true;
     begin_raw(reader);
-    return read_all_entities(reader, false);
+    read_all_entities(reader, false);
 }
 
-/* The same of a mesh in parts, which is one here; ghosts are elements of neighbours. */
-static bool read_partitioned_entities(struct reader *reader)
+/* The same of a mesh in parts, which is one here; ghosts are elements of
+ * neighbours. */
+static void read_partitioned_entities(struct reader *reader)
 {
-    long parts = 0, ghosts = 0, tag = 0;
     begin_raw(reader);
-    if (!take_count(reader, &parts, "a number of parts") ||
-        !take_count(reader, &ghosts, "a number of ghosts")) {
-        return false;
+    take_count(reader, "a number of parts");
+    for (long i = take_count(reader, "a number of ghosts"); i > 0; i--) {
+        take_whole(reader, "a ghost's tag");
+        take_whole(reader, "a part");
     }
-    for (long i = 0; i < ghosts; i++) {
-        if (!take_whole(reader, &tag, "a ghost's tag") || !take_whole(reader, &tag, "a part")) {
-            return false;
-        }
-    }
-    return read_all_entities(reader, true);
+    read_all_entities(reader, true);
 }
 
 static int compare_nodes(const void *a, const void *b)
@@ -389,118 +352,93 @@ static int compare_nodes(const void *a, const void *b)
     return (p->tag > q->tag) - (p->tag < q->tag);
 }
 
-static bool read_node_block(struct reader *reader, size_t total)
+static void read_place(struct reader *reader, struct node *node)
 {
-    long dimension = 0, entity = 0, parametric = 0, count = 0;
-    if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &entity, "an entity") ||
-        !take_whole(reader, &parametric, "0 or 1") || !take_count(reader, &count, "a number of nodes")) {
-        return false;
-    }
-    if (parametric < 0 || parametric > 1 || dimension < 0 || dimension > 3) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "a dimension, an entity, 0 or 1, and a number of nodes");
-    }
-    if ((size_t)count > total - reader->node_count) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
-    }
+    node->x = take_number(reader, "a coordinate");
+    node->y = take_number(reader, "a coordinate");
+    node->z = take_number(reader, "a coordinate");
+}
+
+static void read_node_block(struct reader *reader, size_t total)
+{
+    const long dimension = take_whole(reader, "a dimension");
+    take_whole(reader, "an entity");
+    const long parametric = take_whole(reader, "0 or 1"), count = take_count(reader, "a number of nodes");
+    expect(reader, parametric >= 0 && parametric <= 1 && dimension >= 0 && dimension <= 3,
+           "a dimension, an entity, 0 or 1, and a number of nodes");
+    expect(reader, (size_t)count <= total - reader->node_count, "as many nodes as announced");
     struct node *nodes = reader->nodes + reader->node_count;
     for (long i = 0; i < count; i++) {
-        if (!take_tag(reader, &nodes[i].tag, "a node's tag")) {
-            return false;
-        }
+        nodes[i].tag = take_tag(reader, "a node's tag");
         nodes[i].line = reader->line;
     }
     for (long i = 0; i < count; i++) {
-        if (!take_number(reader, &nodes[i].x, "a coordinate") ||
-            !take_number(reader, &nodes[i].y, "a coordinate") ||
-            !take_number(reader, &nodes[i].z, "a coordinate") ||
-            !skip_numbers(reader, parametric ? dimension : 0)) {
-            return false;
-        }
+        read_place(reader, &nodes[i]);
+        skip_numbers(reader, parametric ? dimension : 0);
     }
     reader->node_count += (size_t)count;
-    return true;
 }
 
-/* Behind a node of version 2.2 that has parameters: the dimension and the tag of what it lies on, and they. */
-static bool skip_parameters(struct reader *reader)
-{
-    long dimension = 0, tag = 0;
-    if (!reader->parametric) {
-        return true;
-    }
-    return take_whole(reader, &dimension, "a dimension") && take_whole(reader, &tag, "a tag") &&
-           skip_numbers(reader, dimension == 1 || dimension == 2 ? dimension : 0);
-}
-
-/* The nodes of version 2.2: each with its tag. */
-static bool read_old_nodes(struct reader *reader, size_t total)
+/* The nodes of version 2.2: each with its tag, and behind one that has
+   parameters the dimension and the tag of what it lies on, and they. */
+static void read_old_nodes(struct reader *reader, size_t total)
 {
     begin_raw(reader);
     for (; reader->node_count < total; reader->node_count++) {
         struct node *node = &reader->nodes[reader->node_count];
-        if (!take_whole(reader, &node->tag, "a node's tag")) {
-            return false;
-        }
+        node->tag = take_whole(reader, "a node's tag");
         node->line = reader->line;
-        if (!take_number(reader, &node->x, "a coordinate") ||
-            !take_number(reader, &node->y, "a coordinate") ||
-            !take_number(reader, &node->z, "a coordinate") || !skip_parameters(reader)) {
-            return false;
+        read_place(reader, node);
+        if (reader->parametric) {
+            const long dimension = take_whole(reader, "a dimension");
+            take_whole(reader, "a tag");
+            skip_numbers(reader, dimension == 1 || dimension == 2 ? dimension : 0);
         }
     }
-    return true;
 }
 
-/* What sections begin with: the numbers of blocks, but in 2.2, and of things, and the range of their tags. */
-static bool begin_blocks(struct reader *reader, long *blocks, long *total, const char *what)
+/* What sections begin with: the numbers of blocks, but in 2.2, and of things,
+ * and the range of their tags. */
+static size_t begin_blocks(struct reader *reader, long *blocks, const char *what)
 {
-    long low = 0, high = 0;
+    *blocks = 0;
     if (reader->old) {
-        return take_count(reader, total, what);
+        return (size_t)take_count(reader, what);
     }
     begin_raw(reader);
-    return take_count(reader, blocks, "a number of blocks") && take_count(reader, total, what) &&
-           take_tag(reader, &low, "a tag") && take_tag(reader, &high, "a tag");
+    *blocks = take_count(reader, "a number of blocks");
+    const long total = take_count(reader, what);
+    take_tag(reader, "a tag");
+    take_tag(reader, "a tag");
+    return (size_t)total;
 }
 
-static bool read_nodes(struct reader *reader)
+static void read_nodes(struct reader *reader)
 {
-    long blocks = 0, total = 0;
-    if (!begin_blocks(reader, &blocks, &total, "a number of nodes")) {
-        return false;
-    }
-    if (reader->nodes) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Nodes");
-    }
-    reader->nodes = calloc((size_t)total + 1, sizeof *reader->nodes);
-    if (!reader->nodes) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-    if (reader->old && !read_old_nodes(reader, (size_t)total)) {
-        return false;
+    long blocks;
+    const size_t total = begin_blocks(reader, &blocks, "a number of nodes");
+    expect(reader, !reader->nodes, "one section $Nodes");
+    reader->nodes = gm_arena_take(reader->arena, total + 1, sizeof *reader->nodes);
+    if (reader->old) {
+        read_old_nodes(reader, total);
     }
     for (long i = 0; i < blocks; i++) {
-        if (!read_node_block(reader, (size_t)total)) {
-            return false;
-        }
+        read_node_block(reader, total);
     }
-    if (reader->node_count != (size_t)total) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
-    }
+    expect(reader, reader->node_count == total, "as many nodes as announced");
     qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
     for (size_t i = 1; i < reader->node_count; i++) {
         if (reader->nodes[i].tag == reader->nodes[i - 1].tag) {
             const long a = reader->nodes[i].line, b = reader->nodes[i - 1].line;
-            return fail_at_node(reader, GM_TRIANGULATION_REPEATED_NODE, a > b ? a : b, reader->nodes[i].tag);
+            fail_at_node(reader, GM_TRIANGULATION_REPEATED_NODE, a > b ? a : b, reader->nodes[i].tag);
         }
     }
-    return true;
 }
 
-static bool read_parametric_nodes(struct reader *reader)
+static void read_parametric_nodes(struct reader *reader)
 {
     reader->parametric = true;
-    return read_nodes(reader);
+    read_nodes(reader);
 }
 
 static int nodes_of(long type)
@@ -517,122 +455,93 @@ static int nodes_of(long type)
     return 0;
 }
 
-/* The nodes of an element, whose tag and further tags are read: the corners come first, and those on sides that may be
-   curved are passed over. */
-static bool read_corners(struct reader *reader, long type, struct element element)
+/* The nodes of an element, whose tag and further tags are read: the corners
+   come first, and those on sides that may be curved are passed over. */
+static void read_corners(struct reader *reader, long type, struct element element)
 {
     for (int k = 0; k < nodes_of(type); k++) {
-        long tag = 0;
-        if (!take_tag(reader, k < 3 ? &element.nodes[k] : &tag, "a node's tag")) {
-            return false;
-        }
-        if (!reader->raw && reader->line != element.line) {
-            return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
-        }
+        const long tag = take_tag(reader, "a node's tag");
+        expect(reader, reader->raw || reader->line == element.line, "the nodes of an element on its line");
+        element.nodes[k < 3 ? k : 2] = k < 3 ? tag : element.nodes[2];
     }
     if (type == TRIANGLE || type == TRIANGLE_OF_6) {
         reader->triangles[reader->triangle_count++] = element;
     } else if (type == LINE || type == LINE_OF_3) {
         reader->lines[reader->line_count++] = element;
     }
-    return true;
 }
 
-static bool read_element_block(struct reader *reader, size_t total, size_t *done)
+static void expect_type(struct reader *reader, long type, long line)
 {
-    long dimension = 0, entity = 0, type = 0, count = 0, tag = 0;
-    if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &entity, "an entity") ||
-        !take_whole(reader, &type, "a type of elements") ||
-        !take_count(reader, &count, "a number of elements")) {
-        return false;
-    }
     if (nodes_of(type) == 0) {
-        return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
+        fail_at_node(reader, GM_TRIANGULATION_ELEMENT, line, type);
     }
-    if ((size_t)count > total - *done) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
-    }
-    *done += (size_t)count;
-    for (long i = 0; i < count; i++) {
-        if (!take_tag(reader, &tag, "an element's tag") ||
-            !read_corners(reader, type, (struct element){.line = reader->line, .entity = entity})) {
-            return false;
-        }
-    }
-    return true;
 }
 
-/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
-   binary files type and numbers, of elements and of tags, stand before the elements that they hold for. */
-static bool read_old_elements(struct reader *reader, size_t total, size_t *done)
+/* Each returns how many elements it read, of so many that are left. */
+static size_t read_element_block(struct reader *reader, size_t left)
 {
-    long type = 0, count = 1, tags = 0, tag = 0;
-    if (reader->raw && (!take_whole(reader, &type, "a type of elements") ||
-                        !take_whole(reader, &count, "a number of elements") ||
-                        !take_whole(reader, &tags, "a number of tags"))) {
-        return false;
-    }
-    if (count < 1 || (size_t)count > total - *done) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
-    }
-    *done += (size_t)count;
+    take_whole(reader, "a dimension");
+    const long entity = take_whole(reader, "an entity"), type = take_whole(reader, "a type of elements"),
+               count = take_count(reader, "a number of elements");
+    expect_type(reader, type, reader->line);
+    expect(reader, (size_t)count <= left, "as many elements as announced");
     for (long i = 0; i < count; i++) {
-        if (!take_whole(reader, &tag, "an element's tag")) {
-            return false;
-        }
+        take_tag(reader, "an element's tag");
+        read_corners(reader, type, (struct element){.line = reader->line, .entity = entity});
+    }
+    return (size_t)count;
+}
+
+/* Elements of version 2.2: tag, type, number of tags, those (the first is the
+   physical one) and nodes. In binary files type and numbers, of elements and of
+   tags, stand before the elements that they hold for. */
+static size_t read_old_elements(struct reader *reader, size_t left)
+{
+    long type = 0, count = 1, tags = 0;
+    if (reader->raw) {
+        type = take_whole(reader, "a type of elements");
+        count = take_whole(reader, "a number of elements");
+        tags = take_whole(reader, "a number of tags");
+    }
+    expect(reader, count >= 1 && (size_t)count <= left, "as many elements as announced");
+    for (long i = 0; i < count; i++) {
+        take_whole(reader, "an element's tag");
         struct element element = {.line = reader->line};
-        if (!reader->raw && (!take_whole(reader, &type, "a type of elements") ||
-                             !take_count(reader, &tags, "a number of tags"))) {
-            return false;
+        if (!reader->raw) {
+            type = take_whole(reader, "a type of elements");
+            tags = take_count(reader, "a number of tags");
         }
-        if (nodes_of(type) == 0) {
-            return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, element.line, type);
-        }
+        expect_type(reader, type, element.line);
         for (long k = 0; k < tags; k++) {
-            if (!take_whole(reader, &tag, "a tag")) {
-                return false;
-            }
+            const long tag = take_whole(reader, "a tag");
             element.entity = k == 0 && labs(tag) < MOST ? labs(tag) : element.entity;
         }
-        if (!read_corners(reader, type, element)) {
-            return false;
-        }
+        read_corners(reader, type, element);
     }
-    return true;
+    return (size_t)count;
 }
 
-static bool read_elements(struct reader *reader)
+static void read_elements(struct reader *reader)
 {
-    long blocks = 0, total = 0;
-    if (!begin_blocks(reader, &blocks, &total, "a number of elements")) {
-        return false;
-    }
-    if (reader->triangles) {
-        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Elements");
-    }
-    reader->triangles = calloc((size_t)total + 1, sizeof *reader->triangles);
-    reader->lines = calloc((size_t)total + 1, sizeof *reader->lines);
-    if (!reader->triangles || !reader->lines) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-    size_t done = 0;
+    long blocks;
+    size_t left = begin_blocks(reader, &blocks, "a number of elements");
+    expect(reader, !reader->triangles, "one section $Elements");
+    reader->triangles = gm_arena_take(reader->arena, left + 1, sizeof *reader->triangles);
+    reader->lines = gm_arena_take(reader->arena, left + 1, sizeof *reader->lines);
     if (reader->old) {
         begin_raw(reader);
     }
-    while (reader->old && done < (size_t)total) {
-        if (!read_old_elements(reader, (size_t)total, &done)) {
-            return false;
-        }
+    while (reader->old && left > 0) {
+        left -= read_old_elements(reader, left);
     }
     for (long i = 0; i < blocks; i++) {
-        if (!read_element_block(reader, (size_t)total, &done)) {
-            return false;
-        }
+        left -= read_element_block(reader, left);
     }
-    return done == (size_t)total || fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
+    expect(reader, left == 0, "as many elements as announced");
 }
 
-static bool skip_section(struct reader *reader)
+static void skip_section(struct reader *reader)
 {
     char wanted[44];
     const int length = snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
@@ -640,19 +549,19 @@ static bool skip_section(struct reader *reader)
         if ((size_t)(reader->end - reader->at) >= (size_t)length &&
             memcmp(reader->at, wanted, (size_t)length) == 0) {
             reader->at += length;
-            return true;
+            return;
         }
         reader->line += *reader->at++ == '\n';
     }
-    return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
 }
 
 /* Reads the whole text into the tables; nodes in the order of their tags. */
-static bool read_sections(struct reader *reader)
+static void read_sections(struct reader *reader)
 {
     static const struct {
         const char *name;
-        bool (*read)(struct reader *);
+        void (*read)(struct reader *);
     } known[] = {
         {"$PhysicalNames", read_names},
         {"$Entities", read_entities},
@@ -663,30 +572,26 @@ static bool read_sections(struct reader *reader)
     };
     char section[40];
     if (!take_word(reader, section, sizeof section) || strcmp(section, "$MeshFormat") != 0) {
-        return fail(reader, GM_TRIANGULATION_NOT_GMSH, "");
+        fail(reader, GM_TRIANGULATION_NOT_GMSH, "");
     }
     reader->section = section;
-    if (!read_format(reader) || !expect_end(reader)) {
-        return false;
-    }
+    read_format(reader);
+    expect_end(reader);
     while (!at_end(reader)) {
-        if (!take_word(reader, section, sizeof section) || section[0] != '$') {
-            return fail(reader, GM_TRIANGULATION_SYNTAX, "a section, such as $Nodes");
-        }
+        expect(reader, take_word(reader, section, sizeof section) && section[0] == '$',
+               "a section, such as $Nodes");
         bool met = false;
         for (size_t i = 0; i < GM_COUNT(known); i++) {
             if (strcmp(section, known[i].name) == 0) {
                 met = true;
-                if (!known[i].read(reader) || !expect_end(reader)) {
-                    return false;
-                }
+                known[i].read(reader);
+                expect_end(reader);
             }
         }
-        if (!met && !skip_section(reader)) {
-            return false;
+        if (!met) {
+            skip_section(reader);
         }
     }
-    return true;
 }
 
 /* By tag; NULL if there is none. */
@@ -724,14 +629,12 @@ static void exchange_if_above(long *a, long *b)
     *a = low;
 }
 
-/* Version 2.2 writes a triangle once for each of its physical surfaces, and a surface that was meshed twice is there
-   twice in any: the first stays. */
-static bool drop_repeated(struct reader *reader)
+/* Version 2.2 writes a triangle once for each of its physical surfaces, and a
+   surface that was meshed twice is there twice in any: the first stays. */
+static void drop_repeated(struct reader *reader)
 {
-    struct corners *all = malloc((reader->triangle_count + 1) * sizeof *all);
-    if (!all) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
+    struct gm_arena_entry *const tables = gm_arena_top(reader->arena);
+    struct corners *all = gm_arena_take(reader->arena, reader->triangle_count + 1, sizeof *all);
     for (size_t t = 0; t < reader->triangle_count; t++) {
         long *nodes = all[t].nodes;
         memcpy(nodes, reader->triangles[t].nodes, sizeof all[t].nodes);
@@ -746,7 +649,7 @@ static bool drop_repeated(struct reader *reader)
             reader->triangles[all[t].place].line = -1;
         }
     }
-    free(all);
+    gm_arena_release(reader->arena, tables);
     size_t count = 0;
     for (size_t t = 0; t < reader->triangle_count; t++) {
         reader->triangles[count] = reader->triangles[t];
@@ -754,10 +657,10 @@ static bool drop_repeated(struct reader *reader)
     }
     reader->origin.repeated = reader->old ? 0 : reader->triangle_count - count;
     reader->triangle_count = count;
-    return true;
 }
 
-/* The sum of the triangles' normals, each as long as twice its triangle is large. */
+/* The sum of the triangles' normals, each as long as twice its triangle is
+ * large. */
 static void add_normals(const struct reader *reader, double normal[3])
 {
     for (size_t t = 0; t < reader->triangle_count; t++) {
@@ -774,8 +677,9 @@ static void add_normals(const struct reader *reader, double normal[3])
     }
 }
 
-/* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it; seen
-   so that triangles turn left. That of x and y where z is the same everywhere. */
+/* Axes of the plane of the triangles: the first is the coordinate axis with the
+   largest projection on it; seen so that triangles turn left. That of x and y
+   where z is the same everywhere. */
 static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
@@ -796,8 +700,9 @@ static void choose_axes(struct reader *reader)
     }
 }
 
-/* Takes the nodes of triangles into the plane where they lie: x and y are their places there. */
-static bool lay_flat(struct reader *reader)
+/* Takes the nodes of triangles into the plane where they lie: x and y are their
+ * places there. */
+static void lay_flat(struct reader *reader)
 {
     const struct node *origin = NULL;
     double(*axes)[3] = reader->origin.axes, low[3] = {0}, high[3] = {0}, extent = 0;
@@ -812,7 +717,7 @@ static bool lay_flat(struct reader *reader)
         origin = node->vertex >= 0 && !origin ? node : origin;
     }
     if (high[2] - low[2] <= 1e-9 * extent) {
-        return true;
+        return;
     }
     choose_axes(reader);
     const struct node from = *origin;
@@ -828,16 +733,16 @@ static bool lay_flat(struct reader *reader)
             off = fmax(off, fabs(at[k] - place[0] * axes[0][k] - place[1] * axes[1][k]));
         }
         if (node->vertex >= 0 && !(off <= 1e-9 * extent)) {
-            return fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
+            fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
         }
         node->x = place[0] + axes[0][0] * from.x + axes[0][1] * from.y + axes[0][2] * from.z;
         node->y = place[1] + axes[1][0] * from.x + axes[1][1] * from.y + axes[1][2] * from.z;
     }
-    return true;
 }
 
-/* Numbers the nodes of triangles in the order of their tags; writes points, tags and corners. */
-static bool number_nodes(struct reader *reader, double *points, long *tags, int *corners, size_t *vertices)
+/* Numbers the nodes of triangles in the order of their tags; writes points,
+ * tags and corners. */
+static void number_nodes(struct reader *reader, double *points, long *tags, int *corners, size_t *vertices)
 {
     for (size_t i = 0; i < reader->node_count; i++) {
         reader->nodes[i].vertex = -1;
@@ -847,14 +752,12 @@ static bool number_nodes(struct reader *reader, double *points, long *tags, int 
         for (int k = 0; k < 3; k++) {
             struct node *node = find_node(reader, element->nodes[k]);
             if (!node) {
-                return fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[k]);
+                fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[k]);
             }
             node->vertex = 0;
         }
     }
-    if (!lay_flat(reader)) {
-        return false;
-    }
+    lay_flat(reader);
     for (size_t i = 0; i < reader->node_count; i++) {
         struct node *node = &reader->nodes[i];
         if (node->vertex >= 0) {
@@ -869,7 +772,6 @@ static bool number_nodes(struct reader *reader, double *points, long *tags, int 
             corners[3 * t + k] = find_node(reader, reader->triangles[t].nodes[k])->vertex;
         }
     }
-    return true;
 }
 
 static int compare_curves(const void *a, const void *b)
@@ -879,9 +781,15 @@ static int compare_curves(const void *a, const void *b)
                             : (p->physical > q->physical) - (p->physical < q->physical);
 }
 
+static void put_into(struct reader *reader, size_t edge, long group)
+{
+    if (!gm_triangulation_add(reader->mesh, edge, (int)group)) {
+        fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+}
+
 /* Puts an edge into all groups of its curve. */
-static bool add_groups_of(const struct reader *reader, long entity, size_t edge,
-                          struct gm_triangulation *mesh)
+static void add_groups_of(struct reader *reader, long entity, size_t edge)
 {
     size_t low = 0, high = reader->curve_count;
     while (low < high) {
@@ -889,11 +797,9 @@ static bool add_groups_of(const struct reader *reader, long entity, size_t edge,
         low = reader->curves[middle].tag < entity ? middle + 1 : low;
         high = reader->curves[middle].tag < entity ? high : middle;
     }
-    bool good = true;
-    for (; good && low < reader->curve_count && reader->curves[low].tag == entity; low++) {
-        good = gm_triangulation_add(mesh, edge, (int)reader->curves[low].physical);
+    for (; low < reader->curve_count && reader->curves[low].tag == entity; low++) {
+        put_into(reader, edge, reader->curves[low].physical);
     }
-    return good;
 }
 
 static int find_edge(const struct gm_complex *complex, int a, int b)
@@ -906,42 +812,39 @@ static int find_edge(const struct gm_complex *complex, int a, int b)
     return -1;
 }
 
-static bool add_group(struct reader *reader, long tag)
+static void add_group(struct reader *reader, long tag)
 {
     for (size_t i = 0; i < reader->group_count; i++) {
         if (reader->groups[i].tag == tag) {
-            return true;
+            return;
         }
     }
-    struct gm_triangulation_group *more = realloc(reader->groups, (reader->group_count + 1) * sizeof *more);
-    if (!more) {
-        return fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-    reader->groups = more;
-    more[reader->group_count].tag = tag;
-    snprintf(more[reader->group_count++].name, sizeof more->name, "%ld", tag);
-    return true;
+    reader->groups =
+        gm_arena_resize(reader->arena, reader->groups, reader->group_count + 1, sizeof *reader->groups);
+    struct gm_triangulation_group *group = &reader->groups[reader->group_count++];
+    group->tag = tag;
+    snprintf(group->name, sizeof group->name, "%ld", tag);
 }
 
 /* Groups of edges that have no name are named by their number. */
-static bool number_groups(struct reader *reader, const struct gm_triangulation *mesh)
+static void number_groups(struct reader *reader)
 {
-    bool good = true;
+    const struct gm_triangulation *mesh = reader->mesh;
     int last = 0;
-    for (size_t e = 0; good && e < mesh->complex->edges; e++) {
-        good =
-            mesh->edge_group[e] == 0 || mesh->edge_group[e] == last || add_group(reader, mesh->edge_group[e]);
-        last = mesh->edge_group[e];
+    for (size_t e = 0; e < mesh->complex->edges; last = mesh->edge_group[e++]) {
+        if (mesh->edge_group[e] != 0 && mesh->edge_group[e] != last) {
+            add_group(reader, mesh->edge_group[e]);
+        }
     }
-    for (size_t i = 0; good && i < mesh->more_count; i++) {
-        good = mesh->more[i].tag == last || add_group(reader, mesh->more[i].tag);
-        last = mesh->more[i].tag;
+    for (size_t i = 0; i < mesh->more_count; last = mesh->more[i++].tag) {
+        if (mesh->more[i].tag != last) {
+            add_group(reader, mesh->more[i].tag);
+        }
     }
-    return good;
 }
 
 /* Lines that are no edge of a triangle name nothing. */
-static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
+static void name_edges(struct reader *reader)
 {
     if (reader->curve_count > 0) {
         qsort(reader->curves, reader->curve_count, sizeof *reader->curves, compare_curves);
@@ -951,81 +854,87 @@ static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
         const struct node *a = find_node(reader, element->nodes[0]),
                           *b = find_node(reader, element->nodes[1]);
         if (!a || !b) {
-            return fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line,
-                                element->nodes[a ? 1 : 0]);
+            fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[a ? 1 : 0]);
         }
-        const int e = a->vertex >= 0 && b->vertex >= 0 ? find_edge(mesh->complex, a->vertex, b->vertex) : -1;
-        const bool good = e < 0 || (reader->old ? gm_triangulation_add(mesh, (size_t)e, (int)element->entity)
-                                                : add_groups_of(reader, element->entity, (size_t)e, mesh));
-        if (!good) {
-            return fail(reader, GM_TRIANGULATION_MEMORY, "");
+        const int e =
+            a->vertex >= 0 && b->vertex >= 0 ? find_edge(reader->mesh->complex, a->vertex, b->vertex) : -1;
+        if (e >= 0 && reader->old) {
+            put_into(reader, (size_t)e, element->entity);
+        } else if (e >= 0) {
+            add_groups_of(reader, element->entity, (size_t)e);
         }
     }
-    gm_triangulation_sort(mesh);
-    return number_groups(reader, mesh);
+    gm_triangulation_sort(reader->mesh);
+    number_groups(reader);
 }
 
-static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangulation *mesh)
+/* malloc'ed, and the mesh's. */
+static void *take_for_mesh(struct reader *reader, size_t count, size_t size)
 {
-    if (reader->triangle_count == 0) {
-        return fail(reader, GM_TRIANGULATION_EMPTY, "");
-    }
-    if (!drop_repeated(reader)) {
-        return false;
-    }
-    double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);
-    int *corners = malloc(3 * reader->triangle_count * sizeof *corners);
-    mesh->tags = malloc((reader->node_count + 1) * sizeof *mesh->tags);
-    size_t vertices = 0;
-    bool good = points && corners && mesh->tags;
-    if (!good) {
+    void *memory = calloc(count, size);
+    if (!memory) {
         fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
-    good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
-    if (good) {
-        mesh->complex = gm_complex_open(&(struct gm_triangles){.points = points,
-                                                               .vertices = vertices,
-                                                               .corners = corners,
-                                                               .count = reader->triangle_count,
-                                                               .star = star,
-                                                               .tags = mesh->tags},
-                                        reader->fault);
-        good = mesh->complex != NULL;
-        if (good) {
-            mesh->complex->origin = reader->origin;
-        }
-        if (!good && reader->fault->triangle > 0 && !reader->binary) {
-            reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;
-        }
+    return memory;
+}
+
+static void assemble(struct reader *reader)
+{
+    struct gm_triangulation *mesh = reader->mesh;
+    if (reader->triangle_count == 0) {
+        fail(reader, GM_TRIANGULATION_EMPTY, "");
     }
-    free(points);
-    free(corners);
-    if (good) {
-        mesh->edge_group = calloc(mesh->complex->edges, sizeof *mesh->edge_group);
-        good = mesh->edge_group || fail(reader, GM_TRIANGULATION_MEMORY, "");
+    drop_repeated(reader);
+    double *points = gm_arena_take(reader->arena, 2 * (reader->node_count + 1), sizeof *points);
+    int *corners = gm_arena_take(reader->arena, 3 * reader->triangle_count, sizeof *corners);
+    size_t vertices = 0;
+    mesh->tags = take_for_mesh(reader, reader->node_count + 1, sizeof *mesh->tags);
+    number_nodes(reader, points, mesh->tags, corners, &vertices);
+    mesh->complex = gm_complex_open(&(struct gm_triangles){.points = points,
+                                                           .vertices = vertices,
+                                                           .corners = corners,
+                                                           .count = reader->triangle_count,
+                                                           .star = reader->star,
+                                                           .tags = mesh->tags},
+                                    reader->fault);
+    if (!mesh->complex) {
+        const long triangle = reader->fault->triangle;
+        reader->fault->line =
+            triangle > 0 && !reader->binary ? reader->triangles[triangle - 1].line : reader->fault->line;
+        gm_arena_leave(reader->arena);
     }
-    return good && name_edges(reader, mesh);
+    mesh->complex->origin = reader->origin;
+    mesh->edge_group = take_for_mesh(reader, mesh->complex->edges, sizeof *mesh->edge_group);
+    name_edges(reader);
+    mesh->group = take_for_mesh(reader, reader->group_count + 1, sizeof *mesh->group);
+    mesh->groups = reader->group_count;
+    if (mesh->groups > 0) {
+        memcpy(mesh->group, reader->groups, mesh->groups * sizeof *mesh->group);
+    }
+}
+
+static void read_mesh(struct gm_arena *arena, void *data)
+{
+    struct reader *reader = data;
+    reader->arena = arena;
+    read_sections(reader);
+    assemble(reader);
+    reader->fault->kind = GM_TRIANGULATION_OK;
 }
 
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault)
 {
-    struct reader reader = {.at = text, .end = text + size, .line = 1, .fault = fault, .section = ""};
+    struct gm_arena *arena = gm_arena_open();
+    struct reader reader = {
+        .at = text, .end = text + size, .line = 1, .fault = fault, .section = "", .star = star, .mesh = mesh};
     *mesh = (struct gm_triangulation){0};
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
-    const bool good = read_sections(&reader) && assemble(&reader, star, mesh);
-    if (good) {
-        mesh->group = reader.groups;
-        mesh->groups = reader.group_count;
-        reader.groups = NULL;
-    } else {
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY}; /* unless it is another one */
+    const bool good = gm_arena_run(arena, read_mesh, &reader);
+    if (!good) {
         gm_triangulation_close(mesh);
     }
-    free(reader.nodes);
-    free(reader.triangles);
-    free(reader.lines);
-    free(reader.curves);
-    free(reader.groups);
+    gm_arena_close(arena);
     return good;
 }
 
@@ -1102,7 +1011,7 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
     }
     char *rest = NULL;
     const long tag = strtol(name, &rest, 10);
-    for (size_t e = 0; rest != name && *rest == '\0' && mesh->complex && e < mesh->complex->edges; e++) {
+    for (size_t e = 0; rest != name && *rest == '\0' && mesh->edge_group && e < mesh->complex->edges; e++) {
         if (tag != 0 && gm_triangulation_has(mesh, e, tag)) {
             return tag;
         }

@@ -9,22 +9,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const keys[GM_ROOM_KEYS] = {"speed", "flow", "scalar", "temperature", "tangential", "heat",
-                                               "rate",  "x",    "y"};
+static const char *const keys[GM_ROOM_KEYS] = {
+    "speed", "flow", "scalar",    "temperature",     "tangential", "heat",    "rate",           "x",
+    "y",     "slip", "vorticity", "stream_function", "speed_x",    "speed_y", "total_pressure", "centre"};
 
 #define CARRIED (1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TEMPERATURE)
+#define ENTERING (1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | 1u << GM_ROOM_CENTRE)
+#define PLACE (1u << GM_ROOM_X | 1u << GM_ROOM_Y)
+#define MOTION (1u << GM_ROOM_STREAM_FUNCTION | 1u << GM_ROOM_SPEED_X | 1u << GM_ROOM_SPEED_Y)
 
-/* The lines that name something, with the keys they may have, and those that they must. */
+/* The lines that hold pairs key = formula: the keys they may have, those that they must, and those of which they need
+   one; and of what they are the only one of their name. */
 static const struct {
     const char *word;
-    unsigned may, must;
+    unsigned may, must, some;
+    enum { SIDE, THING, START, EXACT } names; /* the last two have none */
 } words[] = {
-    [GM_ROOM_INLET] = {"inlet", 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | CARRIED, 0},
-    [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0},
-    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT, 0},
-    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_RATE},
-    [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
-    [GM_ROOM_START] = {"start", CARRIED, 0},
+    [GM_ROOM_INLET] = {"inlet", ENTERING | CARRIED, 0, ENTERING, SIDE},
+    [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0, 0, SIDE},
+    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT | 1u << GM_ROOM_SLIP, 0,
+                      0, SIDE},
+    [GM_ROOM_BOUNDARY] = {"boundary", MOTION | CARRIED, 1u << GM_ROOM_STREAM_FUNCTION, 0, SIDE},
+    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | PLACE, 1u << GM_ROOM_RATE, 0, THING},
+    [GM_ROOM_PROBE] = {"probe", PLACE, PLACE, 0, THING},
+    [GM_ROOM_START] = {"start", CARRIED | 1u << GM_ROOM_VORTICITY, 0, CARRIED | 1u << GM_ROOM_VORTICITY,
+                       START},
+    [GM_ROOM_EXACT] = {"exact", MOTION | 1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TOTAL_PRESSURE, 0,
+                       1u << GM_ROOM_STREAM_FUNCTION, EXACT},
 };
 enum { WORDS = GM_COUNT(words) };
 
@@ -32,31 +43,65 @@ enum { WORDS = GM_COUNT(words) };
 enum { PART, X, Y, TIME, VARIABLES };
 static const char *const variables[VARIABLES] = {"s", "x", "y", "t"};
 
+static const char *const measures[GM_ROOM_MEASURES] = {"perimeter", "area", "inlet_length", "until"};
+
 /* A formula that is read, and the variables that it may hold. */
 struct reading {
-    struct gm_room *room;
+    const struct gm_room *room;
+    struct gm_formula *graph;
     unsigned may;
+    bool timed; /* it holds t */
 };
 
-/* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives may change in
-   time. */
+/* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives, and the exact
+   solution, may change in time. */
 static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
 {
-    const bool varies = key != GM_ROOM_FLOW && key != GM_ROOM_X && key != GM_ROOM_Y;
+    const bool varies = key != GM_ROOM_FLOW && key != GM_ROOM_CENTRE && key != GM_ROOM_X && key != GM_ROOM_Y;
     return (varies ? 1u << X | 1u << Y : 0) | (varies && word == GM_ROOM_INLET ? 1u << PART : 0) |
-           (word <= GM_ROOM_WALL ? 1u << TIME : 0);
+           (word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT ? 1u << TIME : 0);
+}
+
+const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name)
+{
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        if (strcmp(room->parameters[i].name, name) == 0) {
+            return &room->parameters[i];
+        }
+    }
+    return NULL;
 }
 
 static const char *known(size_t i, const void *data)
 {
-    return (void)data, i < VARIABLES ? variables[i] : NULL;
+    const struct gm_room *room = ((const struct reading *)data)->room;
+    return i < VARIABLES                           ? variables[i]
+           : i - VARIABLES < room->parameter_count ? room->parameters[i - VARIABLES].name
+                                                   : NULL;
 }
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
-    const struct reading *reading = data;
+    struct reading *reading = data;
+    char whole[GM_ROOM_NAME];
+    snprintf(whole, sizeof whole, "%.*s", (int)(name->length < sizeof whole ? name->length : 0), name->text);
+    const struct gm_room_parameter *parameter = gm_room_parameter(reading->room, whole);
+    if (parameter && !name->indexed && !name->initial) {
+        if (isnan(parameter->value)) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, and no number", parameter->name);
+            return GM_REFUSED;
+        }
+        *node = gm_formula_constant(reading->graph, parameter->value);
+        return GM_KNOWN;
+    }
+    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
+        if (strcmp(whole, measures[i]) == 0 && !isnan(reading->room->measures[i])) {
+            *node = gm_formula_constant(reading->graph, reading->room->measures[i]);
+            return GM_KNOWN;
+        }
+    }
     for (size_t i = 0; i < VARIABLES; i++) {
-        if (name->length != 1 || name->text[0] != variables[i][0] || name->initial) {
+        if (strcmp(whole, variables[i]) != 0 || name->initial) {
             continue;
         }
         if (name->indexed) {
@@ -73,44 +118,145 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                            "x and y");
             return GM_REFUSED;
         }
-        reading->room->timed = reading->room->timed || i == TIME;
-        *node = gm_formula_variable(&reading->room->graph, i);
+        reading->timed = reading->timed || i == TIME;
+        *node = gm_formula_variable(reading->graph, i);
         return GM_KNOWN;
     }
     return GM_UNKNOWN;
 }
 
-static bool read_formula(struct gm_room *room, struct gm_span span, unsigned may,
-                         struct gm_room_formula *value, struct gm_fault *fault)
+static bool read_node(struct reading *reading, struct gm_span span, gm_node_id *node, struct gm_fault *fault)
 {
-    struct reading reading = {room, may};
-    const struct gm_scope scope = {.find = find, .known = known, .data = &reading, .lines = true};
+    const struct gm_scope scope = {.find = find, .known = known, .data = reading, .lines = true};
+    return gm_formula_read(reading->graph, reading->room->text, span.begin, span.end, &scope, node, fault);
+}
+
+static bool read_formula(struct gm_room *room, struct gm_span span, enum gm_room_word word,
+                         enum gm_room_key key, struct gm_room_formula *value, struct gm_fault *fault)
+{
+    struct reading reading = {room, &room->graph, may_hold(word, key), false};
     gm_node_id node = 0;
-    if (!gm_formula_read(&room->graph, room->text, span.begin, span.end, &scope, &node, fault)) {
+    if (!read_node(&reading, span, &node, fault)) {
         return false;
     }
+    room->timed = room->timed || (reading.timed && word <= GM_ROOM_BOUNDARY);
     value->place = span.begin;
     value->part = gm_formula_parts(&room->graph, node, &value->parts);
     return value->part != NULL;
 }
 
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                     const double at[VARIABLES], double standard, double *scratch)
+                     const double at[VARIABLES], double standard)
 {
-    const struct gm_room_formula *value = &line->value[key];
-    if (value->place == 0) {
+    const struct gm_room_formula *value = line ? &line->value[key] : NULL;
+    if (!value || value->place == 0) {
         return standard;
     }
-    gm_formula_evaluate_parts(&room->graph, value->part, value->parts, at, scratch);
-    return scratch[value->part[value->parts - 1]];
+    gm_formula_evaluate_parts(&room->graph, value->part, value->parts, at, room->scratch);
+    return room->scratch[value->part[value->parts - 1]];
 }
 
-void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double *scratch,
-                   double point[2])
+/* The value of a formula at a place. */
+static bool read_value(const struct gm_room *room, struct gm_span span, unsigned may,
+                       const double at[VARIABLES], double *value, struct gm_fault *fault)
+{
+    struct gm_formula graph;
+    struct reading reading = {room, &graph, may, false};
+    gm_node_id node = 0;
+    gm_formula_open(&graph);
+    bool good = read_node(&reading, span, &node, fault);
+    double *values = good ? malloc((graph.count + 1) * sizeof *values) : NULL;
+    good = values != NULL;
+    if (good) {
+        gm_formula_evaluate(&graph, node + 1, at, values);
+        *value = values[node];
+    }
+    free(values);
+    gm_formula_close(&graph);
+    return good;
+}
+
+bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault)
 {
     const double origin[VARIABLES] = {0};
-    point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0, scratch);
-    point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0, scratch);
+    return read_value(room, span, 0, origin, number, fault) &&
+           (isfinite(*number) || gm_fail(fault, span.begin, "this is no finite number"));
+}
+
+bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
+                      struct gm_fault *fault)
+{
+    const size_t dots = gm_span_until(room->text, span, "..");
+    if (dots == span.end) {
+        return gm_fail(fault, span.begin, "a range was expected, low .. high");
+    }
+    return gm_room_number(room, (struct gm_span){span.begin, dots}, &range->least, fault) &&
+           gm_room_number(room, (struct gm_span){dots + 2, span.end}, &range->most, fault) &&
+           (range->least < range->most || gm_fail(fault, span.begin, "a range's lower end comes first"));
+}
+
+static bool is_word(const struct gm_room *room, struct gm_span span, const char *word)
+{
+    return span.end - span.begin == strlen(word) &&
+           memcmp(room->text + span.begin, word, span.end - span.begin) == 0;
+}
+
+static bool find_line(const struct gm_room *room, const char *word, size_t number, struct gm_text_line *line)
+{
+    struct gm_fault fault;
+    size_t at = 0;
+    while (gm_lines_next(room->text, room->length, &at, line, &fault)) {
+        if (is_word(room, line->word, word) && number-- == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value)
+{
+    struct gm_text_line line;
+    const bool said = find_line(room, word, number, &line);
+    *value = said ? line.value : (struct gm_span){0, 0};
+    return said;
+}
+
+/* Takes the first word of a span off its front. */
+static struct gm_span take_word(const struct gm_room *room, struct gm_span *rest)
+{
+    struct gm_span word = {rest->begin, rest->begin};
+    while (word.end < rest->end && !strchr(" \t\r\n", room->text[word.end])) {
+        word.end++;
+    }
+    *rest = gm_span_trimmed(room->text, (struct gm_span){word.end, rest->end});
+    return word;
+}
+
+bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
+                    struct gm_span *value)
+{
+    while (gm_span_take(room->text, &pieces, ";", value)) {
+        if (is_word(room, take_word(room, value), word)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2])
+{
+    const double origin[VARIABLES] = {0};
+    point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0);
+    point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0);
+}
+
+const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room_word word)
+{
+    size_t i = 0;
+    while (i < room->count && room->lines[i].word != word) {
+        i++;
+    }
+    return i < room->count ? &room->lines[i] : NULL;
 }
 
 /* Where the next "key =" begins in a span, or its end; in parentheses stands the index of a sum. */
@@ -132,10 +278,24 @@ static size_t next_key(const char *text, struct gm_span span)
     return span.end;
 }
 
+/* "speed =, flow =" of the keys in a set. */
+static const char *list_keys(unsigned set, const char *between, char *list, size_t size)
+{
+    list[0] = '\0';
+    for (size_t k = 0, used = 0; k < GM_ROOM_KEYS; k++) {
+        if (set >> k & 1) {
+            used += (size_t)snprintf(list + used, size - used, "%s%s =", used ? between : "", keys[k]);
+        }
+    }
+    return list;
+}
+
 static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct gm_span rest,
                        struct gm_fault *fault)
 {
+    const enum gm_room_word word = line->word;
     unsigned given = 0;
+    char list[160];
     while (rest.begin < rest.end) {
         const size_t length = gm_name_length(room->text + rest.begin, rest.end - rest.begin);
         int key = GM_ROOM_KEYS - 1;
@@ -143,17 +303,11 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
                (strncmp(room->text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
             key--;
         }
-        if (length == 0 || key < 0 || !(words[line->word].may >> key & 1)) {
-            char list[96] = "";
-            for (size_t k = 0, used = 0; k < GM_ROOM_KEYS; k++) {
-                if (words[line->word].may >> k & 1) {
-                    used += (size_t)snprintf(list + used, sizeof list - used, "%s%s =", used ? ", " : "",
-                                             keys[k]);
-                }
-            }
-            return gm_fail(fault, rest.begin, "%s: takes %s%s", words[line->word].word, list,
-                           given || line->word == GM_ROOM_START ? ""
-                                                                : "; a name with blanks is in double quotes");
+        if (length == 0 || key < 0 || !(words[word].may >> key & 1)) {
+            return gm_fail(fault, rest.begin, "%s: takes %s%s", words[word].word,
+                           list_keys(words[word].may, ", ", list, sizeof list),
+                           given || words[word].names >= START ? ""
+                                                               : "; a name with blanks is in double quotes");
         }
         size_t equals = rest.begin + length;
         equals += strspn(room->text + equals, " \t\r\n");
@@ -167,39 +321,26 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
         }
         const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
-        if (!read_formula(room, formula, may_hold(line->word, (enum gm_room_key)key), &line->value[key],
-                          fault)) {
+        if (!read_formula(room, formula, word, (enum gm_room_key)key, &line->value[key], fault)) {
             return false;
         }
         given |= 1u << key;
         rest.begin = end;
     }
-    for (int key = 0; key < GM_ROOM_KEYS; key++) {
-        if (words[line->word].must >> key & 1 && !(given >> key & 1)) {
-            return gm_fail(fault, line->place, "%s: needs %s =", words[line->word].word, keys[key]);
-        }
+    const unsigned missing = words[word].must & ~given;
+    if (missing) {
+        return gm_fail(fault, line->place, "%s: needs %s", words[word].word,
+                       list_keys(missing & -missing, "", list, sizeof list));
     }
     if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
         return gm_fail(fault, line->place, "wall: holds its temperature = or gives heat =, not both");
     }
-    const unsigned place = 1u << GM_ROOM_X | 1u << GM_ROOM_Y;
-    if (given & place && (given & place) != place) {
-        return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[line->word].word);
+    if (given & PLACE && (given & PLACE) != PLACE) {
+        return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[word].word);
     }
-    const struct {
-        enum gm_room_word word;
-        unsigned some;
-        const char *sentence;
-    } rows[] = {
-        {GM_ROOM_INLET, 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW, "inlet: needs speed = or flow ="},
-        {GM_ROOM_START, CARRIED, "start: needs scalar = or temperature ="},
-    };
-    for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        if (line->word == rows[i].word && !(given & rows[i].some)) {
-            return gm_fail(fault, line->place, "%s", rows[i].sentence);
-        }
-    }
-    return true;
+    return !words[word].some || given & words[word].some ||
+           gm_fail(fault, line->place, "%s: needs %s", words[word].word,
+                   list_keys(words[word].some, " or ", list, sizeof list));
 }
 
 static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_span value,
@@ -212,7 +353,7 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
     room->lines = more;
     struct gm_room_line *line = &more[room->count];
     *line = (struct gm_room_line){.word = word, .place = value.begin};
-    if (word != GM_ROOM_START) {
+    if (words[word].names < START) {
         const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
         struct gm_span name = {value.begin + quoted, value.begin + quoted};
         while (name.end < value.end &&
@@ -230,15 +371,180 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
         value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
     }
     for (size_t i = 0; i < room->count; i++) {
-        const bool same = (more[i].word <= GM_ROOM_WALL) == (word <= GM_ROOM_WALL) &&
-                          (more[i].word == GM_ROOM_START) == (word == GM_ROOM_START);
-        if (same && strcmp(more[i].name, line->name) == 0) {
-            return word == GM_ROOM_START ? gm_fail(fault, line->place, "start: is given twice")
-                                         : gm_fail(fault, line->place, "%.63s is named twice", line->name);
+        if (words[more[i].word].names == words[word].names && strcmp(more[i].name, line->name) == 0) {
+            return words[word].names >= START
+                       ? gm_fail(fault, line->place, "%s: is given twice", words[word].word)
+                       : gm_fail(fault, line->place, "%.63s is named twice", line->name);
         }
     }
     room->count++;
     return read_pairs(room, line, value, fault);
+}
+
+/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
+   False without a fault: the line names a file. */
+static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
+{
+    struct gm_rectangle *rectangle = &room->rectangle;
+    const size_t place = rest.begin;
+    struct gm_span value, piece;
+    const struct {
+        const char *word;
+        double *number;
+        char *key;
+        long *count;
+    } options[] = {
+        {"width", &rectangle->width, NULL, NULL},         {"height", &rectangle->height, NULL, NULL},
+        {"irregular", &rectangle->irregular, NULL, NULL}, {"multiple", &room->multiple, NULL, NULL},
+        {"edges", NULL, room->edges, &rectangle->edges},  {"strips", NULL, room->strips, &rectangle->strips}};
+    gm_span_take(room->text, &rest, ";", &value);
+    rectangle->torus = is_word(room, value, "flat-torus");
+    room->rectangular = rectangle->torus || is_word(room, value, "rectangle");
+    rectangle->fixed = room->fixed;
+    while (room->rectangular && gm_span_take(room->text, &rest, ";", &value)) {
+        const struct gm_span word = take_word(room, &value);
+        size_t i = 0;
+        while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
+            i++;
+        }
+        if (i == GM_COUNT(options)) {
+            rectangle->transposed =
+                rectangle->transposed || (is_word(room, word, "along") && is_word(room, value, "y"));
+            for (int c = 0; c < 2 && is_word(room, word, "keep"); c++) {
+                gm_span_take(room->text, &value, ",", &piece);
+                if (rectangle->fixed_count * 2 == GM_COUNT(room->fixed) ||
+                    !gm_room_number(room, piece, &room->fixed[2 * rectangle->fixed_count + (size_t)c],
+                                    fault)) {
+                    return false;
+                }
+                rectangle->fixed_count += c == 1;
+            }
+        } else if (options[i].number && !gm_room_number(room, value, options[i].number, fault)) {
+            return false;
+        } else if (options[i].key) {
+            snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
+                     room->text + value.begin);
+            const struct gm_room_parameter *parameter = gm_room_parameter(room, options[i].key);
+            *options[i].count = parameter && parameter->value < GM_LARGEST_ROOM ? (long)parameter->value : 0;
+        }
+    }
+    return room->rectangular &&
+           ((rectangle->width > 0 && rectangle->height > 0 && rectangle->edges > 0) ||
+            gm_fail(fault, place, "a rectangle has a width, a height, and edges that a parameter tells"));
+}
+
+/* NAME = VALUE; low .. high; meaning, or NAME = WORD of WORD, WORD; meaning */
+static bool read_parameter(struct gm_room *room, struct gm_span rest, bool choice,
+                           const struct gm_room_given *given, size_t count, struct gm_fault *fault)
+{
+    struct gm_room_parameter *more = realloc(room->parameters, (room->parameter_count + 1) * sizeof *more);
+    struct gm_span head, piece;
+    if (!more) {
+        return false;
+    }
+    room->parameters = more;
+    struct gm_room_parameter *parameter = &more[room->parameter_count++];
+    *parameter = (struct gm_room_parameter){.value = NAN, .low = NAN, .high = NAN};
+    gm_span_take(room->text, &rest, ";", &head);
+    const size_t equals = gm_span_until(room->text, head, "=");
+    const struct gm_span value = {equals < head.end ? equals + 1 : equals, head.end};
+    const size_t of = choice ? gm_span_until(room->text, value, " of ") : value.end;
+    struct gm_span after = rest;
+    if (!choice && gm_span_take(room->text, &after, ";", &piece) &&
+        gm_span_until(room->text, piece, "..") < piece.end) {
+        struct gm_room_range range;
+        if (!gm_room_range_of(room, piece, &range, fault)) {
+            return false;
+        }
+        parameter->low = range.least;
+        parameter->high = range.most;
+        rest = after;
+    }
+    const struct {
+        char **text;
+        struct gm_span span;
+    } parts[] = {{&parameter->name, {head.begin, equals}},
+                 {&parameter->text, {value.begin, of}},
+                 {&parameter->words, {of < value.end ? of + 4 : of, value.end}},
+                 {&parameter->meaning, rest}};
+    for (size_t i = 0; i < GM_COUNT(parts); i++) {
+        *parts[i].text = gm_span_words(room->text, parts[i].span);
+        if (!*parts[i].text) {
+            return false;
+        }
+    }
+    gm_number_parse(parameter->text, &parameter->value);
+    const size_t letters = strlen(parameter->name);
+    if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
+        gm_name_length(parameter->name, letters) != letters || (choice && !parameter->words[0])) {
+        return gm_fail(fault, head.begin, "%s",
+                       choice ? "choice: needs a name and words: domain = torus of torus, box"
+                              : "parameter: needs a name that is no other: height = 1");
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(given[i].name, parameter->name) == 0) {
+            char *text = given[i].text ? strdup(given[i].text) : parameter->text;
+            if (given[i].text) {
+                free(parameter->text);
+            }
+            parameter->text = text;
+            parameter->value = given[i].text ? NAN : given[i].value;
+        }
+    }
+    return parameter->text != NULL;
+}
+
+/* Lines that hold for other words of a choice become comments. */
+static bool choose_lines(struct gm_room *room, struct gm_fault *fault)
+{
+    struct gm_text_line line;
+    size_t at = 0;
+    for (bool holds = true; gm_lines_next(room->text, room->length, &at, &line, fault);) {
+        const bool when = is_word(room, line.word, "when");
+        if (when) {
+            struct gm_span rest = line.value, word;
+            char name[GM_ROOM_NAME];
+            gm_span_take(room->text, &rest, "=", &word);
+            snprintf(name, sizeof name, "%.*s", (int)(word.end - word.begin), room->text + word.begin);
+            const struct gm_room_parameter *choice = gm_room_parameter(room, name);
+            holds = strcmp(name, "always") == 0;
+            if (!holds && !(choice && choice->words[0])) {
+                return gm_fail(fault, line.value.begin, "when: needs a choice and its word: domain = box");
+            }
+            while (gm_span_take(room->text, &rest, ",", &word)) {
+                holds = holds || is_word(room, word, choice->text);
+            }
+        }
+        for (size_t i = line.word.begin; (when || !holds) && i < line.value.end; i++) {
+            room->text[i] = room->text[i] == '\n' || room->text[i] == '\r' ? room->text[i] : '#';
+        }
+    }
+    return !fault->sentence[0];
+}
+
+/* Lines that are read by the scene that is made of the room; those from `parameter` on may come again. */
+enum { ONCE = 11 };
+static const char *const others[] = {"watch",   "reference", "time",        "subtitle", "caption",
+                                     "colours", "levels",    "exact-while", "schemes",  "lanes",
+                                     "work",    "parameter", "choice",      "side",     "observe",
+                                     "graph",   "profile",   "table",       "figure",   "stability"};
+
+static bool read_other(const struct gm_room *room, struct gm_text_line line, bool *met,
+                       struct gm_fault *fault)
+{
+    struct gm_span first;
+    for (size_t i = 0; i < GM_COUNT(others); i++) {
+        if (!is_word(room, line.word, others[i])) {
+            continue;
+        }
+        *met = true;
+        if (i < ONCE && gm_room_said(room, others[i], 0, &first) && first.begin < line.value.begin) {
+            return gm_fail(fault, line.word.begin, "%s: is given twice", others[i]);
+        }
+    }
+    return line.value.begin < line.value.end || !*met ||
+           gm_fail(fault, line.word.begin, "%.*s: says nothing", (int)(line.word.end - line.word.begin),
+                   room->text + line.word.begin);
 }
 
 /* A line that says one thing: true where it is known. */
@@ -266,34 +572,40 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         {"dt", NULL, &room->dt, gm_room_dt},
         {"until", NULL, &room->until, gm_room_until},
     };
-    const size_t length = line.word.end - line.word.begin;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        if (strlen(rows[i].word) != length ||
-            memcmp(rows[i].word, room->text + line.word.begin, length) != 0) {
+        struct gm_span first, value = line.value, rest = line.value, piece;
+        if (!is_word(room, line.word, rows[i].word)) {
             continue;
         }
         *met = true;
-        if (rows[i].text ? *rows[i].text != NULL : !isnan(*rows[i].number)) {
+        if (gm_room_said(room, rows[i].word, 0, &first) && first.begin < line.value.begin) {
             return gm_fail(fault, line.word.begin, "%s: is given twice", rows[i].word);
         }
         if (line.value.begin == line.value.end) {
             return gm_fail(fault, line.word.begin, "%s: says nothing", rows[i].word);
         }
+        if (rows[i].text == &room->mesh && (read_rectangle(room, value, fault) || fault->sentence[0])) {
+            return !fault->sentence[0];
+        }
         if (rows[i].text) {
-            *rows[i].text = gm_span_words(room->text, line.value);
+            *rows[i].text = gm_span_words(room->text, value);
             return *rows[i].text != NULL;
         }
         char number[64];
-        snprintf(number, sizeof number, "%.*s", (int)(line.value.end - line.value.begin),
-                 room->text + line.value.begin);
+        gm_span_take(room->text, &rest, ";", &value);
+        snprintf(number, sizeof number, "%.*s", (int)(value.end - value.begin), room->text + value.begin);
         const double least = rows[i].range.least, most = rows[i].range.most;
         if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
             (least >= 0 && !(*rows[i].number > 0))) {
-            return gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
+            return gm_fail(fault, value.begin, "%s: is a %s number", rows[i].word,
                            least >= 0 ? "positive" : "finite");
         }
+        if (rows[i].number == &room->dt && gm_span_take(room->text, &rest, ";", &piece) &&
+            !gm_room_range_of(room, piece, &room->dt_range, fault)) {
+            return false;
+        }
         return (*rows[i].number >= least && *rows[i].number <= most) ||
-               gm_fail(fault, line.value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
+               gm_fail(fault, value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
     }
     return true;
 }
@@ -302,20 +614,18 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
 static size_t place_of(const struct gm_room *room, const char *word)
 {
     struct gm_text_line line;
-    struct gm_fault fault;
-    size_t at = 0;
-    while (gm_lines_next(room->text, strlen(room->text), &at, &line, &fault)) {
-        if (strlen(word) == line.word.end - line.word.begin &&
-            strncmp(room->text + line.word.begin, word, strlen(word)) == 0) {
-            return line.word.begin;
-        }
-    }
-    return 0;
+    return find_line(room, word, 0, &line) ? line.word.begin : 0;
 }
 
 /* What is said in one of two ways, and whether all is said. */
-static bool complete(struct gm_room *room, struct gm_fault *fault)
+static bool complete(struct gm_room *room, const struct gm_room_given *given, size_t count,
+                     struct gm_fault *fault)
 {
+    const struct {
+        const char *name;
+        double *number;
+    } numbers[] = {
+        {"viscosity", &room->viscosity}, {"reynolds", &room->reynolds}, {"schmidt", &room->schmidt}};
     if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
         return gm_fail(fault, place_of(room, "reynolds"),
                        "viscosity: and reynolds: say the same; a room has one of them");
@@ -324,16 +634,25 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
         return gm_fail(fault, place_of(room, "schmidt"),
                        "diffusivity: and schmidt: say the same; a room has one of them");
     }
+    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
+        const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
+        double value = parameter ? parameter->value : NAN;
+        for (size_t k = 0; k < count && !parameter; k++) {
+            value = strcmp(given[k].name, numbers[i].name) == 0 ? given[k].value : value;
+        }
+        room->reynolds = i == 0 && !isnan(value) ? NAN : room->reynolds;
+        *numbers[i].number = isnan(value) ? *numbers[i].number : value;
+    }
     room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
-    if (!room->mesh || isnan(room->viscosity)) {
+    if (!(room->mesh || room->rectangular) || isnan(room->viscosity)) {
         return gm_fail(fault, 0, "a room needs a line %s",
-                       room->mesh ? "viscosity: (or reynolds:)" : "mesh:");
+                       room->mesh || room->rectangular ? "viscosity: (or reynolds:)" : "mesh:");
     }
     room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
                         : isnan(room->diffusivity) ? room->viscosity
                                                    : room->diffusivity;
     const double ratio = room->viscosity / room->diffusivity;
-    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most)) {
+    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most) && room->viscosity > 0) {
         return gm_fail(fault, place_of(room, "diffusivity"),
                        "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
                        gm_room_schmidt.least, gm_room_schmidt.most);
@@ -361,7 +680,8 @@ static bool complete(struct gm_room *room, struct gm_fault *fault)
     return true;
 }
 
-bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct gm_fault *fault)
+bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
+                  size_t count, struct gm_fault *fault)
 {
     *room = (struct gm_room){.text = malloc(length + 1),
                              .length = length,
@@ -372,7 +692,10 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct 
                              .buoyancy = NAN,
                              .reference_temperature = NAN,
                              .dt = NAN,
-                             .until = NAN};
+                             .until = NAN,
+                             .dt_range = gm_room_dt,
+                             .outlet = GM_VERTEX_SOFT,
+                             .measures = {NAN, NAN, NAN, NAN}};
     *fault = (struct gm_fault){0};
     gm_formula_open(&room->graph);
     if (!room->text) {
@@ -384,41 +707,58 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct 
         return false;
     }
     struct gm_text_line line;
+    struct gm_span value;
     size_t at = 0;
+    while (gm_lines_next(room->text, length, &at, &line, fault)) {
+        const bool choice = is_word(room, line.word, "choice");
+        if ((choice || is_word(room, line.word, "parameter")) &&
+            !read_parameter(room, line.value, choice, given, count, fault)) {
+            return false;
+        }
+    }
+    if (fault->sentence[0] || !choose_lines(room, fault)) {
+        return false;
+    }
+    at = 0;
     while (gm_lines_next(room->text, length, &at, &line, fault)) {
         const char *word = room->text + line.word.begin;
         const size_t letters = line.word.end - line.word.begin;
-        bool met = letters == strlen("geomint") && strncmp(word, "geomint", letters) == 0;
+        bool met = is_word(room, line.word, "geomint");
         if (met && !(line.value.end == line.value.begin + 1 && room->text[line.value.begin] == '1')) {
             return gm_fail(
                 fault, line.value.begin, "this program reads files of format 1, not %.*s",
                 (int)(line.value.end - line.value.begin < 40 ? line.value.end - line.value.begin : 40),
                 room->text + line.value.begin);
         }
-        if (!met && !read_single(room, line, &met, fault)) {
+        if (!met && (!read_other(room, line, &met, fault) || !read_single(room, line, &met, fault))) {
             return false;
         }
         for (int i = 0; i < WORDS && !met; i++) {
-            if (strlen(words[i].word) == letters && strncmp(word, words[i].word, letters) == 0) {
-                met = true;
-                if (!read_line(room, (enum gm_room_word)i, line.value, fault)) {
-                    return false;
-                }
+            met = is_word(room, line.word, words[i].word);
+            if (met && !read_line(room, (enum gm_room_word)i, line.value, fault)) {
+                return false;
             }
         }
         if (!met) {
             return gm_fail(
                 fault, line.word.begin,
                 "a room has no line %.*s:; it has geomint: title: about: mesh: units: scalar: viscosity: "
-                "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: "
-                "inlet: outlet: wall: source: probe: start:",
+                "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: what "
+                "docs/rooms.md lists of parameters and pictures, "
+                "exact: boundary: inlet: outlet: wall: source: probe: start:",
                 (int)(letters < 40 ? letters : 40), word);
         }
     }
     if (fault->sentence[0] || room->graph.failed) {
         return false;
     }
-    return complete(room, fault);
+    double holds = 1;
+    if (gm_room_said(room, "exact-while", 0, &value) && !gm_room_number(room, value, &holds, fault)) {
+        return false;
+    }
+    room->unsolved = !(holds > 0);
+    room->scratch = malloc((room->graph.count + 1) * sizeof *room->scratch);
+    return room->scratch && complete(room, given, count, fault);
 }
 
 void gm_room_close(struct gm_room *room)
@@ -429,6 +769,14 @@ void gm_room_close(struct gm_room *room)
             free(room->lines[i].value[key].part);
         }
     }
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        free(room->parameters[i].name);
+        free(room->parameters[i].text);
+        free(room->parameters[i].words);
+        free(room->parameters[i].meaning);
+    }
+    free(room->parameters);
+    free(room->scratch);
     free(room->text);
     free(room->lines);
     free(room->title);
@@ -445,7 +793,6 @@ struct profile {
     const struct gm_room_line *line;
     struct bad *bad;
     double t, reference; /* the temperature where none is given */
-    double *scratch;
 };
 
 struct bad {
@@ -458,7 +805,7 @@ static double value_at(const struct profile *profile, enum gm_room_key key, doub
                        const double at[2])
 {
     const double place[VARIABLES] = {s, at[0], at[1], profile->t},
-                 value = gm_room_value(profile->room, profile->line, key, place, standard, profile->scratch);
+                 value = gm_room_value(profile->room, profile->line, key, place, standard);
     if (!isfinite(value) && !profile->bad->line) {
         *profile->bad = (struct bad){profile->line, key, {at[0], at[1]}};
     }
@@ -501,12 +848,12 @@ static bool locate(const struct gm_complex *complex, const double at[2], size_t 
 
 /* A carried quantity at the start, where it is not held. */
 static bool start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                          const struct gm_complex *complex, const bool *fixed, double *value, double *scratch,
+                          const struct gm_complex *complex, const bool *fixed, double *value,
                           struct gm_fault *fault)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
         const double *p = complex->point + 2 * v, at[VARIABLES] = {0, p[0], p[1], 0},
-                     here = gm_room_value(room, line, key, at, 0, scratch);
+                     here = gm_room_value(room, line, key, at, 0);
         value[v] = fixed[v] ? value[v] : here;
         if (!isfinite(here)) {
             return gm_fail(fault, line->value[key].place, "the %s is not finite at (%.4g, %.4g)", keys[key],
@@ -529,12 +876,12 @@ static bool add_smoking(struct gm_flow *flow, struct gm_flow_place place)
 
 /* A source without a place: its rate is that of a unit of area, everywhere. */
 static bool spread_source(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow,
-                          double *scratch, struct gm_fault *fault)
+                          struct gm_fault *fault)
 {
     const struct gm_complex *complex = flow->complex;
     for (size_t v = 0; v < complex->vertices; v++) {
         const double place[VARIABLES] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
-                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0, scratch);
+                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
         if (!isfinite(rate)) {
             return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite at (%.4g, %.4g)",
                            place[X], place[Y]);
@@ -545,34 +892,32 @@ static bool spread_source(const struct gm_room *room, const struct gm_room_line 
 }
 
 /* Sources, probes that must lie in the room, and what is carried at the start. */
-static bool place_things(const struct gm_room *room, struct gm_flow *flow, double *scratch,
-                         struct gm_fault *fault)
+static bool place_things(const struct gm_room *room, struct gm_flow *flow, struct gm_fault *fault)
 {
     const struct gm_complex *complex = flow->complex;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        if (line->word < GM_ROOM_SOURCE) {
+        if (line->word < GM_ROOM_SOURCE || line->word == GM_ROOM_EXACT) {
             continue;
         }
         if (line->word == GM_ROOM_START) {
-            if (!start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta, scratch,
-                               fault) ||
+            if (!start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta, fault) ||
                 !start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
-                               flow->temperature, scratch, fault)) {
+                               flow->temperature, fault)) {
                 return false;
             }
             continue;
         }
         if (line->value[GM_ROOM_X].place == 0) {
-            if (!spread_source(room, line, flow, scratch, fault)) {
+            if (!spread_source(room, line, flow, fault)) {
                 return false;
             }
             continue;
         }
         double at[2], w[3];
-        gm_room_point(room, line, scratch, at);
+        gm_room_point(room, line, at);
         const double place[VARIABLES] = {0, at[0], at[1], 0},
-                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0, scratch);
+                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
         size_t triangle = 0;
         if (!locate(complex, at, &triangle, w)) {
             return gm_fail(fault, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0],
@@ -592,31 +937,95 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, doubl
     return true;
 }
 
+/* Whether conditions of a line `side:`, as in x = 0, y > 4, hold at a place. */
+static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES], bool *holds,
+                     struct gm_fault *fault)
+{
+    const double size = fmax(room->rectangle.width, room->rectangle.height);
+    struct gm_span condition;
+    *holds = true;
+    while (gm_span_take(room->text, &rest, ",", &condition)) {
+        size_t sign = condition.begin;
+        while (sign + 1 < condition.end && !strchr("=<>", room->text[sign])) {
+            sign++;
+        }
+        const struct gm_span sides[2] = {{condition.begin, sign}, {sign + 1, condition.end}};
+        double value[2];
+        for (int k = 0; k < 2; k++) {
+            if (!read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], fault)) {
+                return false;
+            }
+        }
+        const double above = value[0] - value[1];
+        *holds &= room->text[sign] == '<'   ? above < 0
+                  : room->text[sign] == '>' ? above > 0
+                                            : fabs(above) <= 1e-9 * size;
+    }
+    return true;
+}
+
+/* Whether a name means the edges that no line before names: unless a mesh that the room itself names has such a group. */
+static bool is_rest(const struct gm_room *room, const struct gm_triangulation *mesh, const char *name)
+{
+    return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
+}
+
+/* Whether a boundary edge is of a line's side: by the mesh's groups, or by a line `side:`. */
+static bool is_on_side(const struct gm_room *room, const struct gm_room_line *line,
+                       const struct gm_triangulation *mesh, size_t b, bool *is_on, struct gm_fault *fault)
+{
+    const size_t e = (size_t)mesh->complex->boundary_edge[b];
+    *is_on = is_rest(room, mesh, line->name);
+    if (*is_on) {
+        return true;
+    }
+    if (!room->rectangular || room->from_file) {
+        const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
+        char name[256];
+        for (const char *at = other ? other->text : line->name; *at;
+             at += strcspn(at, ","), at += *at == ',') {
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, other ? "," : ""), at);
+            const long tag = gm_triangulation_group(mesh, name);
+            *is_on |= tag != 0 && gm_triangulation_has(mesh, e, tag);
+        }
+        return true;
+    }
+    double middle[VARIABLES] = {0};
+    gm_complex_middle(mesh->complex, e, middle + X);
+    struct gm_span rest, name;
+    for (size_t i = 0; gm_room_said(room, "side", i, &rest); i++) {
+        gm_span_take(room->text, &rest, ";", &name);
+        if (is_word(room, name, line->name)) {
+            return holds_at(room, rest, middle, is_on, fault);
+        }
+    }
+    return true;
+}
+
 /* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
 static bool name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
                        unsigned char *side_of, struct gm_fault *fault)
 {
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        if (line->word > GM_ROOM_WALL) {
-            continue;
-        }
-        const long tag = gm_triangulation_group(mesh, line->name);
+        const bool all = is_rest(room, mesh, line->name);
         bool met = false;
-        for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
-            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
-                if (side_of[b] != 0) {
-                    return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
-                                   line->name, room->lines[side_of[b] - 1].name);
-                }
-                side_of[b] = (unsigned char)(i + 1);
-                met = true;
+        for (size_t b = 0; line->word <= GM_ROOM_BOUNDARY && b < mesh->complex->boundary; b++) {
+            bool is_on = false;
+            if (!is_on_side(room, line, mesh, b, &is_on, fault)) {
+                return false;
             }
+            if (is_on && side_of[b] != 0 && !all) {
+                return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+                               line->name, room->lines[side_of[b] - 1].name);
+            }
+            side_of[b] = is_on && side_of[b] == 0 ? (unsigned char)(i + 1) : side_of[b];
+            met = met || is_on;
         }
-        if (!met) {
+        if (line->word <= GM_ROOM_BOUNDARY && !met && mesh->complex->boundary > 0) {
             char names[160];
             return gm_fail(fault, line->place,
-                           tag != 0
+                           gm_triangulation_group(mesh, line->name) != 0
                                ? "the curves \"%.40s\" are not on the mesh's boundary"
                                : "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
                            line->name, gm_triangulation_group_names(mesh, names, sizeof names));
@@ -642,8 +1051,10 @@ static bool make_side(struct profile *profile, struct gm_side *side, struct gm_f
     side->kind = inlet                                        ? GM_EDGE_INLET
                  : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
                  : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
+                 : line->value[GM_ROOM_SLIP].place != 0       ? GM_EDGE_SLIP
                                                               : GM_EDGE_WALL;
-    side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN, profile->scratch);
+    side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN);
+    side->speed = gm_room_value(profile->room, line, GM_ROOM_CENTRE, at, 0);
     side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
     side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
     side->heats = line->value[GM_ROOM_HEAT].place != 0;
@@ -668,6 +1079,32 @@ static void tell_balance(const struct gm_room *room, const struct gm_flow *flow,
     gm_fail(fault, place, "all flows are given, and what enters does not leave: %.6g in, %.6g out", in, out);
 }
 
+/* A side that gives the stream function and the speed along it: both cells at an edge turn with that. */
+static void give_motion(const struct profile *profiles, const unsigned char *side_of, struct gm_flow *flow)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const struct profile *profile = &profiles[side_of[b]];
+        if (!profile->line || profile->line->word != GM_ROOM_BOUNDARY) {
+            continue;
+        }
+        const int end[2] = {complex->boundary_vertex[b],
+                            complex->boundary_vertex[gm_complex_next(complex, b)]};
+        const double *p = complex->point + 2 * end[0], *q = complex->point + 2 * end[1];
+        double middle[2];
+        gm_complex_middle(complex, (size_t)complex->boundary_edge[b], middle);
+        const double along = value_at(profile, GM_ROOM_SPEED_X, 0, 0, middle) * (q[0] - p[0]) +
+                             value_at(profile, GM_ROOM_SPEED_Y, 0, 0, middle) * (q[1] - p[1]);
+        for (int k = 0; k < 2; k++) {
+            const double *at = k == 0 ? p : q;
+            flow->sheet[end[k]] += along / 2;
+            flow->psi[end[k]] = value_at(profile, GM_ROOM_STREAM_FUNCTION, 0, 0, at);
+            flow->speed = fmax(flow->speed, hypot(value_at(profile, GM_ROOM_SPEED_X, 0, 0, at),
+                                                  value_at(profile, GM_ROOM_SPEED_Y, 0, 0, at)));
+        }
+    }
+}
+
 /* Has the flow's boundary give what the room says at a time. */
 static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
@@ -675,16 +1112,16 @@ static bool set_sides(const struct gm_room *room, const unsigned char *side_of, 
     struct bad bad = {0};
     struct gm_side *sides = calloc(room->count + 1, sizeof *sides);
     struct profile *profiles = calloc(room->count + 1, sizeof *profiles);
-    double *scratch = malloc((room->graph.count + 1) * sizeof *scratch);
-    bool good = sides && profiles && scratch;
+    bool good = sides && profiles;
     for (size_t i = 0; good && i <= room->count; i++) {
         const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
         sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
-        profiles[i] = (struct profile){room, line, &bad, t, flow->reference_temperature, scratch};
-        good = !line || line->word > GM_ROOM_WALL || make_side(&profiles[i], &sides[i], fault);
+        profiles[i] = (struct profile){room, line, &bad, t, flow->reference_temperature};
+        good = !line || line->word > GM_ROOM_BOUNDARY || make_side(&profiles[i], &sides[i], fault);
     }
     if (good) {
-        *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
+        *boundary = gm_flow_set_sides(flow, side_of, sides, room->outlet);
+        give_motion(profiles, side_of, flow);
         good = *boundary == GM_BOUNDARY_OK;
         fault->offset = !good && flow->faulty > 0 ? room->lines[flow->faulty - 1].place : 0;
         if (*boundary == GM_BOUNDARY_UNBALANCED) {
@@ -697,7 +1134,6 @@ static bool set_sides(const struct gm_room *room, const unsigned char *side_of, 
                            keys[bad.key], bad.at[0], bad.at[1]);
         }
     }
-    free(scratch);
     free(sides);
     free(profiles);
     return good;
@@ -749,7 +1185,6 @@ static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
     struct gm_flow *now = gm_flow_open_now(flow);
     bool good = now != NULL;
     flow->give = give;
-    flow->given_by = room;
     for (int k = 1; good && k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run tells when it is there */
             flow->speed = fmax(flow->speed, now->speed);
@@ -760,8 +1195,8 @@ static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
     return good;
 }
 
-struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation *mesh,
-                             struct gm_fault *fault, enum gm_boundary_fault *boundary)
+struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault,
+                             enum gm_boundary_fault *boundary)
 {
     *fault = (struct gm_fault){0};
     *boundary = GM_BOUNDARY_OK;
@@ -771,33 +1206,44 @@ struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation
         return NULL;
     }
     const struct gm_complex *complex = flow->complex;
-    double *scratch = malloc((room->graph.count + 1) * sizeof *scratch);
+    flow->given_by = room;
     flow->side_of = calloc(complex->boundary + 1, 1);
     flow->source = calloc(complex->vertices, sizeof *flow->source);
-    bool good = flow->side_of && scratch && flow->source;
+    bool good = flow->side_of && flow->source;
     good = good &&
            (isnan(room->buoyancy) || gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature));
     good = good && (room->count < GM_ROOM_SIDES ||
                     gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
     good = good && name_sides(room, mesh, flow->side_of, fault) &&
-           set_sides(room, flow->side_of, 0, flow, fault, boundary) &&
-           place_things(room, flow, scratch, fault);
-    flow->viscosity = room->viscosity;
-    flow->diffusivity = room->diffusivity;
+           set_sides(room, flow->side_of, 0, flow, fault, boundary) && place_things(room, flow, fault);
+    const struct gm_room_parameter *reynolds = gm_room_parameter(room, "reynolds");
+    const double scale = reynolds && flow->inlet_length > 0 ? flow->inlet_length : 1;
+    flow->viscosity = room->viscosity * scale;
+    flow->diffusivity = room->diffusivity * scale;
     flow->temperature_range[0] = flow->temperature_range[1] = flow->reference_temperature;
     if (good) {
         widen(flow, flow);
         good = !room->timed || look_ahead(room, flow);
     }
-    free(scratch);
     mesh->complex = NULL;
     if (!good) {
         gm_flow_close(flow);
         return NULL;
     }
-    flow->reynolds = flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
-    flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
-    flow->scalar = true;
+    room->measures[GM_ROOM_PERIMETER] = 0;
+    for (size_t b = 0; b < complex->boundary; b++) {
+        room->measures[GM_ROOM_PERIMETER] += complex->length[complex->boundary_edge[b]];
+    }
+    room->measures[GM_ROOM_AREA] = complex->total_area;
+    room->measures[GM_ROOM_INLET_LENGTH] = flow->inlet_length;
+    if (reynolds) {
+        flow->reynolds = reynolds->value;
+    } else if (room->viscosity > 0) {
+        flow->reynolds =
+            flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
+        flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
+    }
+    flow->scalar = !room->scalar || strcmp(room->scalar, "none") != 0;
     return flow;
 }
 

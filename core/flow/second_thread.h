@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FLOW_BESIDE_H
-#define GM_CORE_FLOW_BESIDE_H
+#ifndef GM_CORE_FLOW_SECOND_THREAD_H
+#define GM_CORE_FLOW_SECOND_THREAD_H
 
 #include <pthread.h>
 #include <stdbool.h>

@@ -104,40 +104,6 @@ static void add_entry(struct rows *rows, int *place, int row, int j, double valu
     rows->value[place[j]] += value;
 }
 
-struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow)
-{
-    const struct gm_complex *complex = flow->complex;
-    struct rows rows;
-    struct gm_cholesky *factor = NULL;
-    int *place = malloc((unknowns->count + 1) * sizeof *place);
-    if (rows_open(&rows, unknowns->count, unknowns->count + complex->edges) && place) {
-        memset(place, -1, unknowns->count * sizeof *place);
-        for (size_t i = 0; i < unknowns->count; i++) {
-            double sum = 0;
-            rows.start[i] = (int)rows.used;
-            for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
-                const int v = unknowns->vertex[at];
-                sum += diagonal(complex, v);
-                for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-                    const int j = unknowns->index[complex->ring_vertex[k]];
-                    const double star = complex->star1[complex->ring_edge[k]];
-                    if (j == (int)i) {
-                        sum -= star;
-                    } else if (j >= 0 && j < (int)i) {
-                        add_entry(&rows, place, (int)i, j, -star);
-                    }
-                }
-            }
-            add_entry(&rows, place, (int)i, (int)i, sum);
-        }
-        rows.start[unknowns->count] = (int)rows.used;
-        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, GM_CHOLESKY_EXACT);
-    }
-    rows_close(&rows);
-    free(place);
-    return factor;
-}
-
 static bool by_formula(const struct gm_flow *flow, int v)
 {
     return flow->kind[v] != GM_VERTEX_SOFT && flow->kind[v] != GM_VERTEX_SLIP;
@@ -171,21 +137,25 @@ static size_t two_ring_bound(const struct gm_unknowns *unknowns, const struct gm
     return sum;
 }
 
-struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                                              double shift, double viscosity)
+/* shift K, and of a rough factor viscosity K W K, too. */
+static struct gm_cholesky *factor_of(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                                     double shift, double viscosity, enum gm_cholesky_precision precision)
 {
     const struct gm_complex *complex = flow->complex;
+    const bool stokes = precision == GM_CHOLESKY_ROUGH;
     struct rows rows;
     struct gm_cholesky *factor = NULL;
     int *place = malloc((unknowns->count + 1) * sizeof *place);
-    if (rows_open(&rows, unknowns->count, two_ring_bound(unknowns, complex)) && place) {
+    if (rows_open(&rows, unknowns->count,
+                  stokes ? two_ring_bound(unknowns, complex) : unknowns->count + complex->edges) &&
+        place) {
         memset(place, -1, unknowns->count * sizeof *place);
         for (size_t i = 0; i < unknowns->count; i++) {
             rows.start[i] = (int)rows.used;
             for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
                 const int v = unknowns->vertex[at];
                 add_row(unknowns, complex, v, shift, &rows, place, (int)i);
-                for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
+                for (int k = complex->ring_start[v] - 1; stokes && k < complex->ring_start[v + 1]; k++) {
                     const bool self = k < complex->ring_start[v];
                     const int w = self ? v : complex->ring_vertex[k];
                     const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
@@ -197,11 +167,22 @@ struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns
             }
         }
         rows.start[unknowns->count] = (int)rows.used;
-        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, GM_CHOLESKY_ROUGH);
+        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, precision);
     }
     rows_close(&rows);
     free(place);
     return factor;
+}
+
+struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow)
+{
+    return factor_of(unknowns, flow, 1, 0, GM_CHOLESKY_EXACT);
+}
+
+struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                                              double shift, double viscosity)
+{
+    return factor_of(unknowns, flow, shift, viscosity, GM_CHOLESKY_ROUGH);
 }
 
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,

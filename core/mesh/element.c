@@ -260,6 +260,27 @@ static void spread(double mm, double mr, double md, double rr, double rd, double
     }
 }
 
+void gm_elements_mass(const struct gm_elements *stage, size_t e, double mass[4][4])
+{
+    const double d = stage->width[e], r = stage->rise[e], g = stage->slope[e];
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t j = 0; j < 2; j++) {
+            const double share = i == j ? 1. / 3 : 1. / 6;
+            mass[2 * i][2 * j] = d * share;
+            mass[2 * i][2 * j + 1] = mass[2 * i + 1][2 * j] = -r * share;
+            mass[2 * i + 1][2 * j + 1] = r * g * share;
+        }
+    }
+}
+
+void gm_elements_gradient(const struct gm_elements *stage, size_t e, double gradient[4])
+{
+    gradient[0] = stage->ell_y0[e];
+    gradient[1] = -stage->ell_d[e];
+    gradient[2] = stage->ell_y1[e];
+    gradient[3] = stage->ell_d[e];
+}
+
 void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t e,
                           bool constrained, struct gm_element_matrices *matrices)
 {
@@ -280,14 +301,8 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
             row[2] = by_r[which];
             row[3] = by_d[which];
         }
-        for (size_t j = 0; j < 2; j++) {
-            const double share = i == j ? 1. / 3 : 1. / 6;
-            matrices->mass[2 * i][2 * j] = d * share;
-            matrices->mass[2 * i][2 * j + 1] = -r * share;
-            matrices->mass[2 * i + 1][2 * j] = -r * share;
-            matrices->mass[2 * i + 1][2 * j + 1] = r * g * share;
-        }
     }
+    gm_elements_mass(stage, e, matrices->mass);
     if (!constrained) {
         return;
     }
@@ -305,8 +320,7 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
             }
         }
     }
-    const double gradient[4] = {stage->ell_y0[e], -stage->ell_d[e], stage->ell_y1[e], stage->ell_d[e]};
     const double bend[4] = {stage->bend_y0[e], -stage->bend_d[e], stage->bend_y1[e], stage->bend_d[e]};
-    memcpy(matrices->gradient, gradient, sizeof gradient);
+    gm_elements_gradient(stage, e, matrices->gradient);
     memcpy(matrices->bend, bend, sizeof bend);
 }

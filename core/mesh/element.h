@@ -61,7 +61,11 @@ bool gm_elements_measure(struct gm_elements *stage, const struct gm_mesh *mesh);
 void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t element,
                           bool constrained, struct gm_element_matrices *matrices);
 
-/* Momenta at node k = 1 ... N. */
+/* The mass matrix alone, and the gradient of ell. */
+void gm_elements_mass(const struct gm_elements *stage, size_t element, double mass[4][4]);
+void gm_elements_gradient(const struct gm_elements *stage, size_t element, double gradient[4]);
+
+/* Momenta, and forces, at node k = 1 ... N. */
 static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)
 {
     return stage->momentum_u1[k - 1] + stage->momentum_u0[k];
@@ -70,6 +74,16 @@ static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)
 static inline double gm_momentum_v(const struct gm_elements *stage, size_t k)
 {
     return -(stage->slope[k - 1] * stage->momentum_u1[k - 1] + stage->slope[k] * stage->momentum_u0[k]);
+}
+
+static inline double gm_force_y(const struct gm_elements *stage, size_t k)
+{
+    return stage->force_y1[k - 1] + stage->force_y0[k];
+}
+
+static inline double gm_force_x(const struct gm_elements *stage, size_t k)
+{
+    return stage->force_d[k - 1] - stage->force_d[k];
 }
 
 #endif

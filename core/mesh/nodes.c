@@ -4,67 +4,79 @@
 
 #include <math.h>
 
-/* Row or column of entry `entry` of z = (y0, X0, y1, X1), or no such: the ends are fixed. */
-static inline bool locate(size_t points, size_t per_node, size_t element, size_t entry,
-                          struct gm_places places, size_t *index)
+/* The rows or columns of z = (y0, X0, y1, X1) that there are, and how many: the ends are fixed and have none. */
+static inline size_t locate(const struct gm_assembly *assembly, struct gm_places places, size_t entries[4],
+                            size_t indices[4])
 {
-    const size_t node = element + entry / 2;
-    if (node < 1 || node > points) {
-        return false;
-    }
-    *index = (node - 1) * per_node + (entry % 2 ? places.x : places.y);
-    return true;
-}
-
-void gm_nodes_add(struct gm_banded *matrix, size_t points, size_t per_node, size_t element,
-                  struct gm_places row, struct gm_places column, double factor, double block[4][4])
-{
-    for (size_t b = 0; b < 4; b++) {
-        size_t j;
-        if (!locate(points, per_node, element, b, column, &j)) {
-            continue;
+    const size_t node = assembly->element, before = (node - 1) * assembly->per_node;
+    size_t count = 0;
+    for (size_t side = node == 0; side <= (node < assembly->points); side++) {
+        const size_t first = before + side * assembly->per_node;
+        if (places.y != GM_NOWHERE) {
+            entries[count] = 2 * side;
+            indices[count++] = first + places.y;
         }
-        for (size_t a = 0; a < 4; a++) {
-            size_t i;
-            if (locate(points, per_node, element, a, row, &i)) {
-                gm_banded_add(matrix, i, j, factor * block[a][b]);
-            }
+        if (places.x != GM_NOWHERE) {
+            entries[count] = 2 * side + 1;
+            indices[count++] = first + places.x;
         }
     }
+    return count;
 }
 
-void gm_nodes_add_column(struct gm_banded *matrix, size_t points, size_t per_node, size_t element,
-                         struct gm_places row, size_t column, double factor, const double values[4])
+void gm_nodes_add(const struct gm_assembly *assembly, struct gm_places row, struct gm_places column,
+                  double block[4][4])
 {
-    for (size_t a = 0; a < 4; a++) {
-        size_t i;
-        if (!locate(points, per_node, element, a, row, &i)) {
-            continue;
-        }
-        if (element >= 1) {
-            gm_banded_add(matrix, i, (element - 1) * per_node + column, factor * values[a]);
-        }
-        if (element < points) {
-            gm_banded_add(matrix, i, element * per_node + column, -factor * values[a]);
+    size_t a[4], i[4], b[4], j[4];
+    const size_t rows = locate(assembly, row, a, i), columns = locate(assembly, column, b, j);
+    for (size_t c = 0; c < columns; c++) {
+        for (size_t r = 0; r < rows; r++) {
+            gm_banded_add(assembly->matrix, i[r], j[c], block[a[r]][b[c]]);
         }
     }
 }
 
-void gm_nodes_add_row(struct gm_banded *matrix, size_t points, size_t per_node, size_t element, size_t row,
-                      struct gm_places column, double factor, const double values[4])
+void gm_nodes_add_column(const struct gm_assembly *assembly, struct gm_places row, size_t column,
+                         double factor, const double values[4])
 {
-    for (size_t b = 0; b < 4; b++) {
-        size_t j;
-        if (!locate(points, per_node, element, b, column, &j)) {
-            continue;
+    const size_t e = assembly->element, after = e * assembly->per_node + column;
+    size_t a[4], i[4];
+    const size_t rows = locate(assembly, row, a, i);
+    for (size_t r = 0; r < rows; r++) {
+        if (e > 0) {
+            gm_banded_add(assembly->matrix, i[r], after - assembly->per_node, factor * values[a[r]]);
         }
-        if (element >= 1) {
-            gm_banded_add(matrix, (element - 1) * per_node + row, j, factor * values[b]);
-        }
-        if (element < points) {
-            gm_banded_add(matrix, element * per_node + row, j, -factor * values[b]);
+        if (e < assembly->points) {
+            gm_banded_add(assembly->matrix, i[r], after, -factor * values[a[r]]);
         }
     }
+}
+
+void gm_nodes_add_row(const struct gm_assembly *assembly, size_t row, struct gm_places column,
+                      const double values[4])
+{
+    const size_t e = assembly->element, after = e * assembly->per_node + row;
+    size_t b[4], j[4];
+    const size_t columns = locate(assembly, column, b, j);
+    for (size_t c = 0; c < columns; c++) {
+        if (e > 0) {
+            gm_banded_add(assembly->matrix, after - assembly->per_node, j[c], values[b[c]]);
+        }
+        if (e < assembly->points) {
+            gm_banded_add(assembly->matrix, after, j[c], -values[b[c]]);
+        }
+    }
+}
+
+void gm_nodes_spread(const double *unknowns, size_t points, size_t per_node, size_t unknown, double *share)
+{
+    double left = 0;
+    for (size_t e = 0; e < points; e++) {
+        const double right = unknowns[e * per_node + unknown];
+        share[e] = left - right;
+        left = right;
+    }
+    share[points] = left;
 }
 
 /* The derivative of the constraint by the nodes' places alone; `slope` is dy/dX at the nodes, NULL: y is
@@ -166,34 +178,32 @@ bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix,
     return true;
 }
 
-bool gm_nodes_project(const struct gm_elements *stage, const struct gm_mesh *mesh, struct gm_banded *matrix,
-                      double *solution)
+bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix, size_t unknowns,
+                      double *motion)
 {
-    const size_t points = mesh->points, count = points + 1;
-    const struct gm_places velocity = {0, 1};
+    const size_t points = stage->count - 1;
+    const struct gm_places momenta = {0, unknowns > 2 ? 1 : GM_NOWHERE},
+                           velocities = {0, unknowns > 1 ? 1 : GM_NOWHERE};
     gm_banded_clear(matrix);
-    for (size_t e = 0; e < count; e++) {
-        const double d = stage->width[e], r = stage->rise[e], g = stage->slope[e];
-        double mass[4][4];
-        for (size_t i = 0; i < 2; i++) {
-            for (size_t j = 0; j < 2; j++) {
-                const double share = i == j ? 1. / 3 : 1. / 6;
-                mass[2 * i][2 * j] = d * share;
-                mass[2 * i][2 * j + 1] = mass[2 * i + 1][2 * j] = -r * share;
-                mass[2 * i + 1][2 * j + 1] = r * g * share;
-            }
+    for (size_t e = 0; e <= points; e++) {
+        const struct gm_assembly assembly = {matrix, points, unknowns, e};
+        double mass[4][4], gradient[4];
+        gm_elements_mass(stage, e, mass);
+        gm_elements_gradient(stage, e, gradient);
+        gm_nodes_add(&assembly, momenta, velocities, mass);
+        if (unknowns > 1) {
+            gm_nodes_add_row(&assembly, unknowns - 1, velocities, gradient);
         }
-        const double gradient[4] = {stage->ell_y0[e], -stage->ell_d[e], stage->ell_y1[e], stage->ell_d[e]};
-        gm_nodes_add(matrix, points, 3, e, velocity, velocity, 1, mass);
-        gm_nodes_add_row(matrix, points, 3, e, 2, velocity, 1, gradient);
-        gm_nodes_add_column(matrix, points, 3, e, velocity, 2, 1, gradient);
+        if (unknowns > 2) {
+            gm_nodes_add_column(&assembly, momenta, 2, 1, gradient);
+        }
     }
-    for (size_t i = 0; i < points; i++) {
-        solution[3 * i + 2] = 0;
+    for (size_t k = 1; k <= points && unknowns > 1; k++) {
+        motion[unknowns * k - 1] = 0;
     }
     if (!gm_banded_factor(matrix)) {
         return false;
     }
-    gm_banded_solve(matrix, solution);
+    gm_banded_solve(matrix, motion);
     return true;
 }

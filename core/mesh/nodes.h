@@ -2,27 +2,40 @@
 #ifndef GM_CORE_MESH_NODES_H
 #define GM_CORE_MESH_NODES_H
 
+#include <stdint.h>
+
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
 
 /* Linear and small non-linear systems on the nodes, and rows assembled from elements. Node k = 1 ... N has
    row k - 1; the ends are fixed and have none. */
 
-/* Adds a 4 x 4 block of one element, rows of `row` and columns of `column` (0 to per_node - 1) for y and
-   X. */
-struct gm_places {
-    size_t y, x; /* offset among the unknowns, or the equations, of a node */
+/* What one element adds to a matrix of `per_node` unknowns at every node. */
+struct gm_assembly {
+    struct gm_banded *matrix;
+    size_t points, per_node, element;
 };
-void gm_nodes_add(struct gm_banded *matrix, size_t points, size_t per_node, size_t element,
-                  struct gm_places row, struct gm_places column, double factor, double block[4][4]);
-/* Adds column: d(all four rows) / d(element's share of a multiplier), which is + at node e and - at node e +
-   1. */
-void gm_nodes_add_column(struct gm_banded *matrix, size_t points, size_t per_node, size_t element,
-                         struct gm_places row, size_t column, double factor, const double values[4]);
-/* Adds the derivative, `values` by z, of an element quantity to the constraint rows: + at node e, - at e +
-   1. */
-void gm_nodes_add_row(struct gm_banded *matrix, size_t points, size_t per_node, size_t element, size_t row,
-                      struct gm_places column, double factor, const double values[4]);
+
+/* Which of a node's unknowns, or equations, are of y and of X; GM_NOWHERE: none. */
+struct gm_places {
+    size_t y, x;
+};
+#define GM_NOWHERE SIZE_MAX
+
+/* Adds a block with a row and a column for each of z = (y0, X0, y1, X1). */
+void gm_nodes_add(const struct gm_assembly *assembly, struct gm_places row, struct gm_places column,
+                  double block[4][4]);
+/* Adds factor * values, by z, to the column of a multiplier, of which an element has as its share that of node e less
+   that of node e + 1. */
+void gm_nodes_add_column(const struct gm_assembly *assembly, struct gm_places row, size_t column,
+                         double factor, const double values[4]);
+/* Adds the derivative, `values` by z, of an element quantity to the constraint rows: + at node e, - at e + 1. */
+void gm_nodes_add_row(const struct gm_assembly *assembly, size_t row, struct gm_places column,
+                      const double values[4]);
+
+/* The share of every element in one of the unknowns of a node, numbered from 0: that of node e less that of e + 1, where
+   the ends have none. */
+void gm_nodes_spread(const double *unknowns, size_t points, size_t per_node, size_t unknown, double *share);
 
 /* g_k = ell_k - ell_{k-1} */
 static inline double gm_jump(const double *elements, size_t k)
@@ -41,10 +54,12 @@ bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *me
    singular. */
 bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix, double *motion);
 
-/* The velocity and multiplier with M qdot + Dg^T lambda = p, Dg qdot = 0: `solution` holds p by node (u, V,
-   and a third, ignored) and receives (u, V, lambda). `stage` has been evaluated and constrained; matrix N *
-   3, band 5. False: singular. */
-bool gm_nodes_project(const struct gm_elements *stage, const struct gm_mesh *mesh, struct gm_banded *matrix,
-                      double *solution);
+/* Velocities of momenta: `motion` holds p by node, each with so many unknowns, and receives
+       3:  u, V, lambda   of M (u, V) + Dg^T lambda = p,  Dg (u, V) = 0
+       2:  u, V           of the same where p has no part in X, which Dg (u, V) = 0 alone determines
+       1:  u              of M u = p on a mesh that stands still
+   `stage` has been evaluated and constrained; the matrix has the band 2 * unknowns - 1. False: singular. */
+bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix, size_t unknowns,
+                      double *motion);
 
 #endif

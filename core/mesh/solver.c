@@ -3,6 +3,7 @@
    fails, with new ones and shortened steps, from one first guess after the other. */
 #include "core/mesh/solver.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,142 +13,229 @@ enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 static const double tolerance = 1e-11; /* of a change of the unknowns */
 static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
 
+enum {
+    MEMORY_PAST,       /* how many steps are remembered, at most 6 */
+    MEMORY_STAMP,      /* factorisations so far: a name for the present factors */
+    MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors are made again */
+    MEMORY_MULTIPLIER, /* largest multiplier of the last step */
+    MEMORY_STEP,       /* length of the step that the factors were made for */
+    MEMORY_HEAD,       /* then 6 past unknowns, newest first, then state and unknowns of the factors */
+};
+
 /* Of a change that solves the equations: what round-off makes need not be smaller. */
-static double enough(const struct gm_step_equations *equations)
+static double enough(const struct gm_mesh_solver *solver)
 {
-    return fmax(tolerance, 4 * equations->noise);
+    return fmax(tolerance, 4 * solver->noise);
 }
 
 /* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
-static double stagnation(const struct gm_step_equations *equations)
+static double stagnation(const struct gm_mesh_solver *solver)
 {
-    return fmax(1e-9, 10 * equations->noise);
+    return fmax(1e-9, 10 * solver->noise);
 }
 
-size_t gm_solver_memory(size_t nodes, size_t per_node, size_t state)
+static size_t stages_of(const struct gm_mesh_row *row)
 {
-    return GM_MEMORY_HEAD + (PAST + 1) * nodes * per_node + state;
+    return row->tableau ? row->tableau->stages : 1;
 }
 
-bool gm_solver_open(struct gm_solver *solver, size_t nodes, size_t per_node, size_t band)
+size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    *solver = (struct gm_solver){0};
-    const size_t n = nodes * per_node;
-    solver->unknowns = calloc(3 * n, sizeof *solver->unknowns);
-    if (!solver->unknowns || !gm_banded_open(&solver->matrix, n, band)) {
-        gm_solver_close(solver);
-        return false;
+    const struct gm_mesh_row *row = scheme->coefficients;
+    const size_t points = problem->n / 4, n = points * row->strategy->unknowns * stages_of(row);
+    return MEMORY_HEAD + (PAST + 1) * n + 4 * points;
+}
+
+void gm_mesh_workspace_close(void *workspace)
+{
+    struct gm_mesh_solver *solver = workspace;
+    for (size_t i = 0; i < GM_STAGES; i++) {
+        gm_elements_close(&solver->stage[i]);
     }
-    solver->residual = solver->unknowns + n;
-    solver->trial = solver->residual + n;
-    return true;
-}
-
-void gm_solver_close(struct gm_solver *solver)
-{
-    free(solver->unknowns);
+    gm_elements_close(&solver->ends);
     gm_banded_close(&solver->matrix);
-    *solver = (struct gm_solver){0};
+    gm_banded_close(&solver->projection);
+    gm_banded_close(&solver->places);
+    free(solver->unknowns);
+    free(solver);
 }
 
-void gm_solver_start(struct gm_solver *solver, double *memory)
+void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    memset(memory, 0, GM_MEMORY_HEAD * sizeof *memory);
+    struct gm_mesh_solver *solver = calloc(1, sizeof *solver);
+    if (!solver) {
+        return NULL;
+    }
+    const struct gm_mesh *mesh = &solver->mesh;
+    gm_moving_mesh_of(problem)->describe(problem, &solver->mesh);
+    solver->row = scheme->coefficients;
+    solver->stages = stages_of(solver->row);
+    solver->per_node = solver->row->strategy->unknowns * solver->stages;
+    const size_t points = mesh->points, n = points * solver->per_node,
+                 moves = solver->row->strategy->projected;
+    bool good = gm_elements_open(&solver->ends, mesh);
+    for (size_t i = 0; i < solver->stages; i++) {
+        good = good && gm_elements_open(&solver->stage[i], mesh);
+    }
+    good = good && gm_banded_open(&solver->matrix, n, 2 * solver->per_node - 1) &&
+           gm_banded_open(&solver->projection, moves * points, 2 * moves - 1) &&
+           gm_banded_open(&solver->places, points, 1);
+    double *next = calloc(3 * n + 6 * points + 1 + solver->stages * (3 * points + 1), sizeof *next);
+    solver->unknowns = next;
+    if (!good || !next) {
+        gm_mesh_workspace_close(solver);
+        return NULL;
+    }
+    solver->residual = next + n;
+    solver->trial = solver->residual + n;
+    solver->momenta = solver->trial + n;
+    solver->motion = solver->momenta + 2 * points;
+    solver->slack = solver->motion + 3 * points;
+    next = solver->slack + points + 1;
+    for (size_t i = 0; i < solver->stages; i++, next += 3 * points + 1) {
+        solver->forces[i] = next;
+        solver->share[i] = next + 2 * points;
+    }
+    return solver;
+}
+
+void gm_mesh_workspace_reset(void *workspace)
+{
+    ((struct gm_mesh_solver *)workspace)->stamp = 0;
+}
+
+enum gm_status gm_mesh_restart(const struct gm_task *task)
+{
+    struct gm_mesh_solver *solver = task->workspace;
+    memset(task->memory_out, 0, MEMORY_HEAD * sizeof *task->memory_out);
     solver->stamp = 0;
+    const enum gm_mesh_kind kind = solver->row->strategy->kind;
+    return gm_mesh_carry(&solver->mesh, kind, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
+}
+
+enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme)
+{
+    return ((const struct gm_mesh_row *)scheme->coefficients)->strategy->kind;
+}
+
+double gm_mesh_multiplier_norm(const struct gm_run *run)
+{
+    return gm_run_memory(run)[MEMORY_MULTIPLIER];
+}
+
+double gm_mesh_factorisations(const struct gm_run *run)
+{
+    return gm_run_memory(run)[MEMORY_STAMP];
+}
+
+double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown)
+{
+    double largest = 0;
+    for (size_t k = 0; k < solver->mesh.points; k++) {
+        largest = fmax(largest, fabs(solver->unknowns[k * solver->per_node + unknown]));
+    }
+    return largest;
+}
+
+/* Takes the state that a step of this length starts from. */
+static void place(struct gm_mesh_solver *solver, const double *state, double h)
+{
+    solver->h = h;
+    solver->state = state;
+    gm_elements_place(&solver->ends, state);
+    gm_elements_evaluate(&solver->ends, &solver->mesh);
+    for (size_t k = 1; k <= solver->mesh.points; k++) {
+        solver->momenta[2 * k - 2] = gm_momentum_u(&solver->ends, k);
+        solver->momenta[2 * k - 1] = gm_momentum_v(&solver->ends, k);
+    }
+    for (size_t i = 0; i < solver->stages; i++) {
+        gm_elements_place(&solver->stage[i], state);
+    }
+}
+
+static bool residual_at(struct gm_mesh_solver *solver, const double *unknowns)
+{
+    return solver->row->strategy->residual(solver, unknowns, solver->residual);
 }
 
 static double *past(double *memory, size_t n, size_t back)
 {
-    return memory + GM_MEMORY_HEAD + back * n;
+    return memory + MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. */
-static void extrapolate(const struct gm_step_equations *equations, double *memory, size_t n, size_t order,
-                        double *out)
+/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. The steps k and order - k have
+   the same binomial coefficient, and signs alternate. */
+static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t order)
 {
-    const double *p1 = past(memory, n, 0), *p2 = past(memory, n, 1), *p3 = past(memory, n, 2);
-    const double *p4 = past(memory, n, 3), *p5 = past(memory, n, 4), *p6 = past(memory, n, 5);
-    switch (order) {
-    case 0:
-        equations->guess(equations->self, out);
-        break;
-    case 1:
-        memcpy(out, p1, n * sizeof *out);
-        break;
-    case 2:
+    static const double binomial[PAST + 1][PAST / 2 + 1] = {
+        [2] = {0, 2}, [3] = {0, 3}, [4] = {0, 4, 6}, [5] = {0, 5, 10}, [6] = {0, 6, 15, 20}};
+    const size_t n = solver->matrix.n;
+    double *out = solver->unknowns;
+    if (order == 0) {
+        solver->row->strategy->guess(solver, out);
+        return;
+    }
+    memset(out, 0, n * sizeof *out);
+    for (size_t k = 1; k <= order / 2; k++) {
+        const double weight = k % 2 ? binomial[order][k] : -binomial[order][k];
+        const double mirrored = order % 2 ? -1 : 2 * k < order;
+        const double *near = past(memory, n, k - 1), *far = past(memory, n, order - k - 1);
         for (size_t i = 0; i < n; i++) {
-            out[i] = 2 * p1[i] - p2[i];
+            out[i] += weight * (near[i] + mirrored * far[i]);
         }
-        break;
-    case 3:
-        for (size_t i = 0; i < n; i++) {
-            out[i] = 3 * (p1[i] - p2[i]) + p3[i];
-        }
-        break;
-    case 4:
-        for (size_t i = 0; i < n; i++) {
-            out[i] = 4 * (p1[i] + p3[i]) - 6 * p2[i] - p4[i];
-        }
-        break;
-    case 5:
-        for (size_t i = 0; i < n; i++) {
-            out[i] = 5 * (p1[i] - p4[i]) + 10 * (p3[i] - p2[i]) + p5[i];
-        }
-        break;
-    default:
-        for (size_t i = 0; i < n; i++) {
-            out[i] = 6 * (p1[i] + p5[i]) - 15 * (p2[i] + p4[i]) + 20 * p3[i] - p6[i];
-        }
+    }
+    const double *last = past(memory, n, order - 1);
+    for (size_t i = 0; i < n; i++) {
+        out[i] += order % 2 ? last[i] : -last[i];
     }
 }
 
-/* Factors the derivative at these unknowns, where the residual has just been evaluated. */
-static bool factor(struct gm_solver *solver, const struct gm_step_equations *equations,
-                   const double *unknowns)
+/* Factors the derivative where the residual has just been evaluated. */
+static bool factor(struct gm_mesh_solver *solver)
 {
+    const size_t points = solver->mesh.points;
     gm_banded_clear(&solver->matrix);
-    equations->jacobian(equations->self, unknowns, &solver->matrix);
+    for (size_t e = 0; e <= points; e++) {
+        const struct gm_assembly assembly = {&solver->matrix, points, solver->per_node, e};
+        solver->row->strategy->jacobian(solver, &assembly);
+    }
     return gm_banded_factor(&solver->matrix);
 }
 
-static bool refresh(struct gm_solver *solver, const struct gm_step_equations *equations, double *memory,
-                    const double *state, const double *unknowns)
+/* Of the step from solver->state. */
+static bool refresh(struct gm_mesh_solver *solver, double *memory)
 {
     const size_t n = solver->matrix.n;
     double *made_from = past(memory, n, PAST);
-    memcpy(made_from, unknowns, n * sizeof *made_from);
-    memcpy(made_from + n, state, equations->state * sizeof *made_from);
-    memory[GM_MEMORY_STEP] = equations->step;
-    memory[GM_MEMORY_STAMP]++;
-    solver->stamp = memory[GM_MEMORY_STAMP];
-    return factor(solver, equations, unknowns);
+    memcpy(made_from, solver->unknowns, n * sizeof *made_from);
+    memcpy(made_from + n, solver->state, 4 * solver->mesh.points * sizeof *made_from);
+    memory[MEMORY_STEP] = solver->h;
+    solver->stamp = ++memory[MEMORY_STAMP];
+    return factor(solver);
 }
 
 /* Makes the factors that the memory names, if others or none are at hand. */
-static void restore(struct gm_solver *solver, const struct gm_step_equations *equations, double *memory)
+static void restore(struct gm_mesh_solver *solver, double *memory)
 {
-    const size_t n = solver->matrix.n;
-    if (memory[GM_MEMORY_STAMP] == solver->stamp) {
-        return;
+    if (memory[MEMORY_STAMP] != solver->stamp) {
+        const double *made_from = past(memory, solver->matrix.n, PAST);
+        place(solver, made_from + solver->matrix.n, memory[MEMORY_STEP]);
+        residual_at(solver, made_from);
+        factor(solver);
+        solver->stamp = memory[MEMORY_STAMP];
     }
-    const double *made_from = past(memory, n, PAST);
-    equations->place(equations->self, made_from + n, memory[GM_MEMORY_STEP]);
-    equations->residual(equations->self, made_from, solver->residual);
-    factor(solver, equations, made_from);
-    solver->stamp = memory[GM_MEMORY_STAMP];
 }
 
 /* unknowns -= share * change; the largest weighted relative change */
-static double move(const struct gm_step_equations *equations, const double *change, double share,
-                   double *unknowns)
+static double move(struct gm_mesh_solver *solver, const double *change, double share)
 {
-    double largest = 0, sum = 0;
-    const size_t width = equations->per_node;
-    for (size_t k = 0; k < equations->nodes; k++) {
+    double *unknowns = solver->unknowns, largest = 0, sum = 0;
+    const size_t width = solver->per_node;
+    for (size_t k = 0; k < solver->mesh.points; k++) {
         for (size_t j = 0; j < width; j++) {
             const size_t i = k * width + j;
             unknowns[i] -= share * change[i];
-            const double size = equations->weights[j] * fabs(change[i]) / (1 + fabs(unknowns[i]));
+            const double size = solver->weights[j] * fabs(change[i]) / (1 + fabs(unknowns[i]));
             largest = size > largest ? size : largest;
             sum += size;
         }
@@ -158,18 +246,17 @@ static double move(const struct gm_step_equations *equations, const double *chan
 enum outcome { SOLVED, TANGLED, DIVERGED };
 
 /* Newton's iteration with the factors at hand, from solver->unknowns. */
-static enum outcome iterate(struct gm_solver *solver, const struct gm_step_equations *equations,
-                            double *memory, const double *state, struct gm_progress *progress)
+static enum outcome iterate(struct gm_mesh_solver *solver, double *memory, struct gm_progress *progress)
 {
-    bool fresh = memory[GM_MEMORY_STAMP] == 0 || memory[GM_MEMORY_SLOW] != 0, refreshed = false;
+    bool fresh = memory[MEMORY_STAMP] == 0 || memory[MEMORY_SLOW] != 0, refreshed = false;
     double before = INFINITY;
     for (int iteration = 1; iteration <= SIMPLIFIED; iteration++) {
         progress->evaluations++;
-        if (!equations->residual(equations->self, solver->unknowns, solver->residual)) {
+        if (!residual_at(solver, solver->unknowns)) {
             return TANGLED;
         }
         if (fresh) {
-            if (!refresh(solver, equations, memory, state, solver->unknowns)) {
+            if (!refresh(solver, memory)) {
                 return DIVERGED;
             }
             fresh = false;
@@ -179,13 +266,13 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_step_equat
         gm_banded_solve(&solver->matrix, solver->residual);
         progress->solves++;
         progress->iterations++;
-        const double change = move(equations, solver->residual, 1, solver->unknowns);
+        const double change = move(solver, solver->residual, 1);
         const double ratio = change / before;
         /* what is left after this change is about ratio / (1 - ratio) of it */
-        const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(equations);
-        if (stands || change < enough(equations) ||
+        const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(solver);
+        if (stands || change < enough(solver) ||
             (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {
-            memory[GM_MEMORY_SLOW] = iteration > MANY && !stands;
+            memory[MEMORY_SLOW] = iteration > MANY && !stands;
             return SOLVED;
         }
         if (!(change < INFINITY)) {
@@ -203,18 +290,17 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_step_equat
 }
 
 /* Newton's iteration with a new matrix every time; a step is shortened until every cell is positive. */
-static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_step_equations *equations,
-                                  double *memory, const double *state, struct gm_progress *progress)
+static enum outcome iterate_fully(struct gm_mesh_solver *solver, double *memory, struct gm_progress *progress)
 {
     const size_t n = solver->matrix.n;
     enum outcome failure = DIVERGED;
     progress->evaluations++;
-    if (!equations->residual(equations->self, solver->unknowns, solver->residual)) {
+    if (!residual_at(solver, solver->unknowns)) {
         return TANGLED;
     }
     double before = INFINITY;
     for (int iteration = 1; iteration <= FULL; iteration++) {
-        if (!refresh(solver, equations, memory, state, solver->unknowns)) {
+        if (!refresh(solver, memory)) {
             return failure;
         }
         gm_banded_solve(&solver->matrix, solver->residual);
@@ -223,15 +309,15 @@ static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_step
         memcpy(solver->trial, solver->residual, n * sizeof *solver->trial);
         double share = 1;
         for (int halving = 0;; halving++) {
-            const double change = move(equations, solver->trial, share, solver->unknowns);
+            const double change = move(solver, solver->trial, share);
             if (!(change < INFINITY)) {
                 return failure;
             }
             progress->evaluations++;
-            if (equations->residual(equations->self, solver->unknowns, solver->residual)) {
+            if (residual_at(solver, solver->unknowns)) {
                 if (share == 1 &&
-                    (change < enough(equations) || (change > before / 2 && change < stagnation(equations)))) {
-                    memory[GM_MEMORY_SLOW] = 0;
+                    (change < enough(solver) || (change > before / 2 && change < stagnation(solver)))) {
+                    memory[MEMORY_SLOW] = 0;
                     return SOLVED;
                 }
                 before = change;
@@ -242,34 +328,35 @@ static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_step
                 return failure;
             }
             /* back, and half as far */
-            move(equations, solver->trial, -share, solver->unknowns);
+            move(solver, solver->trial, -share);
             share /= 2;
         }
     }
     return failure;
 }
 
-static void remember(struct gm_solver *solver, double *memory)
+static void remember(struct gm_mesh_solver *solver, double *memory)
 {
     const size_t n = solver->matrix.n;
     memmove(past(memory, n, 1), past(memory, n, 0), (PAST - 1) * n * sizeof *memory);
     memcpy(past(memory, n, 0), solver->unknowns, n * sizeof *memory);
-    memory[GM_MEMORY_PAST] = fmin(PAST, memory[GM_MEMORY_PAST] + 1);
+    memory[MEMORY_PAST] = fmin(PAST, memory[MEMORY_PAST] + 1);
 }
 
-enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_step_equations *equations,
-                               double *memory, const double *state, struct gm_progress *progress)
+/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products beside them,
+   and remembers. */
+static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const double *state, double h,
+                            struct gm_progress *progress)
 {
-    const size_t n = solver->matrix.n;
-    const size_t known = (size_t)memory[GM_MEMORY_PAST];
-    restore(solver, equations, memory);
-    equations->place(equations->self, state, equations->step);
-    extrapolate(equations, memory, n, known, solver->unknowns);
-    enum outcome outcome = iterate(solver, equations, memory, state, progress);
+    const size_t known = (size_t)memory[MEMORY_PAST];
+    restore(solver, memory);
+    place(solver, state, h);
+    extrapolate(solver, memory, known);
+    enum outcome outcome = iterate(solver, memory, progress);
     bool tangled = false;
     for (size_t order = known; outcome != SOLVED; order--) {
-        extrapolate(equations, memory, n, order, solver->unknowns);
-        outcome = iterate_fully(solver, equations, memory, state, progress);
+        extrapolate(solver, memory, order);
+        outcome = iterate_fully(solver, memory, progress);
         tangled |= outcome == TANGLED;
         if (order <= 1) {
             break;
@@ -280,6 +367,57 @@ enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_step_eq
     }
     remember(solver, memory);
     progress->evaluations++;
-    return equations->residual(equations->self, solver->unknowns, solver->residual) ? GM_OK
-                                                                                    : GM_MESH_CROSSING;
+    return residual_at(solver, solver->unknowns) ? GM_OK : GM_MESH_CROSSING;
+}
+
+/* The end of the step, from the solved stages, into `state`, where its start is. */
+static enum gm_status finish(struct gm_mesh_solver *solver, double *state, double *multiplier, double limit)
+{
+    const size_t points = solver->mesh.points, moves = solver->row->strategy->projected;
+    const struct gm_elements *end = solver->row->strategy->end(solver, multiplier);
+    if (!end) {
+        return GM_MESH_CROSSING;
+    }
+    if (!gm_nodes_project(end, &solver->projection, moves, solver->motion)) {
+        return GM_NO_CONVERGENCE;
+    }
+    for (size_t k = 0; k < points; k++) {
+        state[k] = end->y[k + 1];
+        state[points + k] = end->x[k + 1];
+        state[2 * points + k] = solver->motion[moves * k];
+        state[3 * points + k] = moves > 1 ? solver->motion[moves * k + 1] : 0;
+    }
+    for (size_t i = 0; i < 4 * points; i++) {
+        if (!(fabs(state[i]) <= limit)) {
+            return GM_BLOW_UP;
+        }
+    }
+    return GM_OK;
+}
+
+struct gm_progress gm_mesh_loop(const struct gm_task *task)
+{
+    struct gm_mesh_solver *solver = task->workspace;
+    const struct gm_mesh_strategy *strategy = solver->row->strategy;
+    double *memory = task->memory_out, *state = task->out;
+    struct gm_progress progress = {.status = GM_OK};
+    solver->noise = DBL_EPSILON * solver->mesh.length / fabs(task->dt);
+    for (size_t i = 0; i < solver->per_node; i++) {
+        solver->weights[i] = strategy->weight ? strategy->weight(solver->stages, i, fabs(task->dt)) : 1;
+    }
+    if (state != task->y) {
+        memcpy(state, task->y, task->problem->n * sizeof *state);
+        memcpy(memory, task->memory, gm_mesh_memory(task->problem, task->scheme) * sizeof *memory);
+    }
+    while (progress.done < task->steps) {
+        progress.status = solve(solver, memory, state, task->dt, &progress);
+        if (progress.status == GM_OK) {
+            progress.status = finish(solver, state, &memory[MEMORY_MULTIPLIER], task->limit);
+        }
+        if (progress.status != GM_OK) {
+            break;
+        }
+        progress.done++;
+    }
+    return progress;
 }

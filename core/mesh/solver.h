@@ -2,59 +2,78 @@
 #ifndef GM_CORE_MESH_SOLVER_H
 #define GM_CORE_MESH_SOLVER_H
 
-#include "core/linear/banded.h"
-#include "core/problem.h"
+#include "core/mesh/nodes.h"
+#include "core/mesh/tableau.h"
+#include "core/scheme.h"
 
-/* The non-linear equations of one step, shared by the families on meshes: `per_node` unknowns at every node,
-   node by node, so that matrices are banded.
+/* The steps of all schemes on meshes: the same number of unknowns at every node, node by node, so that matrices are
+   banded. A strategy says which equations they meet.
 
    The LU factors are kept over iterations and steps until they converge too slowly. They are derived data:
    what they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed
    makes the same factors again and goes on with the same bits. First guesses are extrapolated from the last
    six steps. */
 
-struct gm_step_equations {
-    void *self;
-    size_t nodes, per_node, state; /* state: numbers of the canonical state */
-    double noise;                  /* change of the unknowns that round-off alone makes */
-    const double *weights;         /* per_node, of a change of an unknown in the test of convergence */
-    double step;
-    /* takes the state that a step of this length starts from */
-    void (*place)(void *self, const double *state, double step);
+struct gm_mesh_solver;
+
+struct gm_mesh_strategy {
+    enum gm_mesh_kind kind;
+    size_t unknowns; /* at a node, of each stage */
+    size_t
+        projected; /* unknowns at a node in the projection of momenta to velocities, as gm_nodes_project has them */
+    /* of a change of an unknown of a node in the test of convergence; NULL: 1 */
+    double (*weight)(size_t stages, size_t unknown, double step);
     /* the unknowns of a scheme that has no past */
-    void (*guess)(void *self, double *unknowns);
+    void (*guess)(const struct gm_mesh_solver *solver, double *unknowns);
     /* false: a cell is not positive */
-    bool (*residual)(void *self, const double *unknowns, double *residual);
-    /* adds the derivative of the residual, at the unknowns of the last call of it, to a zero matrix */
-    void (*jacobian)(void *self, const double *unknowns, struct gm_banded *matrix);
+    bool (*residual)(struct gm_mesh_solver *solver, const double *unknowns, double *residual);
+    /* adds the derivative of the residual by the unknowns of one element, where they were at the last call of it */
+    void (*jacobian)(struct gm_mesh_solver *solver, const struct gm_assembly *assembly);
+    /* The end of the step: the elements there, with the momenta at them in solver->motion; and the largest multiplier.
+       NULL: the mesh is tangled. */
+    struct gm_elements *(*end)(struct gm_mesh_solver *solver, double *multiplier);
 };
 
-struct gm_solver {
-    struct gm_banded matrix;
-    double stamp; /* of the factors it holds; 0: none */
+/* A row of the families: a strategy, and the coefficients of its stages. */
+struct gm_mesh_row {
+    const struct gm_mesh_strategy *strategy;
+    const struct gm_tableau *tableau; /* NULL: the strategy has its own, with one stage */
+    double kappa[GM_STAGES];          /* a kappa = 0 */
+    double left[GM_STAGES];           /* left^T abar = 0 */
+};
+
+/* The workspace. */
+struct gm_mesh_solver {
+    struct gm_mesh mesh;
+    const struct gm_mesh_row *row;
+    size_t stages, per_node;
+    /* of the step that is solved: its length, its start, and the momenta there, y and X node by node */
+    double h;
+    const double *state;
+    double *momenta;
+    struct gm_elements ends; /* the start, then the end */
+    struct gm_elements stage[GM_STAGES];
+    struct gm_banded matrix, projection;
+    struct gm_banded places; /* N, for the mesh at the end */
+    double stamp;            /* of the factors it holds; 0: none */
+    double noise;            /* change of the unknowns that round-off alone makes */
+    double weights[3 * GM_STAGES];
     double *unknowns, *residual, *trial;
+    double *motion;                   /* at the end: momenta, then velocities */
+    double *forces[GM_STAGES];        /* y and X, node by node */
+    double *slack, *share[GM_STAGES]; /* of the elements, of unknowns at the nodes (gm_nodes_spread) */
 };
 
-/* Where things are in a scheme's memory. */
-enum {
-    GM_MEMORY_PAST,       /* how many steps are remembered, at most 6 */
-    GM_MEMORY_STAMP,      /* factorisations so far: a name for the present factors */
-    GM_MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors are made again */
-    GM_MEMORY_MULTIPLIER, /* largest multiplier of the last step */
-    GM_MEMORY_STEP,       /* length of the step that the factors were made for */
-    GM_MEMORY_HEAD,       /* then 6 past unknowns, newest first, then state and unknowns of the factors */
-};
+/* The largest of these unknowns of a node, numbered from 0. */
+double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown);
 
-size_t gm_solver_memory(size_t nodes, size_t per_node, size_t state);
-bool gm_solver_open(struct gm_solver *solver, size_t nodes, size_t per_node, size_t band);
-void gm_solver_close(struct gm_solver *solver);
-
-/* A memory without a past. */
-void gm_solver_start(struct gm_solver *solver, double *memory);
-
-/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products
-   there, and remembers. Counts into progress. */
-enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_step_equations *equations,
-                               double *memory, const double *state, struct gm_progress *progress);
+/* What the families have in common. */
+size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
+enum gm_status gm_mesh_restart(const struct gm_task *task);
+/* In place if task->out is task->y. */
+struct gm_progress gm_mesh_loop(const struct gm_task *task);
+void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_mesh_workspace_close(void *workspace);
+void gm_mesh_workspace_reset(void *workspace);
 
 #endif

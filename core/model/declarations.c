@@ -131,6 +131,7 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
         struct gm_system_variable *variable = &reading->system->variables[i];
         pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
         entry->value = value;
+        variable->start_place = entry->place;
         variable->text = gm_reading_text(reading, value);
     }
     if (is_list &&

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_SYSTEM_DECLARED_H
-#define GM_CORE_SYSTEM_DECLARED_H
+#ifndef GM_CORE_MODEL_DECLARATIONS_H
+#define GM_CORE_MODEL_DECLARATIONS_H
 
 #include "core/model/scope.h"
 

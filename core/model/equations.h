@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The equations of motion of a system, and whether what its file says of it is so. */
-#ifndef GM_CORE_SYSTEM_EQUATIONS_H
-#define GM_CORE_SYSTEM_EQUATIONS_H
+#ifndef GM_CORE_MODEL_EQUATIONS_H
+#define GM_CORE_MODEL_EQUATIONS_H
 
 #include "core/model/system.h"
 

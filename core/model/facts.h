@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The structure that a system has, found in its formulas. */
-#ifndef GM_CORE_SYSTEM_FACTS_H
-#define GM_CORE_SYSTEM_FACTS_H
+#ifndef GM_CORE_MODEL_FACTS_H
+#define GM_CORE_MODEL_FACTS_H
 
 #include "core/model/system.h"
 

@@ -3,60 +3,33 @@
 #include "core/model/options.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/nearest.h"
 
-enum {
-    OBSERVE = 1 << 0,
-    INVARIANT = 1 << 1,
-    GRAPH = 1 << 2,
-    LEVEL = 1 << 3,
-    WORK = 1 << 4,
-    STABILITY = 1 << 5,
-    ENERGY = 1 << 6
-};
+/* The lines that an option may stand on: a bit for each word. */
+#define LINE(word) (UINT64_C(1) << GM_WORD_##word)
 
 static const struct row {
     const char *word;
     enum { NOTHING, TEXT, NUMBER, NUMBERS, RANGE, FORMULA, NAMED_FORMULA } follows;
-    unsigned lines;
+    uint64_t lines;
 } rows[GM_OPTIONS] = {
 #define GM_OPTION(constant, word, follows, lines) {word, follows, lines},
 #include "core/model/option_words.def"
 #undef GM_OPTION
 };
 
-static unsigned lines_of(enum gm_system_word word)
-{
-    switch (word) {
-    case GM_WORD_OBSERVE:
-        return OBSERVE;
-    case GM_WORD_INVARIANT:
-    case GM_WORD_CASIMIR:
-        return INVARIANT;
-    case GM_WORD_HAMILTONIAN:
-        return ENERGY;
-    case GM_WORD_GRAPH:
-        return GRAPH;
-    case GM_WORD_LEVEL:
-        return LEVEL;
-    case GM_WORD_WORK:
-        return WORK;
-    default:
-        return STABILITY;
-    }
-}
-
 static const char *row_word(size_t i, const void *lines)
 {
-    return rows[i].lines & *(const unsigned *)lines ? rows[i].word : ""; /* no proposal */
+    return rows[i].lines & *(const uint64_t *)lines ? rows[i].word : ""; /* no proposal */
 }
 
 /* The row of a line's option whose word has these letters; GM_OPTIONS: there is none. */
-static size_t find_row(unsigned lines, const char *word, size_t letters)
+static size_t find_row(uint64_t lines, const char *word, size_t letters)
 {
     size_t row = 0;
     while (row < GM_OPTIONS && (!(rows[row].lines & lines) || strlen(rows[row].word) != letters ||
@@ -142,7 +115,7 @@ static bool read_value(struct gm_reading *reading, struct gm_system_option *opti
 
 static bool read_option(struct gm_reading *reading, struct gm_system_item *item, struct gm_span piece)
 {
-    const unsigned lines = lines_of(item->word);
+    const uint64_t lines = UINT64_C(1) << item->word;
     const char *text = reading->text + piece.begin;
     size_t letters = 0;
     while (piece.begin + letters < piece.end && !strchr(" \t\r\n", text[letters])) {
@@ -157,7 +130,7 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
         row = GM_OPTIONS; /* an integral holds always */
     }
     row = is_range ? find_row(lines, "range", 5) : row;
-    if (row == GM_OPTIONS && lines == STABILITY && !item->name[0] && some) { /* KEY and its values */
+    if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY and its values */
         free(item->name);
         item->name = gm_reading_text(reading, (struct gm_span){piece.begin, piece.begin + letters});
         row = GM_OPTION_VALUES;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_SYSTEM_OPTIONS_H
-#define GM_CORE_SYSTEM_OPTIONS_H
+#ifndef GM_CORE_MODEL_OPTIONS_H
+#define GM_CORE_MODEL_OPTIONS_H
 
 #include "core/model/scope.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Waves in a potential that somebody wrote, on whatever nodes. */
-#ifndef GM_CORE_SYSTEM_POTENTIAL_H
-#define GM_CORE_SYSTEM_POTENTIAL_H
+#ifndef GM_CORE_MODEL_POTENTIAL_H
+#define GM_CORE_MODEL_POTENTIAL_H
 
 #include "core/model/system.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_SYSTEM_SAID_H
-#define GM_CORE_SYSTEM_SAID_H
+#ifndef GM_CORE_MODEL_READER_H
+#define GM_CORE_MODEL_READER_H
 
 #include "core/model/system.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_SYSTEM_NAMES_H
-#define GM_CORE_SYSTEM_NAMES_H
+#ifndef GM_CORE_MODEL_SCOPE_H
+#define GM_CORE_MODEL_SCOPE_H
 
 #include "core/expression/lines.h"
 #include "core/model/system.h"

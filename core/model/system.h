@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system that somebody wrote down: what its file says, as formulas of one graph. docs/systems.md tells the
    words. */
-#ifndef GM_CORE_SYSTEM_SYSTEM_H
-#define GM_CORE_SYSTEM_SYSTEM_H
+#ifndef GM_CORE_MODEL_SYSTEM_H
+#define GM_CORE_MODEL_SYSTEM_H
 
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
@@ -48,7 +48,7 @@ struct gm_system_variable {
     /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
        was given. Else GM_NO_NODE. */
     gm_node_id start;
-    size_t start_place; /* of a component, where that stands in the text */
+    size_t start_place; /* where that stands in the text; of a parameter its name */
     gm_node_id force, exact;
     gm_node_id jump; /* of a component of matrices */
 };

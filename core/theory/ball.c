@@ -154,6 +154,15 @@ struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b)
     return combine(mpfr_mul, &a, &b, size_a * b.radius + size_b * a.radius + a.radius * b.radius);
 }
 
+struct gm_ball gm_ball_dot(const struct gm_ball *x, const struct gm_ball *y, int count)
+{
+    struct gm_ball sum = gm_ball_of(0);
+    for (int i = 0; i < count; i++) {
+        sum = gm_ball_add(sum, gm_ball_multiply(x[i], y[i]));
+    }
+    return sum;
+}
+
 /* At least, and at most, the size of what is in the ball. */
 static double least_size(struct gm_ball a)
 {

@@ -32,6 +32,8 @@ struct gm_ball gm_ball_pi(void);
 struct gm_ball gm_ball_add(struct gm_ball a, struct gm_ball b);
 struct gm_ball gm_ball_subtract(struct gm_ball a, struct gm_ball b);
 struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b);
+/* x' y */
+struct gm_ball gm_ball_dot(const struct gm_ball *x, const struct gm_ball *y, int count);
 /* Where b may vanish, and where a function is asked for beyond the numbers that it knows, nothing is known of
    the result: its radius is infinite. */
 struct gm_ball gm_ball_divide(struct gm_ball a, struct gm_ball b);

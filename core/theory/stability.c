@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/theory/polynomial.h"
 
@@ -44,9 +45,7 @@ static bool multiply_determinant(int s, const struct gm_ball *m, int stride, str
             }
             trace = gm_ball_add(trace, next[i * s + i]);
         }
-        for (int i = 0; i < s * s; i++) {
-            x[i] = next[i];
-        }
+        memcpy(x, next, (size_t)s * (size_t)s * sizeof *x);
         block.at[k] = gm_ball_multiply(trace, gm_ball_ratio(-1, k));
     }
     const bool fits = gm_polynomial_add_product(&product, gm_ball_of(1), p, &block);
@@ -118,19 +117,12 @@ static void of_explicit(const struct gm_coefficients *coefficients, struct gm_ba
         x[i] = gm_ball_of(1);
     }
     for (int k = 1; k <= s; k++) {
-        struct gm_ball sum = gm_ball_of(0);
-        for (int i = 0; i < s; i++) {
-            sum = gm_ball_add(sum, gm_ball_multiply(coefficients->b[0][i], x[i]));
-            next[i] = gm_ball_of(0);
-            for (int j = 0; j < i; j++) {
-                next[i] = gm_ball_add(next[i], gm_ball_multiply(coefficients->a[0][i * s + j], x[j]));
-            }
-        }
-        p->at[k] = sum;
+        p->at[k] = gm_ball_dot(coefficients->b[0], x, s);
         p->degree = k;
         for (int i = 0; i < s; i++) {
-            x[i] = next[i];
+            next[i] = gm_ball_dot(coefficients->a[0] + i * s, x, i);
         }
+        memcpy(x, next, (size_t)s * sizeof *x);
     }
 }
 

@@ -70,16 +70,6 @@ static struct gm_ball *outer(const struct weights *weights, int tree)
     return inner(weights, tree) + weights->stages;
 }
 
-/* x' y */
-static struct gm_ball product(const struct gm_ball *x, const struct gm_ball *y, int count)
-{
-    struct gm_ball sum = gm_ball_of(0);
-    for (int i = 0; i < count; i++) {
-        sum = gm_ball_add(sum, gm_ball_multiply(x[i], y[i]));
-    }
-    return sum;
-}
-
 static void weigh(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                   const struct weights *weights, int tree)
 {
@@ -106,8 +96,9 @@ static struct gm_ball residual(const struct gm_coefficients *coefficients, const
                                const struct weights *weights, int tree)
 {
     const struct gm_tree *this = &trees->trees[tree];
-    return gm_ball_subtract(product(coefficients->b[this->side], inner(weights, tree), coefficients->stages),
-                            gm_ball_ratio(1, (long)gm_tree_density(this)));
+    return gm_ball_subtract(
+        gm_ball_dot(coefficients->b[this->side], inner(weights, tree), coefficients->stages),
+        gm_ball_ratio(1, (long)gm_tree_density(this)));
 }
 
 /* Whether a residual is more than the doubts of the decimals make of it together, each by what its half unit
@@ -167,8 +158,8 @@ static bool is_symplectic_to(const struct gm_coefficients *coefficients, const s
     for (int u = 0; u < trees->first[order]; u++) {
         const int rest = order - trees->trees[u].order;
         for (int v = trees->first[rest]; v < trees->first[rest + 1] && v <= u; v++) {
-            struct gm_ball defect = gm_ball_multiply(product(b, inner(weights, u), stages),
-                                                     product(b, inner(weights, v), stages));
+            struct gm_ball defect = gm_ball_multiply(gm_ball_dot(b, inner(weights, u), stages),
+                                                     gm_ball_dot(b, inner(weights, v), stages));
             for (int i = 0; i < stages; i++) {
                 const struct gm_ball both =
                     gm_ball_add(gm_ball_multiply(inner(weights, u)[i], outer(weights, v)[i]),
@@ -421,13 +412,13 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
     bool in_b = true, in_c = true, in_d = true;
     for (int k = 1; k <= 2 * s + 1 && (in_b || in_c || in_d); k++) {
         const struct gm_ball part = gm_ball_ratio(1, k);
-        const struct gm_ball defect = gm_ball_subtract(product(b, power, s), part);
+        const struct gm_ball defect = gm_ball_subtract(gm_ball_dot(b, power, s), part);
         *residual = in_b ? gm_ball_midpoint(defect) : *residual;
         in_b = in_b && gm_ball_may_vanish(defect);
         for (int j = 0; j < s; j++) {
-            struct gm_ball row = gm_ball_of(0), column = gm_ball_of(0);
+            const struct gm_ball row = gm_ball_dot(coefficients->a[0] + j * s, power, s);
+            struct gm_ball column = gm_ball_of(0);
             for (int i = 0; i < s; i++) {
-                row = gm_ball_add(row, gm_ball_multiply(at(coefficients, 0, j, i), power[i]));
                 column = gm_ball_add(
                     column, gm_ball_multiply(gm_ball_multiply(b[i], power[i]), at(coefficients, 0, i, j)));
             }

@@ -505,3 +505,7 @@ def test_example_in_jupyter(tmp_path):
     shown = [output["data"] for cell in json.loads(done.read_text())["cells"]
              for output in cell.get("outputs", []) if "data" in output]
     assert any("image/png" in data for data in shown)
+    subprocess.run([sys.executable, "-m", "nbconvert", "--to", "html", "--output", tmp_path / "done.html", done],
+                   check=True, timeout=300)
+    page = (tmp_path / "done.html").read_text()
+    assert "<svg" in page and "<?xml" not in page

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_LAYOUT_FRAME_H
-#define GM_RENDER_LAYOUT_FRAME_H
+#ifndef GM_RENDER_LAYOUT_AXES_H
+#define GM_RENDER_LAYOUT_AXES_H
 
 #include "render/layout/labels.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_CAMERA_H
-#define GM_SCENES_FRAME_CAMERA_H
+#ifndef GM_SCENES_COMMON_CAMERA_H
+#define GM_SCENES_COMMON_CAMERA_H
 
 #include "render/picture/picture.h"
 #include "scenes/common/rows.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_CROSSING_H
-#define GM_SCENES_FRAME_CROSSING_H
+#ifndef GM_SCENES_COMMON_CROSSING_H
+#define GM_SCENES_COMMON_CROSSING_H
 
 #include "scenes/common/scene.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_ENTRIES_H
-#define GM_SCENES_FRAME_ENTRIES_H
+#ifndef GM_SCENES_COMMON_ENTRIES_H
+#define GM_SCENES_COMMON_ENTRIES_H
 
 #include "scenes/common/scene.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_GRAPH_H
-#define GM_SCENES_FRAME_GRAPH_H
+#ifndef GM_SCENES_COMMON_GRAPH_H
+#define GM_SCENES_COMMON_GRAPH_H
 
 #include "scenes/common/lane.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_HISTORY_H
-#define GM_SCENES_FRAME_HISTORY_H
+#ifndef GM_SCENES_COMMON_HISTORY_H
+#define GM_SCENES_COMMON_HISTORY_H
 
 #include <stdbool.h>
 #include <stddef.h>

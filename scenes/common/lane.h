@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_LANE_H
-#define GM_SCENES_FRAME_LANE_H
+#ifndef GM_SCENES_COMMON_LANE_H
+#define GM_SCENES_COMMON_LANE_H
 
 #include "scenes/common/entries.h"
 #include "scenes/common/history.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_LANE_PACK_H
-#define GM_SCENES_FRAME_LANE_PACK_H
+#ifndef GM_SCENES_COMMON_LANE_PACK_H
+#define GM_SCENES_COMMON_LANE_PACK_H
 
 #include "scenes/common/lane.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_PUBLISHED_H
-#define GM_SCENES_FRAME_PUBLISHED_H
+#ifndef GM_SCENES_COMMON_PUBLISHED_H
+#define GM_SCENES_COMMON_PUBLISHED_H
 
 #include <stdbool.h>
 #include <stddef.h>

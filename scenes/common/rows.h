@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_ROWS_H
-#define GM_SCENES_FRAME_ROWS_H
+#ifndef GM_SCENES_COMMON_ROWS_H
+#define GM_SCENES_COMMON_ROWS_H
 
 #include "core/basics.h"
 #include "core/parameter.h"

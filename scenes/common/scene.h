@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is: parameters, setup and start, observables, tracks, and the picture that is drawn of
    lanes. */
-#ifndef GM_SCENES_FRAME_SCENE_H
-#define GM_SCENES_FRAME_SCENE_H
+#ifndef GM_SCENES_COMMON_SCENE_H
+#define GM_SCENES_COMMON_SCENE_H
 
 #include "core/run.h"
 #include "render/message.h"

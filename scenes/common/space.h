@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_SPACE_H
-#define GM_SCENES_FRAME_SPACE_H
+#ifndef GM_SCENES_COMMON_SPACE_H
+#define GM_SCENES_COMMON_SPACE_H
 
 #include "scenes/common/camera.h"
 

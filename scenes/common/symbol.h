@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names as pictures write them. */
-#ifndef GM_SCENES_FRAME_SYMBOL_H
-#define GM_SCENES_FRAME_SYMBOL_H
+#ifndef GM_SCENES_COMMON_SYMBOL_H
+#define GM_SCENES_COMMON_SYMBOL_H
 
 #include <stddef.h>
 

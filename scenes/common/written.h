@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FRAME_WRITTEN_H
-#define GM_SCENES_FRAME_WRITTEN_H
+#ifndef GM_SCENES_COMMON_WRITTEN_H
+#define GM_SCENES_COMMON_WRITTEN_H
 
 #include "core/model/system.h"
 #include "scenes/common/scene.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FIELD_OWN_H
-#define GM_SCENES_FIELD_OWN_H
+#ifndef GM_SCENES_FIELD_USER_FIELD_H
+#define GM_SCENES_FIELD_USER_FIELD_H
 
 #include "core/model/system.h"
 #include "scenes/common/scene.h"

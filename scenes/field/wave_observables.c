@@ -42,6 +42,6 @@ double gm_unit_momentum(const void *parameters)
     return (void)parameters, 1;
 }
 
-const char *const gm_wave_schemes[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
-                                       "midpoint-box", "gauss-box2",        "gauss-box3", "lobatto-box2",
-                                       "lobatto-box4", "lobatto-nystrom4",  NULL};
+const char *const gm_wave_schemes[] = {
+    "leapfrog",   "energy-conserving", "box",          "euler-box",        "midpoint-box",
+    "gauss-box3", "lobatto-box2",      "lobatto-box4", "lobatto-nystrom4", NULL};

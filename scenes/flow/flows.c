@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/files/files.h"
-#include "core/linear/cholesky.h"
 #include "render/files/regular_file.h"
 
 #define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
@@ -109,34 +108,7 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     }
 }
 
-void gm_flows_follow(struct gm_flows *flows, struct gm_rectangle r, const char *const *keys, size_t count)
-{
-    long *edges = r.transposed ? &flows->rows : &flows->columns;
-    long *strips = r.transposed ? &flows->columns : &flows->rows;
-    const bool rows = gm_is_given("rows", keys, count), columns = gm_is_given("columns", keys, count);
-    r.strips = *strips;
-    if (rows != columns && rows == r.transposed && r.strips > 0) { /* 0: the best of every resolution */
-        *strips = gm_rectangle_strips(r.width, r.height, *edges, r.transposed);
-    } else if (rows != columns && r.strips > 0) {
-        *edges = gm_rectangle_edges(&r);
-    }
-}
-
-bool gm_flows_settle_columns(void *self, const char *const *keys, size_t count, char *sentence)
-{
-    (void)sentence;
-    gm_flows_follow(self, (struct gm_rectangle){.width = 1, .height = 1}, keys, count);
-    return true;
-}
-
-bool gm_flows_settle_rows(void *self, const char *const *keys, size_t count, char *sentence)
-{
-    (void)sentence;
-    gm_flows_follow(self, (struct gm_rectangle){.width = 1, .height = 1, .transposed = true}, keys, count);
-    return true;
-}
-
-struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
+struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     const long best =
         gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
@@ -157,13 +129,8 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
     struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
     if (!complex) {
         explain("the mesh", &fault, sentence);
-        return NULL;
     }
-    struct gm_flow *flow = gm_flow_open(complex);
-    if (!flow) {
-        gm_refuse(sentence, "not enough memory");
-    }
-    return flow;
+    return complex;
 }
 
 bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
@@ -206,20 +173,6 @@ bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_
     }
     if (!good) {
         gm_triangulation_close(mesh);
-    }
-    return good;
-}
-
-bool gm_flows_readable(const void *parameters, char *sentence)
-{
-    const struct gm_flows *flows = parameters;
-    struct gm_triangulation mesh;
-    if (strcmp(flows->mesh, "none") == 0) {
-        return true;
-    }
-    const bool good = gm_flows_file(flows->mesh, NULL, (enum gm_star)flows->star, &mesh, sentence);
-    if (good) {
-        gm_triangulation_close(&mesh);
     }
     return good;
 }
@@ -272,13 +225,11 @@ long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const 
 
 const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 
-bool gm_flows_outlet(const char *text, enum gm_vertex_kind standard, enum gm_vertex_kind *kind, char *group,
-                     char *sentence)
+bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, char *sentence)
 {
     static const enum gm_vertex_kind kinds[] = {GM_VERTEX_SOFT, GM_VERTEX_FIXED, GM_VERTEX_OPEN};
     const char *colon = strrchr(text, ':'), *name = colon ? colon + 1 : text;
     snprintf(group, GM_TEXT_SIZE, "%s", "outlet");
-    *kind = standard;
     for (size_t i = 0; gm_flows_outlets[i]; i++) {
         if (strcmp(name, gm_flows_outlets[i]) == 0) {
             *kind = kinds[i];
@@ -298,67 +249,21 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind standard, enum gm_ver
 
 bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
 {
-    switch (fault) {
-    case GM_BOUNDARY_OK:
-        return true;
-    case GM_BOUNDARY_MEMORY:
-        return gm_refuse(sentence, "not enough memory");
-    case GM_BOUNDARY_NO_INLET:
-        return gm_refuse(sentence, "the mesh has an outlet but no inlet");
-    case GM_BOUNDARY_NO_OUTLET:
-        return gm_refuse(sentence, "the mesh has an inlet but no outlet");
-    case GM_BOUNDARY_SHORT:
-        return gm_refuse(
-            sentence,
-            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)");
-    case GM_BOUNDARY_WHOLE:
-        return gm_refuse(sentence, "the whole boundary is inlet or outlet");
-    case GM_BOUNDARY_IN_HOLE:
-        return gm_refuse(sentence,
-                         "an inlet or an outlet is on the wall of a hole; they must be in the outer wall");
-    case GM_BOUNDARY_UNBALANCED:
-        return gm_refuse(sentence, "all flows are given, and what enters does not leave");
-    case GM_BOUNDARY_PROFILE:
-        return gm_refuse(sentence, "no more enters by the profile of an inlet than leaves by it");
-    case GM_BOUNDARY_BACKWARDS:
-        return gm_refuse(sentence, "the outlets with a given flow take more than enters");
-    case GM_BOUNDARY_OVERFLOW:
-        return gm_refuse(sentence, "what enters or leaves is too much for a number");
-    }
-    return false;
-}
-
-bool gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name, char *sentence)
-{
-    const char *missing = gm_cholesky_missing();
-    if (missing) {
-        gm_flow_close(flow);
-        return gm_refuse(sentence, "the equations of a flow are solved by SuiteSparse: %s", missing);
-    }
-    *problem = (struct gm_problem){
-        .name = name, .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
-    return true;
-}
-
-void gm_flows_close(struct gm_problem *problem)
-{
-    gm_flow_close((struct gm_flow *)(uintptr_t)gm_flow_of(problem));
-    problem->parameters = NULL;
-}
-
-const double gm_flows_courant_numbers[GM_FLOWS_COURANT_NUMBERS] = {0.5, 1, 2, 5, 10, 20, 50, 100};
-const char *const gm_flows_marching[] = {"semi-implicit", "crank-nicolson", NULL};
-
-double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
-{
-    struct gm_problem problem = {0};
-    char sentence[GM_MESSAGE];
-    if (!setup(parameters, &problem, sentence)) {
-        return NAN;
-    }
-    const double time = gm_flow_of(&problem)->complex->mean_edge / gm_flow_of(&problem)->time_unit;
-    gm_flows_close(&problem);
-    return time;
+    static const char *const sentences[] = {
+        [GM_BOUNDARY_MEMORY] = "not enough memory",
+        [GM_BOUNDARY_NO_INLET] = "the mesh has an outlet but no inlet",
+        [GM_BOUNDARY_NO_OUTLET] = "the mesh has an inlet but no outlet",
+        [GM_BOUNDARY_SHORT] =
+            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)",
+        [GM_BOUNDARY_WHOLE] = "the whole boundary is inlet or outlet",
+        [GM_BOUNDARY_IN_HOLE] =
+            "an inlet or an outlet is on the wall of a hole; they must be in the outer wall",
+        [GM_BOUNDARY_UNBALANCED] = "all flows are given, and what enters does not leave",
+        [GM_BOUNDARY_PROFILE] = "no more enters by the profile of an inlet than leaves by it",
+        [GM_BOUNDARY_BACKWARDS] = "the outlets with a given flow take more than enters",
+        [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
+    };
+    return fault == GM_BOUNDARY_OK || gm_refuse(sentence, "%s", sentences[fault]);
 }
 
 const char *gm_flows_idle(const void *parameters, const char *key)
@@ -373,36 +278,4 @@ const char *gm_flows_idle(const void *parameters, const char *key)
         }
     }
     return NULL;
-}
-
-void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2])
-{
-    const int *edge = complex->edge + 2 * complex->boundary_edge[boundary_edge];
-    for (int c = 0; c < 2; c++) {
-        middle[c] = (complex->point[2 * edge[0] + c] + complex->point[2 * edge[1] + c]) / 2;
-    }
-}
-
-unsigned char *gm_flows_sides(const struct gm_flow *flow, unsigned char (*side)(const double middle[2]),
-                              char *sentence)
-{
-    const size_t count = flow->complex->boundary;
-    unsigned char *sides = calloc(count, 1);
-    for (size_t b = 0; sides && b < count; b++) {
-        double middle[2];
-        gm_flows_middle(flow->complex, b, middle);
-        sides[b] = side(middle);
-    }
-    if (!sides) {
-        gm_refuse(sentence, "not enough memory");
-    }
-    return sides;
-}
-
-void gm_flows_start(const void *parameters, const struct gm_problem *problem, double *y)
-{
-    (void)parameters;
-    if (!gm_flow_start_irrotational(gm_flow_of(problem), y)) {
-        memset(y, 0, problem->n * sizeof *y);
-    }
 }

@@ -67,13 +67,6 @@ static void colour_range(struct gm_picture *picture, const struct gm_lane *const
     const struct gm_flows *flows = lanes[0]->parameters;
     *low = 0;
     *high = flows->show == GM_SHOW_SPEED ? look->speed_high : look->scalar_high;
-    if (flows->show == GM_SHOW_SCALAR && look->scalar_high == 0) {
-        *high = 0;
-        for (size_t i = 0; i < count; i++) {
-            *high = fmax(*high, ((const struct gm_flows *)lanes[i]->parameters)->inlet_scalar);
-        }
-        *high = *high > 0 ? *high : 1;
-    }
     if (flows->show == GM_SHOW_TEMPERATURE) {
         *low = look->temperature[0];
         *high = look->temperature[1];
@@ -246,7 +239,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         const size_t offset = look->told[i].offset;
         double value = 0;
         memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
-        if (is_common(lanes, count, offset)) {
+        if (is_common(lanes, count, offset) && !(look->told[i].nonzero && value == 0)) {
             const char *unit = look->told[i].unit ? look->told[i].unit : "";
             told = gm_picture_text(picture, "%s%s %.6g%s%s,  ", told, look->told[i].name, value,
                                    unit[0] ? " " : "", unit);
@@ -277,6 +270,9 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     double *points = gm_picture_memory(picture, 2 * (count + 1) * sizeof *points);
     for (int drawn = 0; points && drawn < 2; drawn++) {
         for (size_t k = 0; look->errors[k].observable; k++) {
+            if (gm_scene_observable(lanes[0]->scene, look->errors[k].observable) < 0) {
+                continue;
+            }
             const int series = gm_asked_series(picture, lanes[0]->scene, look->errors[k].observable);
             size_t made = 0;
             for (size_t i = 0; series >= 0 && i < count; i++) {
@@ -340,62 +336,6 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
         };
         gm_draw_graphs(picture, lanes, count, &graph, 1);
     }
-}
-
-static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         enum gm_place place, const struct gm_profile *line, bool scalar,
-                         double (*exact)(double), const char *label)
-{
-    enum { POINTS = 65 };
-    struct gm_panel *panel = gm_panel_add(picture, place, "");
-    double points[2 * POINTS];
-    panel->axes = true;
-    panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
-    panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
-    for (int drawn = 0; drawn < 2; drawn++) {
-        for (size_t i = 0; exact && i < POINTS; i++) {
-            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
-            points[2 * i] = exact(z);
-            points[2 * i + 1] = z;
-            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
-        }
-        if (drawn && exact) { /* broader than the lanes, which agree with it */
-            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 0.9, 7, GM_SOLID}, points, POINTS,
-                         false);
-        }
-        for (size_t k = 0; k < count; k++) {
-            size_t made = 0;
-            for (size_t i = 0; i < POINTS; i++) {
-                const double s = (double)i / (POINTS - 1), x = line->a[0] + s * (line->b[0] - line->a[0]);
-                const double z = line->a[1] + s * (line->b[1] - line->a[1]);
-                struct gm_sample sample;
-                if (gm_flow_sample(gm_flow_of(&lanes[k]->problem), gm_run_state(lanes[k]->run), x, z,
-                                   &sample)) {
-                    points[2 * made] = scalar ? sample.theta : sample.u;
-                    points[2 * made + 1] = z;
-                    if (!exact) {
-                        gm_range_add(&panel->x.low, &panel->x.high, points[2 * made]);
-                    }
-                    made++;
-                }
-            }
-            if (drawn) {
-                gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
-            }
-        }
-        if (!drawn && !exact) {
-            gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
-        }
-    }
-}
-
-void gm_flows_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
-                            double (*theta)(double))
-{
-    draw_profile(picture, lanes, count, place, line, false, velocity, "u");
-    draw_profile(picture, lanes, count, place, line, true, theta, "θ");
-    picture->caption = "Grey, broad: exact.";
 }
 
 /* The clock; none where there is no time: steady states. */

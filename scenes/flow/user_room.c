@@ -12,41 +12,9 @@
 
 #include "core/basics.h"
 #include "core/files/files.h"
-#include "scenes/flow/flows.h"
-
-/* What an observable of a room looks at. */
-struct subject {
-    size_t number; /* of the line, or of the hole */
-    double at[2];  /* of a probe */
-};
-
-enum { ROWS = 14, MOST_OBSERVED = GM_MOST_OBSERVABLES, UNIT = 96 /* bytes of one */ };
-
-struct gm_user_room {
-    struct gm_scene scene; /* first: a scene is found to be this */
-    struct gm_room room;
-    struct gm_flows initial;
-    char *path, *word, *mesh, *mark;
-    const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
-    const char *words[2];
-    struct gm_parameter rows[ROWS];
-    char numbers[4][40];
-    const char *sides[GM_ROOM_SIDES]; /* names, by the number of the side */
-    struct gm_observable observables[MOST_OBSERVED];
-    struct subject subjects[MOST_OBSERVED];
-    bool overfull;       /* there are more */
-    const char *doubled; /* a key that two of them have; NULL: none */
-    char scalar_titles[4][128], common_titles[4][128];
-    char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + UNIT]; /* keys and titles */
-    size_t observable_count;
-    const char *forces
-        [2]; /* on the first hole: what a room shows where no scalar is brought; NULL: it is, or no hole */
-};
-
-static const struct gm_user_room *rooms_of(const void *parameters)
-{
-    return ((const struct gm_flows *)parameters)->room;
-}
+#include "core/linear/cholesky.h"
+#include "scenes/flow/observables.h"
+#include "scenes/flow/room_lines.h"
 
 /* Powers of the units of length, time and temperature. */
 struct powers {
@@ -58,7 +26,7 @@ static const char *name_unit(const struct gm_user_room *user_room, struct powers
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
     static const int order[3] = {2, 0, 1};
-    char above[UNIT / 2] = "", below[UNIT / 2] = "";
+    char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
     for (int i = 0; i < 3; i++) {
         const char *at = user_room->room.units ? user_room->room.units : "";
         const int power = powers.of[order[i]];
@@ -78,69 +46,26 @@ static const char *name_unit(const struct gm_user_room *user_room, struct powers
                      raised[abs(power)]);
         }
     }
-    snprintf(name, UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
+    snprintf(name, GM_ROOM_UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
     return name;
 }
 
 /* " / (m/s)", behind what is measured in it. */
 static const char *beside_unit(const struct gm_user_room *user_room, struct powers powers, char *text)
 {
-    char unit[UNIT];
+    char unit[GM_ROOM_UNIT];
     name_unit(user_room, powers, unit);
     const bool alone = !strpbrk(unit, "/ ");
-    snprintf(text, UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit, alone ? "" : ")");
+    snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
+             alone ? "" : ")");
     return text;
 }
 
-static const struct subject *subject_of(const struct gm_view *view)
-{
-    const struct gm_user_room *user_room = rooms_of(view->parameters);
-    return &user_room->subjects[view->observable - user_room->observables];
-}
-
-static double sampled(const struct gm_view *view, struct gm_sample *sample)
-{
-    const struct subject *subject = subject_of(view);
-    return gm_flow_sample(gm_flow_of(view->problem), view->state, subject->at[0], subject->at[1], sample)
-               ? 0
-               : NAN;
-}
-
-static double probe_scalar(const struct gm_view *view)
-{
-    struct gm_sample sample = {0};
-    return sampled(view, &sample) + sample.theta;
-}
-
-static double probe_temperature(const struct gm_view *view)
-{
-    struct gm_sample sample = {0};
-    return sampled(view, &sample) + sample.temperature;
-}
-
-static double probe_speed(const struct gm_view *view)
-{
-    struct gm_sample sample = {0};
-    return sampled(view, &sample) + hypot(sample.u, sample.v);
-}
-
-static bool has_stepped(const struct gm_view *view)
-{
-    return view->run && view->run->steps > 0;
-}
-
-static double probe_pressure(const struct gm_view *view)
-{
-    const double *at = subject_of(view)->at;
-    double pressure;
-    return has_stepped(view) &&
-                   gm_flow_pressure_at(gm_flow_of(view->problem), view->state, at[0], at[1], &pressure)
-               ? pressure
-               : NAN;
-}
+/* What is observed of an opening, a probe, a wall and a hole. */
+enum local { FLOW, SCALAR_FLOW, SCALAR, SPEED, PRESSURE, TEMPERATURE, HEAT, DRAG, LIFT, CIRCULATION, LOCALS };
 
 /* Through the pieces of a side: air, or the scalar that goes with it. */
-static double through(const struct gm_view *view, bool scalar)
+static double through(const struct gm_view *view, size_t side, bool scalar)
 {
     const struct gm_flow *flow = gm_flow_of(view->problem);
     const struct gm_complex *complex = flow->complex;
@@ -149,7 +74,7 @@ static double through(const struct gm_view *view, bool scalar)
     for (size_t i = 0; i < flow->openings; i++) {
         const struct gm_opening *opening = &flow->opening[i];
         size_t e = opening->first;
-        for (size_t k = 0; opening->side == subject_of(view)->number && k < opening->count; k++) {
+        for (size_t k = 0; opening->side == side && k < opening->count; k++) {
             const size_t next = gm_complex_next(complex, e);
             const int v = complex->boundary_vertex[e], w = complex->boundary_vertex[next];
             const double out = view->state[w] - view->state[v], part = scalar ? (theta[v] + theta[w]) / 2 : 1;
@@ -160,55 +85,41 @@ static double through(const struct gm_view *view, bool scalar)
     return sum;
 }
 
-static double opening_flow(const struct gm_view *view)
+static double observe_local(const struct gm_view *view)
 {
-    return through(view, false);
-}
-
-static double opening_scalar_flow(const struct gm_view *view)
-{
-    return through(view, true);
-}
-
-static double wall_heat(const struct gm_view *view)
-{
-    return has_stepped(view) ? gm_flow_heat(gm_flow_of(view->problem), view->state, subject_of(view)->number)
-                             : NAN;
-}
-
-static double temperature_mean(const struct gm_view *view)
-{
-    return gm_flow_temperature_mean(gm_flow_of(view->problem), view->state);
-}
-
-static double force_on(const struct gm_view *view, int component)
-{
-    double force[2];
+    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
+    const struct gm_room_subject *subject = &user_room->subjects[view->observable - user_room->observables];
     const struct gm_flow *flow = gm_flow_of(view->problem);
-    return has_stepped(view) && gm_flow_force(flow, view->state, subject_of(view)->number, force)
-               ? force[component]
-               : NAN;
-}
-
-static double hole_drag(const struct gm_view *view)
-{
-    return force_on(view, 0);
-}
-
-static double hole_lift(const struct gm_view *view)
-{
-    return force_on(view, 1);
-}
-
-static double hole_circulation(const struct gm_view *view)
-{
-    return gm_flow_circulation(gm_flow_of(view->problem), view->state, subject_of(view)->number);
-}
-
-static bool read_mesh(const struct gm_user_room *user_room, const struct gm_flows *chosen,
-                      struct gm_triangulation *mesh, char *sentence)
-{
-    return gm_flows_file(user_room->mesh, user_room->inside, (enum gm_star)chosen->star, mesh, sentence);
+    const bool stepped = view->run && view->run->steps > 0;
+    struct gm_sample sample;
+    double force[2], pressure;
+    switch ((enum local)subject->what) {
+    case FLOW:
+    case SCALAR_FLOW:
+        return through(view, subject->number, subject->what == SCALAR_FLOW);
+    case SCALAR:
+    case SPEED:
+    case TEMPERATURE:
+        if (!gm_flow_sample(flow, view->state, subject->at[0], subject->at[1], &sample)) {
+            return NAN;
+        }
+        return subject->what == SCALAR  ? sample.theta
+               : subject->what == SPEED ? hypot(sample.u, sample.v)
+                                        : sample.temperature;
+    case PRESSURE:
+        return stepped && gm_flow_pressure_at(flow, view->state, subject->at[0], subject->at[1], &pressure)
+                   ? pressure
+                   : NAN;
+    case HEAT:
+        return stepped ? gm_flow_heat(flow, view->state, subject->number) : NAN;
+    case DRAG:
+    case LIFT:
+        return stepped && gm_flow_force(flow, view->state, subject->number, force)
+                   ? force[subject->what - DRAG]
+                   : NAN;
+    default:
+        return gm_flow_circulation(flow, view->state, subject->number);
+    }
 }
 
 /* What is wrong with the room, at its line; of its boundary as a whole, without one. Nothing where nothing is. */
@@ -224,43 +135,250 @@ static void tell(const struct gm_user_room *user_room, const struct gm_fault *fa
         gm_refuse(sentence, "%s", whole);
         return;
     }
-    gm_text_place(user_room->room.text, fault->offset, &line, &column);
-    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->path, line, column,
+    gm_text_place(user_room->file.text, fault->offset, &line, &column);
+    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column,
               whole[0] ? whole : fault->sentence);
 }
 
-static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+/* Whether the mesh is the room's rectangle, and no file that was named instead. */
+static bool has_rectangle(const struct gm_flows *chosen)
 {
-    const struct gm_user_room *user_room = rooms_of(parameters);
-    const struct gm_flows *chosen = parameters;
+    return gm_user_room_of(chosen)->room.rectangular && strcmp(chosen->mesh, "none") == 0;
+}
+
+static void close_room(struct gm_room *room)
+{
+    if (room) {
+        gm_room_close(room);
+        free(room);
+    }
+}
+
+/* Of a problem that there was no flow for, too. */
+static void close_problem(struct gm_problem *problem)
+{
+    struct gm_flow *flow = (struct gm_flow *)(uintptr_t)gm_flow_of(problem);
+    struct gm_room *room = flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL;
+    gm_flow_close(flow);
+    problem->parameters = NULL;
+    close_room(room);
+}
+
+/* The room with a lane's parameters, where the outlet's is the names of its groups; NULL with a fault, whose sentence is
+   empty where memory was refused. */
+static struct gm_room *room_for(const struct gm_user_room *user_room, const struct gm_flows *chosen,
+                                const char *outlet, struct gm_fault *fault)
+{
+    const struct gm_scene *scene = &user_room->scene;
+    struct gm_room_given given[GM_ROOM_ROWS];
+    struct gm_room *room = calloc(1, sizeof *room);
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct gm_parameter *row = &scene->parameters[i];
+        const char *place = (const char *)chosen + row->offset;
+        const double value = gm_parameter_get(row, chosen);
+        given[i] = (struct gm_room_given){.name = row->key, .value = value};
+        given[i].text = place == chosen->outlet  ? outlet
+                        : row->type == GM_TEXT   ? place
+                        : row->type == GM_CHOICE ? row->choices[(int)value]
+                                                 : NULL;
+    }
+    *fault = (struct gm_fault){0};
+    if (room && !gm_room_read(room, user_room->file.text, user_room->file.length, given,
+                              scene->parameter_count, fault)) {
+        close_room(room);
+        room = NULL;
+    }
+    return room;
+}
+
+/* Whether every group of a list, "1,2", that a parameter gives is on the mesh's boundary, and there once. */
+static bool has_groups(const struct gm_triangulation *mesh, const struct gm_room_parameter *list,
+                       char *sentence)
+{
+    char name[GM_TEXT_SIZE];
+    for (const char *at = list->text; *at; at += strcspn(at, ","), at += *at == ',') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        const long tag = gm_flows_group(mesh, list->name, name, sentence);
+        for (const char *before = list->text; before < at; before += strcspn(before, ",") + 1) {
+            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
+                return gm_refuse(sentence, "the group \"%.60s\" is named twice", name);
+            }
+        }
+        if (tag == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room *room,
+                      const struct gm_flows *chosen, struct gm_triangulation *mesh, char *sentence)
+{
+    *mesh = (struct gm_triangulation){0};
+    if (has_rectangle(chosen)) {
+        struct gm_rectangle rectangle = room->rectangle;
+        mesh->complex = gm_flows_rectangle(&rectangle, sentence);
+        return mesh->complex != NULL;
+    }
+    const char *path = user_room->room.rectangular ? chosen->mesh : user_room->mesh;
+    if (!gm_flows_file(path, user_room->inside, (enum gm_star)chosen->star, mesh, sentence)) {
+        return false;
+    }
+    for (size_t i = 0; room && i < room->count; i++) { /* sides that the command line names */
+        const struct gm_room_line *line = &room->lines[i];
+        const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
+        if (line->word <= GM_ROOM_BOUNDARY && other && !has_groups(mesh, other, sentence)) {
+            gm_triangulation_close(mesh);
+            return false;
+        }
+    }
+    return !room || chosen->refine < 2 ||
+           gm_flows_refine(path, (enum gm_star)chosen->star, chosen->refine, mesh, sentence);
+}
+
+/* What outlets are, and what names their groups, fits the mesh. */
+static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *room,
+                          enum gm_vertex_kind *kind, char *group, char *sentence)
+{
+    if (!gm_room_parameter(room, "outlet")) {
+        return true;
+    }
+    if (!gm_flows_outlet(chosen->outlet, kind, group, sentence)) {
+        return false;
+    }
+    const bool names = gm_room_parameter(room, "inlet");
+    if (has_rectangle(chosen) && names &&
+        (strcmp(group, "outlet") != 0 || strcmp(chosen->inlet, "inlet") != 0)) {
+        return gm_refuse(
+            sentence,
+            "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
+    }
+    return names || strcmp(group, "outlet") == 0 ||
+           gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", chosen->outlet);
+}
+
+/* The flow of a lane's room; NULL with a sentence. */
+static struct gm_flow *open_flow(const struct gm_user_room *user_room, const struct gm_flows *chosen,
+                                 struct gm_room *room, char *sentence)
+{
     struct gm_triangulation mesh;
     struct gm_fault fault;
     enum gm_boundary_fault boundary;
-    if (user_room->overfull) {
-        return gm_refuse(sentence,
-                         "a room has at most %d observables: two of an opening, three of a probe or a hole",
-                         MOST_OBSERVED);
+    const long edges = room->rectangle.edges, multiple = (long)room->multiple;
+    room->from_file = room->rectangular && !has_rectangle(chosen);
+    if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
+        gm_refuse(
+            sentence,
+            "%s=%ld: the lips of inlet and outlet are vertices only if %s is a multiple of %ld; the nearest is %ld",
+            room->edges, edges, room->edges, multiple, multiple * ((edges + multiple / 2) / multiple));
+        return NULL;
     }
-    if (user_room->doubled) {
-        return gm_refuse(sentence, "two of the room's names lead to the observable %s", user_room->doubled);
+    if (!read_mesh(user_room, room, chosen, &mesh, sentence)) {
+        return NULL;
     }
-    if (!read_mesh(user_room, chosen, &mesh, sentence) ||
-        !gm_flows_refine(user_room->mesh, (enum gm_star)chosen->star, chosen->refine, &mesh, sentence)) {
-        return false;
-    }
-    struct gm_flow *flow = gm_room_flow(&user_room->room, &mesh, &fault, &boundary);
+    struct gm_flow *flow = gm_room_flow(room, &mesh, &fault, &boundary);
     gm_triangulation_close(&mesh);
     if (!flow) {
         gm_refuse(sentence, "not enough memory");
         tell(user_room, &fault, boundary, sentence);
-        return false;
+        return NULL;
     }
-    flow->reynolds *= user_room->room.viscosity / chosen->viscosity;
-    flow->viscosity = chosen->viscosity;
-    flow->diffusivity = chosen->viscosity / chosen->schmidt;
+    struct gm_span rest, unit;
+    if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &unit) &&
+        rest.begin < rest.end) {
+        gm_room_number(room, unit, &flow->time_unit, &fault);
+    }
+    room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
     flow->tracers = (size_t)chosen->tracers;
     flow->smoke = chosen->smoke;
-    return gm_flows_problem(problem, flow, "room", sentence);
+    return flow;
+}
+
+static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_user_room *user_room = gm_user_room_of(parameters);
+    struct gm_fault fault;
+    char group[GM_TEXT_SIZE];
+    enum gm_vertex_kind outlet = GM_VERTEX_SOFT;
+    if (user_room->overfull) {
+        return gm_refuse(sentence,
+                         "a room has at most %d observables: two of an opening, three of a probe or a hole",
+                         GM_ROOM_OBSERVED);
+    }
+    if (user_room->doubled) {
+        return gm_refuse(sentence, "two of the room's names lead to the observable %s", user_room->doubled);
+    }
+    if (gm_cholesky_missing()) {
+        return gm_refuse(sentence, "the equations of a flow are solved by SuiteSparse: %s",
+                         gm_cholesky_missing());
+    }
+    if (!choose_outlet(parameters, &user_room->room, &outlet, group, sentence)) {
+        return false;
+    }
+    struct gm_room *room = room_for(user_room, parameters, group, &fault);
+    if (!room) {
+        gm_refuse(sentence, "not enough memory");
+        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        return false;
+    }
+    room->outlet = outlet;
+    const struct gm_flow *flow = open_flow(user_room, parameters, room, sentence);
+    if (!flow) {
+        close_room(room);
+        return false;
+    }
+    *problem = (struct gm_problem){
+        .name = "room", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
+    return true;
+}
+
+/* Of edges and strips the one that was not given is the best for the other, unless both were given, or none, or the
+   strips are always the best (0). */
+static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    const struct gm_user_room *user_room = gm_user_room_of(self);
+    struct gm_rectangle box = user_room->room.rectangle;
+    const struct gm_parameter *row[] = {gm_scene_parameter(&user_room->scene, user_room->room.edges),
+                                        gm_scene_parameter(&user_room->scene, user_room->room.strips)};
+    if (!row[0] || !row[1] || row[0]->type != GM_INTEGER || row[1]->type != GM_INTEGER) {
+        return true;
+    }
+    const bool by_edges = gm_is_given(row[0]->key, keys, count),
+               by_strips = gm_is_given(row[1]->key, keys, count);
+    const long multiple = (long)user_room->room.multiple;
+    long *edges = (long *)((char *)self + row[0]->offset);
+    box.strips = *(long *)((char *)self + row[1]->offset);
+    if (by_edges && !by_strips && box.strips > 0) {
+        *(long *)((char *)self + row[1]->offset) =
+            gm_rectangle_strips(box.width, box.height, *edges, box.transposed);
+    } else if (by_strips && !by_edges && box.strips > 0) {
+        *edges = gm_rectangle_edges(&box);
+    }
+    if (multiple > 0 && !by_edges) {
+        *edges = (long)fmax(row[0]->lowest, (double)(multiple * ((*edges + multiple / 2) / multiple)));
+    }
+    return true;
+}
+
+static void start(const void *parameters, const struct gm_problem *problem, double *y)
+{
+    (void)parameters;
+    const struct gm_room *room = gm_room_of(problem);
+    const struct gm_flow *flow = gm_flow_of(problem);
+    const struct gm_room_line *line = gm_room_line(room, GM_ROOM_START);
+    const bool turns = line && line->value[GM_ROOM_VORTICITY].place > 0;
+    double *omega = turns ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
+    for (size_t v = 0; omega && v < flow->complex->vertices; v++) {
+        const double at[4] = {0, flow->complex->point[2 * v], flow->complex->point[2 * v + 1], 0};
+        omega[v] = gm_room_value(room, line, GM_ROOM_VORTICITY, at, 0);
+    }
+    const bool good =
+        turns ? omega && gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y);
+    if (!good) {
+        memset(y, 0, problem->n * sizeof *y);
+    }
+    free(omega);
 }
 
 /* Whether heat is carried that nothing takes away. */
@@ -276,7 +394,7 @@ static bool is_free(const struct gm_flow *flow)
 /* Why the boundary could give nothing in the next step, or there is no steady state. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const struct gm_user_room *user_room = rooms_of(view->parameters);
+    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     char sentence[GM_MESSAGE] = "";
     if (user_room->room.timed && view->scheme->steady) {
         gm_refuse(sentence, "what the boundary gives changes in time, and so there is no steady state");
@@ -288,8 +406,8 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     for (int half = 1; half <= 2 && !sentence[0] && view->run; half++) {
         struct gm_fault fault;
         enum gm_boundary_fault boundary;
-        gm_room_fault(&user_room->room, gm_flow_of(view->problem), view->t + view->run->dt * half / 2, &fault,
-                      &boundary);
+        gm_room_fault(gm_room_of(view->problem), gm_flow_of(view->problem),
+                      view->t + view->run->dt * half / 2, &fault, &boundary);
         tell(user_room, &fault, boundary, sentence);
     }
     snprintf(text, size, "%s", sentence);
@@ -330,8 +448,9 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 
 static bool readable(const void *parameters, char *sentence)
 {
-    struct gm_triangulation mesh;
-    const bool good = read_mesh(rooms_of(parameters), parameters, &mesh, sentence);
+    struct gm_triangulation mesh = {0};
+    const bool good = has_rectangle(parameters) ||
+                      read_mesh(gm_user_room_of(parameters), NULL, parameters, &mesh, sentence);
     if (good) {
         gm_triangulation_close(&mesh);
     }
@@ -351,16 +470,49 @@ static double enriched(const struct gm_flow *flow)
     return through > 0 ? 2 * sum / through : 0;
 }
 
-static double scalar_mean(const struct gm_view *view)
+/* colours: vorticity F, speed F */
+static double colours_end(const struct gm_room *room, const char *word, double otherwise)
 {
-    const struct gm_flow *flow = gm_flow_of(view->problem);
-    return gm_flow_scalar_total(flow, view->state) / flow->complex->total_area;
+    struct gm_span rest, piece, value;
+    struct gm_fault fault = {0};
+    gm_room_said(room, "colours", 0, &rest);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
+        if (gm_room_option(room, piece, word, &value)) {
+            gm_room_number(room, value, &otherwise, &fault);
+        }
+    }
+    return otherwise;
+}
+
+/* What stands behind the parameters of the line `subtitle:`, with values in braces. */
+static const char *remark(struct gm_picture *picture, const struct gm_room *room, size_t parameters)
+{
+    struct gm_span rest;
+    struct gm_fault fault;
+    const char *filled = "";
+    gm_room_said(room, "subtitle", 0, &rest);
+    for (size_t i = 0; rest.begin < rest.end; i++) {
+        const size_t open = gm_span_until(room->text, rest, "{"),
+                     close = gm_span_until(room->text, (struct gm_span){open, rest.end}, "}");
+        double value = NAN;
+        if (i >= parameters) {
+            filled =
+                gm_picture_text(picture, "%s%.*s", filled, (int)(open - rest.begin), room->text + rest.begin);
+        }
+        if (i >= parameters && open < close &&
+            gm_room_number(room, (struct gm_span){open + 1, close}, &value, &fault)) {
+            filled = gm_picture_text(picture, "%s%.4g", filled, value);
+        }
+        rest.begin = close < rest.end ? close + 1 : close;
+    }
+    return filled;
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct gm_user_room *user_room = rooms_of(lanes[0]->parameters);
+    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
     const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
+    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
     static const struct {
         int show;
         const char *name;
@@ -370,26 +522,24 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                  {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
                  {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
     const struct powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
-    char unit[UNIT + 8];
+    char unit[GM_ROOM_UNIT + 8];
     const double *range = flow->temperature_range,
-                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1},
-                 high = fmax(flow->theta_high, enriched(flow));
+                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
+    double high = 0;
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
+        high = fmax(high, fmax(other->theta_high, enriched(other)));
+    }
     /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
     struct gm_look look = {
-        .title = user_room->scene.title,
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
                   gm_picture_text(picture, "%s", name_unit(user_room, spread, unit))},
                  {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
         .axes = {gm_picture_text(picture, "x%s", beside_unit(user_room, length, unit)),
                  gm_picture_text(picture, "y%s", beside_unit(user_room, length, unit))},
-        .scalar_high = high > 0 ? high : 1,
-        .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar},
-        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
-        .speed_high = 1.2 * speed,
         .sides = user_room->sides,
         .graphs = {flow->heat               ? "temperature_mean"
                    : user_room->forces[0]   ? user_room->forces[0]
@@ -399,197 +549,145 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                    : user_room->forces[1] ? user_room->forces[1]
                                           : "scalar_outflow"},
     };
-    for (size_t i = 0; i < GM_COUNT(shown); i++) {
+    if (user_room->room.rectangular) {
+        const char *const axes[] = {look.axes[0], look.axes[1]};
+        look = user_room->look;
+        for (int c = 0; c < 2 && user_room->room.units; c++) {
+            look.axes[c] = axes[c];
+        }
+    }
+    look.title = user_room->scene.title;
+    look.scalar_high = high > 0 ? high : 1;
+    memcpy(look.temperature, warm, sizeof warm);
+    look.names[GM_SHOW_SCALAR] = user_room->room.scalar;
+    look.vorticity_range = colours_end(room, "vorticity", 6 * speed / fmax(flow->inlet_length, size / 10));
+    look.speed_high = colours_end(room, "speed", 1.2 * speed);
+    for (size_t i = 0; i < GM_COUNT(look.graphs); i++) {
+        gm_room_graph(room, i, &look);
+    }
+    look.remark = remark(picture, room, (look.told[0].name != NULL) + (look.told[1].name != NULL));
+    for (size_t i = 0; i < GM_COUNT(shown) && user_room->room.units; i++) {
         look.names[shown[i].show] =
             gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
     }
     gm_flows_draw(lanes, count, picture, &look);
 }
 
-/* Adds an observable "NAME_what" of a subject, with its unit; blanks and signs in names become _. What has no room,
-   or a key that is there already, is noted. */
-static void observe(struct gm_user_room *user_room, const char *name, const char *what, const char *title,
-                    struct powers powers, double (*evaluate)(const struct gm_view *view),
-                    struct subject subject)
+/* Adds observables "NAME_what" of a subject, from one to another, with their units; blanks and signs in names become _.
+   What has no room, or a key that is there already, is noted. */
+static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
+                    struct gm_room_subject subject)
 {
-    const size_t i = user_room->observable_count;
-    if (i == MOST_OBSERVED) {
-        user_room->overfull = true;
-        return;
-    }
-    char *key = user_room->observed[i][0];
-    snprintf(key, sizeof user_room->observed[i][0], "%s_%s", name, what);
-    for (char *at = key; *at; at++) {
-        *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
-    }
-    for (size_t k = 0; k < i; k++) {
-        user_room->doubled = !user_room->doubled && strcmp(user_room->observables[k].key, key) == 0
-                                 ? user_room->observables[k].key
-                                 : user_room->doubled;
-    }
-    char unit[UNIT + 8];
-    snprintf(user_room->observed[i][1], sizeof user_room->observed[i][1], "%s %s%s", name, title,
-             beside_unit(user_room, powers, unit));
-    user_room->observables[i] = (struct gm_observable){
-        .key = key,
-        .title = user_room->observed[i][1],
-        .evaluate = evaluate,
-        .missing = evaluate == hole_drag || evaluate == hole_lift ? "there is no force before the first step"
-                   : evaluate == probe_pressure ? "there is no pressure before the first step"
-                   : evaluate == wall_heat      ? "no heat has gone before the first step"
-                                                : NULL};
-    user_room->subjects[i] = subject;
-    user_room->observable_count++;
-}
-
-/* Units of what all rooms have. */
-static void name_common(struct gm_user_room *user_room)
-{
+    static const char no_force[] = "there is no force before the first step";
     static const struct {
-        const char *key;
+        const char *what, *title;
         struct powers powers;
-    } rows[] = {{"kinetic_energy", {{4, -2, 0}}},
-                {"enstrophy", {{2, -2, 0}}},
-                {"speed_max", {{1, -1, 0}}},
-                {"temperature_mean", {{0, 0, 1}}}};
-    char unit[UNIT + 8];
-    for (size_t i = 0; i < user_room->observable_count; i++) {
-        for (size_t k = 0; k < GM_COUNT(rows); k++) {
-            struct gm_observable *observable = &user_room->observables[i];
-            if (strcmp(observable->key, rows[k].key) == 0) {
-                snprintf(user_room->common_titles[k], sizeof user_room->common_titles[k], "%.60s%.60s",
-                         observable->title, beside_unit(user_room, rows[k].powers, unit));
-                observable->title = user_room->common_titles[k];
-            }
+        const char *missing;
+    } rows[LOCALS] = {
+        [FLOW] = {"flow", "flow", {{2, -1, 0}}, NULL},
+        [SCALAR_FLOW] = {"scalar_flow", "flow of pollutant", {{0, 0, 0}}, NULL},
+        [SCALAR] = {"scalar", "concentration", {{0, 0, 0}}, NULL},
+        [SPEED] = {"speed", "speed", {{1, -1, 0}}, NULL},
+        [PRESSURE] = {"pressure",
+                      "pressure, over the density",
+                      {{2, -2, 0}},
+                      "there is no pressure before the first step"},
+        [TEMPERATURE] = {"temperature", "temperature", {{0, 0, 1}}, NULL},
+        [HEAT] = {"heat",
+                  "heat given to the air, over density and heat capacity",
+                  {{2, -1, 1}},
+                  "no heat has gone before the first step"},
+        [DRAG] = {"drag", "force along x, over the density", {{3, -2, 0}}, no_force},
+        [LIFT] = {"lift", "force along y, over the density", {{3, -2, 0}}, no_force},
+        [CIRCULATION] = {"circulation", "circulation", {{2, -1, 0}}, NULL},
+    };
+    for (int what = (int)from; what <= (int)to; what++) {
+        const size_t i = user_room->observable_count;
+        if (i == GM_ROOM_OBSERVED) {
+            user_room->overfull = true;
+            return;
         }
+        char *key = gm_room_format(user_room, "%s_%s", name, rows[what].what), unit[GM_ROOM_UNIT + 8];
+        for (char *at = key; *at; at++) {
+            *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
+        }
+        for (size_t k = 0; k < i && !user_room->doubled; k++) {
+            const char *other = user_room->observables[k].key;
+            user_room->doubled = strcmp(other, key) == 0 ? other : NULL;
+        }
+        user_room->observables[i] =
+            (struct gm_observable){.key = key,
+                                   .title = gm_room_format(user_room, "%s %s%s", name, rows[what].title,
+                                                           beside_unit(user_room, rows[what].powers, unit)),
+                                   .evaluate = observe_local,
+                                   .missing = rows[what].missing};
+        subject.what = what;
+        user_room->subjects[i] = subject;
+        user_room->observable_count++;
     }
 }
 
-/* The mean of the scalar, and titles of what it has in common with all rooms where it has a name. */
-static void name_scalar(struct gm_user_room *user_room)
+/* What all rooms of files have: with its unit, or what it is of a scalar that has a name. */
+static void observe_common(struct gm_user_room *user_room, bool heat)
 {
     static const struct {
-        const char *key, *title;
-    } titles[] = {{"scalar_mean", "mean %s"},
-                  {"scalar_total", "integral of %s"},
-                  {"scalar_outflow", "outflow of %s"},
-                  {"budget_defect", "defect of the budget of %s"}};
-    user_room->observables[user_room->observable_count++] =
-        (struct gm_observable)GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration");
-    for (size_t k = 0; k < GM_COUNT(titles) && user_room->room.scalar; k++) {
-        for (size_t i = 0; i < user_room->observable_count; i++) {
-            if (strcmp(user_room->observables[i].key, titles[k].key) == 0) {
-                snprintf(user_room->scalar_titles[k], sizeof user_room->scalar_titles[k], titles[k].title,
-                         user_room->room.scalar);
-                user_room->observables[i].title = user_room->scalar_titles[k];
-            }
-        }
+        const char *key, *of_scalar;
+        struct powers powers;
+    } rows[] = {{"scalar_total", "integral of", {{0, 0, 0}}},
+                {"scalar_outflow", "outflow of", {{0, 0, 0}}},
+                {"budget_defect", "defect of the budget of", {{0, 0, 0}}},
+                {"divergence", NULL, {{0, 0, 0}}},
+                {"kinetic_energy", NULL, {{4, -2, 0}}},
+                {"enstrophy", NULL, {{2, -2, 0}}},
+                {"speed_max", NULL, {{1, -1, 0}}},
+                {"change", NULL, {{0, 0, 0}}},
+                {"triangles", NULL, {{0, 0, 0}}},
+                {"obtuse_share", NULL, {{0, 0, 0}}},
+                {"star_least", NULL, {{0, 0, 0}}},
+                {"scalar_mean", "mean", {{0, 0, 0}}},
+                {"temperature_mean", NULL, {{0, 0, 1}}}};
+    char unit[GM_ROOM_UNIT + 8];
+    for (size_t i = 0; i + !heat < GM_COUNT(rows); i++) {
+        struct gm_observable *observable = &user_room->observables[user_room->observable_count++];
+        *observable = *gm_room_observable(rows[i].key, false);
+        observable->title =
+            rows[i].of_scalar && user_room->room.scalar
+                ? gm_room_format(user_room, "%s %s", rows[i].of_scalar, user_room->room.scalar)
+                : gm_room_format(user_room, "%s%s", observable->title,
+                                 beside_unit(user_room, rows[i].powers, unit));
     }
 }
 
-static bool make_observables(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
+static void make_observables(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
-    double *scratch = malloc((user_room->room.graph.count + 1) * sizeof *scratch);
-    if (!scratch) {
-        return false;
-    }
-    static const struct gm_observable common[] = {
-        GM_FLOWS_OF_ROOMS,
-        GM_FLOWS_OBTUSE,
-        GM_FLOWS_STAR_LEAST,
-    };
-    memcpy(user_room->observables, common, sizeof common);
-    user_room->observable_count = GM_COUNT(common);
     const struct gm_room *room = &user_room->room;
-    name_scalar(user_room);
     const bool heat = !isnan(room->buoyancy);
-    if (heat) {
-        user_room->observables[user_room->observable_count++] =
-            (struct gm_observable)GM_OBSERVABLE("temperature_mean", temperature_mean, "mean temperature");
-    }
-    name_common(user_room);
+    bool brought = false;
+    observe_common(user_room, heat);
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        struct subject subject = {.number = i + 1};
-        if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
-            observe(user_room, line->name, "flow", "flow", (struct powers){{2, -1, 0}}, opening_flow,
-                    subject);
-            observe(user_room, line->name, "scalar_flow", "flow of pollutant", (struct powers){{0, 0, 0}},
-                    opening_scalar_flow, subject);
-        } else if (line->word == GM_ROOM_PROBE) {
-            gm_room_point(room, line, scratch, subject.at);
-            observe(user_room, line->name, "scalar", "concentration", (struct powers){{0, 0, 0}},
-                    probe_scalar, subject);
-            observe(user_room, line->name, "speed", "speed", (struct powers){{1, -1, 0}}, probe_speed,
-                    subject);
-            observe(user_room, line->name, "pressure", "pressure, over the density",
-                    (struct powers){{2, -2, 0}}, probe_pressure, subject);
-            if (heat) {
-                observe(user_room, line->name, "temperature", "temperature", (struct powers){{0, 0, 1}},
-                        probe_temperature, subject);
-            }
-        } else if (line->word == GM_ROOM_WALL &&
-                   (line->value[GM_ROOM_TEMPERATURE].place > 0 || line->value[GM_ROOM_HEAT].place > 0)) {
-            observe(user_room, line->name, "heat", "heat given to the air, over density and heat capacity",
-                    (struct powers){{2, -1, 1}}, wall_heat, subject);
-        }
-    }
-    free(scratch);
-    bool brought = false;
-    for (size_t i = 0; i < user_room->room.count; i++) {
-        const struct gm_room_line *line = &user_room->room.lines[i];
+        struct gm_room_subject subject = {.number = i + 1};
         brought |= line->word == GM_ROOM_SOURCE ||
                    (line->word == GM_ROOM_INLET && line->value[GM_ROOM_SCALAR].place > 0);
+        if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
+            observe(user_room, line->name, FLOW, SCALAR_FLOW, subject);
+        } else if (line->word == GM_ROOM_PROBE) {
+            gm_room_point(room, line, subject.at);
+            observe(user_room, line->name, SCALAR, heat ? TEMPERATURE : PRESSURE, subject);
+        } else if (line->word == GM_ROOM_WALL &&
+                   (line->value[GM_ROOM_TEMPERATURE].place > 0 || line->value[GM_ROOM_HEAT].place > 0)) {
+            observe(user_room, line->name, HEAT, HEAT, subject);
+        }
     }
     const size_t first = user_room->observable_count;
-    if (!brought && mesh->complex->loops > 1 && first + 1 < MOST_OBSERVED) {
-        user_room->forces[0] = user_room->observed[first][0];
-        user_room->forces[1] = user_room->observed[first + 1][0];
-    }
     for (size_t hole = 1; hole < mesh->complex->loops; hole++) {
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
-        const struct subject subject = {.number = hole};
-        observe(user_room, name, "drag", "force along x, over the density", (struct powers){{3, -2, 0}},
-                hole_drag, subject);
-        observe(user_room, name, "lift", "force along y, over the density", (struct powers){{3, -2, 0}},
-                hole_lift, subject);
-        observe(user_room, name, "circulation", "circulation", (struct powers){{2, -1, 0}}, hole_circulation,
-                subject);
+        observe(user_room, name, DRAG, CIRCULATION, (struct gm_room_subject){.number = hole});
     }
-    return true;
-}
-
-static void make_rows(struct gm_user_room *user_room)
-{
-    const struct gm_room *room = &user_room->room;
-    const double numbers[4] = {isnan(room->dt) ? 0.01 : room->dt, isnan(room->until) ? 10 : room->until,
-                               room->viscosity, room->viscosity / room->diffusivity};
-    for (int i = 0; i < 4; i++) {
-        gm_number_format(numbers[i], user_room->numbers[i], sizeof user_room->numbers[i]);
+    for (size_t k = 0; k < 2 && !brought && first + 1 < user_room->observable_count; k++) {
+        user_room->forces[k] = user_room->observables[first + k].key;
     }
-    const struct gm_parameter rows[] = {
-        GM_DT(user_room->numbers[0], gm_room_dt.least, gm_room_dt.most),
-        GM_UNTIL(user_room->numbers[1]),
-        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", user_room->numbers[2], gm_room_viscosity.least,
-                    gm_room_viscosity.most, "kinematic viscosity", .logarithmic = true),
-        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", user_room->numbers[3], gm_room_schmidt.least,
-                    gm_room_schmidt.most, "Schmidt number, viscosity / diffusivity", .logarithmic = true),
-        GM_FLOWS_STAR,
-        GM_FLOWS_REFINE,
-        GM_FLOWS_TRACERS("350"),
-        GM_FLOWS_SMOKE,
-        GM_FLOWS_LOOKS("scalar", "yes"),
-    };
-    memcpy(user_room->rows, rows, sizeof rows);
-    for (size_t i = 0; i < GM_COUNT(rows) && !isnan(room->buoyancy); i++) {
-        if (strcmp(rows[i].key, "show") == 0) {
-            user_room->rows[i].choices = gm_flows_warm_shows;
-            user_room->rows[i].standard = "temperature";
-        }
-    }
-    user_room->scene.parameters = user_room->rows;
-    user_room->scene.parameter_count = GM_COUNT(rows);
 }
 
 /* FNV-1a of more bytes. */
@@ -602,37 +700,48 @@ static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
 }
 
 /* The room's name with a checksum of its text and of the mesh, in which another room with the same name differs. */
-static bool make_mark(struct gm_user_room *user_room, const char *name, const struct gm_triangulation *mesh)
+static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
-    uint32_t sum = checksum(UINT32_C(2166136261), user_room->room.text, strlen(user_room->room.text));
-    sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
-    sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
-    sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
-    if (asprintf(&user_room->mark, "%s:%08x", name, (unsigned)sum) < 0) {
-        user_room->mark = NULL;
+    uint32_t sum = checksum(UINT32_C(2166136261), user_room->file.text, user_room->file.length);
+    if (complex) {
+        sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
+        sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
+        sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
     }
-    return user_room->mark != NULL;
+    return gm_room_format(user_room, "%s:%08x", user_room->file.name, (unsigned)sum);
 }
 
-/* Its words and where the mesh is. */
-static bool copy_words(struct gm_user_room *user_room, const char *word, const char *path, bool built_in)
+/* Where the mesh is. */
+static void find_mesh(struct gm_user_room *user_room)
 {
-    const char *slash = user_room->room.mesh[0] == '/' ? NULL : strrchr(path, '/');
-    user_room->path = strdup(path);
-    if (asprintf(&user_room->mesh, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path,
-                 user_room->room.mesh) < 0) {
-        user_room->mesh = NULL;
+    const struct gm_room_file *file = &user_room->file;
+    const char *mesh = user_room->room.mesh, *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
+    user_room->mesh =
+        gm_room_format(user_room, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0, file->path, mesh);
+    if (file->built_in || access(user_room->mesh, F_OK) != 0) {
+        user_room->inside = gm_built_in_find(GM_FILE_MESH, mesh);
     }
-    if (built_in || (user_room->mesh && access(user_room->mesh, F_OK) != 0)) {
-        user_room->inside = gm_built_in_find(GM_FILE_MESH, user_room->room.mesh);
-    }
-    user_room->words[0] = user_room->word = strdup(word);
-    return user_room->path && user_room->word && user_room->mesh;
 }
 
-const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name, const char *word,
-                                         const char *path, bool built_in, char *sentence)
+static void close_mesh(void *mesh)
+{
+    gm_triangulation_close(mesh);
+}
+
+static void close_read(void *room)
+{
+    gm_room_close(room);
+}
+
+/* A scene that is made, and what is wrong with its file. */
+struct making {
+    const struct gm_room_file *file;
+    struct gm_fault *wrong;
+    struct gm_user_room *user_room;
+};
+
+static void make(struct gm_arena *arena, void *data)
 {
     static const char *const schemes[] = {"semi-implicit", NULL}, *const compared[] = {"semi-implicit",
                                                                                        "crank-nicolson",
@@ -650,66 +759,86 @@ const struct gm_scene *gm_user_room_open(struct gm_room *room, const char *name,
         .distance = distance,
         .distance_title = "largest relative distance of stream function, scalar and temperature",
     };
-    struct gm_user_room *user_room = calloc(1, sizeof *user_room);
-    struct gm_triangulation mesh;
-    if (!user_room) {
-        gm_room_close(room);
-        gm_refuse(sentence, "not enough memory");
-        return NULL;
+    struct making *making = data;
+    const struct gm_room_file *file = making->file;
+    struct gm_user_room *user_room = making->user_room = gm_arena_take(arena, 1, sizeof *user_room);
+    struct gm_triangulation *mesh = gm_arena_take(arena, 1, sizeof *mesh);
+    struct gm_fault fault;
+    char sentence[GM_MESSAGE];
+    user_room->arena = arena;
+    user_room->file = (struct gm_room_file){.text = gm_room_format(user_room, "%s", file->text),
+                                            .length = file->length,
+                                            .name = gm_room_format(user_room, "%s", file->name),
+                                            .path = gm_room_format(user_room, "%s", file->path),
+                                            .built_in = file->built_in};
+    user_room->wrong = making->wrong;
+    gm_arena_keep(arena, &user_room->room, close_read);
+    if (!gm_room_read(&user_room->room, file->text, file->length, NULL, 0, &fault)) {
+        gm_room_refuse(user_room, &fault);
     }
-    user_room->room = *room;
-    bool good = copy_words(user_room, word, path, built_in) || gm_refuse(sentence, "not enough memory");
-    if (good && gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, &mesh, sentence)) {
-        good = (make_observables(user_room, &mesh) && make_mark(user_room, name, &mesh)) ||
-               gm_refuse(sentence, "not enough memory");
-        gm_triangulation_close(&mesh);
-    } else {
-        good = false;
-    }
-    if (!good) {
-        gm_user_room_close(&user_room->scene);
-        return NULL;
-    }
+    const struct gm_room *room = &user_room->room;
     user_room->scene = (struct gm_scene){
-        .name = name,
-        .title = user_room->room.title ? user_room->room.title : "A room of one’s own",
-        .blurb = user_room->room.about ? user_room->room.about : "A room of one’s own.",
+        .name = user_room->file.name,
+        .title = room->title ? room->title : "A room of one’s own",
+        .blurb = room->about ? room->about : "A room of one’s own.",
         .watch = "",
         .time = "that of its units",
         .size = sizeof user_room->initial,
         .initial = &user_room->initial,
-        .words = user_room->words,
-        .room = user_room->room.text,
-        .mark = user_room->mark,
         .schemes = schemes,
         .observables = user_room->observables,
-        .observable_count = user_room->observable_count,
+        .idle = gm_flows_idle,
+        .settle = settle,
         .setup = setup,
         .readable = readable,
         .chosen = gm_flows_chosen,
         .note = gm_flows_note,
-        .close = gm_flows_close,
-        .start = gm_flows_start,
+        .close = close_problem,
+        .start = start,
         .draw = draw,
         .failure = tell_failure,
-        .work = &work,
     };
-    make_rows(user_room);
-    for (size_t i = 0; i < user_room->room.count && i + 1 < GM_ROOM_SIDES; i++) {
-        user_room->sides[i + 1] = user_room->room.lines[i].name;
-    }
     user_room->initial.room = user_room;
-    snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
-    return &user_room->scene;
+    user_room->initial.refine = 1;
+    snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "none");
+    if (!room->rectangular) {
+        find_mesh(user_room);
+        snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
+        user_room->scene.work = &work;
+        gm_arena_keep(arena, mesh, close_mesh);
+        if (!gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, mesh, sentence)) {
+            gm_arena_refuse(arena, "%s", sentence);
+        }
+        make_observables(user_room, mesh);
+    }
+    for (size_t i = 0; i < room->count && i + 1 < GM_ROOM_SIDES; i++) {
+        user_room->sides[i + 1] = room->lines[i].name;
+    }
+    gm_room_take_lines(user_room);
+    if (file->word) {
+        user_room->words[0] = gm_room_format(user_room, "%s", file->word);
+        user_room->scene.words = user_room->words;
+        user_room->scene.room = user_room->file.text;
+        user_room->scene.mark = make_mark(user_room, mesh);
+    }
+    gm_triangulation_close(mesh);
+}
+
+const struct gm_scene *gm_user_room_open(const struct gm_room_file *file, struct gm_fault *fault,
+                                         char *sentence)
+{
+    struct making making = {file, fault, NULL};
+    struct gm_arena *arena = gm_arena_open();
+    *fault = (struct gm_fault){0};
+    if (!gm_arena_run(arena, make, &making)) {
+        gm_refuse(sentence, "%s", gm_arena_reason(arena));
+        gm_arena_close(arena);
+        return NULL;
+    }
+    return &making.user_room->scene;
 }
 
 void gm_user_room_close(const struct gm_scene *scene)
 {
-    struct gm_user_room *user_room = (struct gm_user_room *)scene; /* which it is the first member of */
-    gm_room_close(&user_room->room);
-    free(user_room->path);
-    free(user_room->word);
-    free(user_room->mesh);
-    free(user_room->mark);
-    free(user_room);
+    gm_arena_close(((const struct gm_user_room *)scene)->arena); /* which the scene is the first member of */
 }

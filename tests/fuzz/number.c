@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/commands/options.h"
+#include "app/commands/commands.h"
 #include "core/parameter.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

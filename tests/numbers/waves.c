@@ -331,13 +331,9 @@ static void energies_fall_with_the_order_of_the_step(void **unused)
         double error; /* with dt = .04; an order below it .01 shows */
         int order;
         bool keeps_waves;
-    } schemes[] = {{"box", 3.2e-4, 2, true},
-                   {"gauss-box2", 1.6e-4, 2, true},
-                   {"gauss-box3", 1.1e-8, 4, true},
-                   {"midpoint-box", 6.4e-4, 2, true},
-                   {"lobatto-box2", 3.9e-4, 2, false},
-                   {"lobatto-box4", 3.1e-8, 4, false},
-                   {"lobatto-nystrom4", 5.1e-8, 4, false}};
+    } schemes[] = {{"box", 3.2e-4, 2, true},           {"gauss-box3", 1.1e-8, 4, true},
+                   {"midpoint-box", 6.4e-4, 2, true},  {"lobatto-box2", 3.9e-4, 2, false},
+                   {"lobatto-box4", 3.1e-8, 4, false}, {"lobatto-nystrom4", 5.1e-8, 4, false}};
     for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         double errors[2];
         for (size_t k = 0; k < 2; k++) {

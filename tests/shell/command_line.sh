@@ -309,10 +309,8 @@ warns 'energy_error is' stiff system=spring-pendulum scheme=tao4 steps=1
 warns 'energy_error is' kepler scheme=lobatto4 dt=10 steps=300
 warns 'momentum_error is 124' sine-gordon scheme=midpoint-box
 # at the stages of the boxes the energy is kept however long the step; at the nodes its error would be 237
-for scheme in gauss-box2 gauss-box3; do
-    status 0 run wave scheme=$scheme dt=100 steps=10 --json --strict
-    grep -q '"warning":"".*"energy_error":[0-9.]*e-1[0-9]' out || fail "wave by $scheme: $(cat out)"
-done
+status 0 run wave scheme=gauss-box3 dt=100 steps=10 --json --strict
+grep -q '"warning":"".*"energy_error":[0-9.]*e-1[0-9]' out || fail "wave by gauss-box3: $(cat out)"
 warns 'the run ends at t = 0.6 and not at until = 0.5' disc until=0.5 dt=0.3
 warns 'the run ends at t = 0 and not at until = 0.1' disc until=0.1 dt=0.3
 # what decays is lost like what grows

@@ -82,7 +82,7 @@ COMMANDS = [
      {"lost": "disc-render-000001.png"}),
     ("certify rk4 --json", {}),
     ("certify semi-implicit", {}),
-    ("certify gauss-box2 --json", {}),
+    ("certify gauss-box3 --json", {}),
     ("certify multiplier-lobatto4", {}),
     ("certify leapfrog --on SHARE/systems/phi4.system points=60 --json", {}),
     ("certify box --on SHARE/systems/nonlinear-dirac.system points=61 dt=0.2 --json", {}),

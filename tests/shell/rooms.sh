@@ -324,6 +324,41 @@ wrong 'wrong.room:5:8: no more enters by the profile' 'inlet: vent speed = -0.01
 wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
 wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
 wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
+# parameters, choices and rectangles of one's own
+wrong 'wrong.room:5:12: parameter: needs a name that is no other' 'parameter: 3 = 1'
+wrong 'wrong.room:6:12: parameter: needs a name that is no other' 'parameter: a = 1\nparameter: a = 2'
+wrong 'wrong.room:5:19: a range.s lower end comes first' 'parameter: a = 1; 2 .. 1'
+wrong 'wrong.room:5:9: choice: needs a name and words' 'choice: a = b'
+wrong 'wrong.room:5:7: when: needs a choice and its word' 'when: domain = box'
+wrong 'wrong.room:6:23: a is a word, and no number' 'choice: a = b of b, c\nwall: pillar scalar = a'
+wrong 'boundary: needs stream_function =' 'boundary: pillar scalar = 1'
+wrong 'exact: needs stream_function =' 'exact: scalar = 1'
+wrong 'wrong.room:1:7: a rectangle has a width, a height, and edges' '' 's/mesh: hole.msh/mesh: rectangle; width 1; height 1/'
+wrong 'wrong.room:5:10: this is nothing that is observed of a room' 'observe: nonsense'
+wrong 'wrong.room:5:8: this is no observable of the room' 'graph: nonsense'
+wrong 'wrong.room:5:10: a profile has a name' 'profile: middle u; 0.5; 1; 3'
+wrong 'wrong.room:5:8: a table has a name and a profile' 'table: of nothing; a = 1; 0 1'
+wrong 'work: has three errors' 'work: until=1; errors 1, 2'
+wrong 'stability: needs values of a parameter' 'stability: until=1'
+
+# scenes that are files of the program: their copies give the same bits
+while read -r scene words; do
+    status 0 list "$scene" --source
+    cp out "./$scene.room"
+    status 0 list "$scene" --json
+    grep -q "\"file\":\"rooms/$scene.room\"" out || fail "list $scene names no file"
+    # shellcheck disable=SC2086 # words
+    [ "$(state_of "$scene" $words steps=3)" = "$(state_of "./$scene.room" $words steps=3)" ] || fail "a copy of $scene"
+done <<'END'
+couette rows=8
+poiseuille rows=8 irregular=0.2
+channel rows=5 columns=0 outlet=soft
+cavity columns=8 rows=0 scheme=semi-implicit
+taylor-green columns=8
+taylor-green columns=8 domain=box speed=1
+room rows=10 columns=0
+END
+
 # the scalar moves beside the flow where there is another core: no bit depends on it
 for cores in 0 0-1; do
     taskset -c $cores "$geomint" run room rows=40 columns=52 steps=5 tracers=0 --state --json |

@@ -61,6 +61,21 @@ static void test_a_refusal_closes_what_the_body_took(void **state)
     assert_string_equal(closed, "cba  dz");
 }
 
+static void test_a_thing_goes_before_the_others(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        char letters[] = "abc";
+        struct gm_arena *arena = gm_arena_open();
+        closed[0] = 0;
+        assert_true(gm_arena_run(arena, keep_three, letters));
+        gm_arena_drop(arena, letters + i);
+        assert_int_equal(closed[0], letters[i]);
+        gm_arena_close(arena);
+        assert_string_equal(closed + 1, ((const char *[]){"cb", "ca", "ba"})[i]);
+    }
+}
+
 static void grow(struct gm_arena *arena, void *data)
 {
     uint64_t *numbers = NULL;
@@ -109,6 +124,27 @@ static void test_refused_memory_leaves_the_body(void **state)
     assert_string_equal(gm_arena_reason(NULL), "not enough memory");
 }
 
+static void print_and_need(struct gm_arena *arena, void *data)
+{
+    char **text = data;
+    *text = gm_arena_print(arena, "%s, %d", "a text", 7);
+    gm_arena_need(arena, true);
+    assert_string_equal(*text, "a text, 7");
+    gm_arena_need(arena, false);
+    *text = NULL; /* not reached */
+}
+
+static void test_texts_and_what_others_take(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    struct gm_arena *arena = gm_arena_open();
+    assert_false(gm_arena_run(arena, print_and_need, &text));
+    assert_non_null(text);
+    assert_string_equal(gm_arena_reason(arena), "not enough memory");
+    gm_arena_close(arena);
+}
+
 static void test_scratch_goes_before_the_rest(void **state)
 {
     (void)state;
@@ -131,6 +167,8 @@ int main(void)
         cmocka_unit_test(test_a_refusal_closes_what_the_body_took),
         cmocka_unit_test(test_blocks_grow),
         cmocka_unit_test(test_refused_memory_leaves_the_body),
+        cmocka_unit_test(test_a_thing_goes_before_the_others),
+        cmocka_unit_test(test_texts_and_what_others_take),
         cmocka_unit_test(test_scratch_goes_before_the_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -48,7 +48,7 @@ struct render {
     char path[300];
     struct gm_lane *lane;
     unsigned char *bytes;
-    size_t size, body; /* the file's size, and where its body begins */
+    size_t size, body; /* the file's size, and where its packed lane begins */
 };
 
 static struct gm_lane *open_lane(struct render *render)
@@ -104,9 +104,9 @@ static void write_forged(const struct render *render, const unsigned char *bytes
     unsigned char *copy = malloc(render->size);
     assert_non_null(copy);
     memcpy(copy, bytes, render->size);
-    const size_t head = render->body - strlen(identity);
-    const uint32_t checksum = libdeflate_crc32(0, copy + head, render->size - head);
-    memcpy(copy + head - 2 * sizeof(uint32_t), &checksum, sizeof checksum);
+    enum { HEAD = 48 };
+    const uint32_t checksum = libdeflate_crc32(0, copy + HEAD, render->size - HEAD);
+    memcpy(copy + HEAD - 2 * sizeof(uint32_t), &checksum, sizeof checksum);
     FILE *file = fopen(render->path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(copy, 1, render->size, file), render->size);

@@ -18,7 +18,6 @@
 #include "core/field/families/waves/lobatto.h"
 #include "core/field/problems/burgers.h"
 #include "core/flow/families/families.h"
-#include "core/mesh/families/control.h"
 #include "core/mesh/families/families.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
@@ -139,7 +138,6 @@ static void properties_that_are_false(void **unused)
         {"evolution-projection", GM_KEEPS_LINEAR},
         {"leapfrog", GM_KEEPS_ENERGY},
         {"box", GM_KEEPS_ENERGY},
-        {"gauss-box2", GM_KEEPS_ENERGY},
         {"gauss-box3", GM_KEEPS_ENERGY},
         {"midpoint-box", GM_SYMMETRIC},
         {"box", GM_KEEPS_QUADRATIC},
@@ -628,24 +626,16 @@ static enum gm_status make_aside(const struct gm_task *task, struct gm_members *
     return make_wrong(kick_aside, task, members, progress);
 }
 
-static struct gm_progress advance_one_drift(const struct gm_task *task)
-{
-    return gm_members_advance(task, make_one_drift);
-}
-
-static struct gm_progress advance_aside(const struct gm_task *task)
-{
-    return gm_members_advance(task, make_aside);
-}
-
 static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
 {
     (void)unused;
     struct gm_scheme wrong = changed("logh2");
     struct gm_family family = *wrong.family;
+    struct gm_member_family members = *family.members;
     wrong.family = &family;
     wrong.order = 1;
-    family.loop = advance_one_drift;
+    family.members = &members;
+    members.step = make_one_drift;
     struct gm_certificate certificate = gm_certify(&wrong);
     assert_true(certificate.order_holds);
     assert_true(certificate.claims[12].holds);                                          /* bilinear */
@@ -653,7 +643,7 @@ static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
     assert_false(certificate.claims[1].holds);
     assert_true(certificate.claims[2].measured); /* reversible */
     assert_false(certificate.claims[2].holds);
-    family.loop = advance_aside;
+    members.step = make_aside;
     certificate = gm_certify(&wrong);
     assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
     assert_false(certificate.claims[12].holds);
@@ -697,7 +687,7 @@ static void a_stage_that_is_late(void **unused)
     struct gm_tableau late = gm_tableau_gauss2;
     late.a[0][0] += 1e-4;
     late.abar[0][0] += 1e-4;
-    struct gm_control row = *(const struct gm_control *)gm_scheme_find("uniform-gauss2")->coefficients;
+    struct gm_mesh_row row = *(const struct gm_mesh_row *)gm_scheme_find("uniform-gauss2")->coefficients;
     row.tableau = &late;
     struct gm_scheme wrong = changed("uniform-gauss2");
     wrong.coefficients = &row;

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "app/explorer/background/job.h"
+#include "app/explorer/background/background.h"
 #include "render/message.h"
 
 struct counted {

@@ -15,7 +15,7 @@
 #include "core/certify.h"
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
-#include "core/mesh/families/multiplier.h"
+#include "core/mesh/families/families.h"
 #include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -622,7 +622,7 @@ static void wrong_rows_are_caught(void **unused)
     /* a wrong digit among the coefficients */
     struct gm_tableau tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-4;
-    struct gm_multiplier digit = gm_multiplier_lobatto4;
+    struct gm_mesh_row digit = gm_mesh_multiplier4;
     digit.tableau = &tableau;
     wrong = *gm_scheme_find("multiplier-lobatto4");
     wrong.coefficients = &digit;

@@ -18,9 +18,8 @@
 #include <cmocka.h>
 
 #include "app/base/arguments.h"
-#include "app/explorer/surface/search.h"
-#include "app/explorer/view/prompt.h"
-#include "app/explorer/view/studies.h"
+#include "app/explorer/surface/surface.h"
+#include "app/explorer/view/view.h"
 #include "app/runs/session.h"
 #include "app/runs/slider.h"
 #include "app/words/drive.h"

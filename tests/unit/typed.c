@@ -10,10 +10,10 @@
 #include <cmocka.h>
 
 #include "app/words/current_values.h"
-#include "app/words/replacing.h"
 #include "app/words/request.h"
 #include "app/words/system.h"
 #include "app/words/typed.h"
+#include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/run.h"
 
@@ -121,7 +121,7 @@ static void formulas(void **unused)
 {
     (void)unused;
     struct gm_arguments found = {0};
-    assert_true(gm_replacing_words(
+    assert_true(gm_typed_file_formulas(
         "title: H: no\nH: p^2/2 # kinetic\n  + q^2/2\nrate: x = -x\n  # alone\nstart: q = 1\n", &found));
     assert_int_equal(found.count, 2);
     assert_string_equal(found.words[0], "H=p^2/2 + q^2/2");

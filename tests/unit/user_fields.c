@@ -29,8 +29,8 @@ enum { POINTS = 200, SIZE = 2 * POINTS + 1 };
 #define HALF 20.0
 
 static const struct gm_settings no_settings;
-static const char *const all[] = {"leapfrog",     "energy-conserving", "box",       "euler-box",
-                                  "midpoint-box", "gauss-box2",        "gauss-box3"};
+static const char *const all[] = {"leapfrog",  "energy-conserving", "box",
+                                  "euler-box", "midpoint-box",      "gauss-box3"};
 
 struct typed {
     struct gm_user_system system;
@@ -600,8 +600,8 @@ static const struct gm_verdict *verdict(struct gm_certificate *certificate, enum
 static void schemes_are_certified_on_somebodys_potential(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"leapfrog",   "energy-conserving", "euler-box",   "box",
-                                        "gauss-box2", "gauss-box3",        "lobatto-box4"};
+    static const char *const names[] = {"leapfrog", "energy-conserving", "euler-box",
+                                        "box",      "gauss-box3",        "lobatto-box4"};
     static const char *const texts[] = {PHI4, BREATHER("1")};
     for (size_t which = 0; which < GM_COUNT(texts); which++) {
         struct typed typed;
@@ -652,7 +652,7 @@ static void a_steep_force_is_blamed_on_nobody(void **unused)
 static void what_cannot_be_told_is_blamed_on_nobody(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"leapfrog", "energy-conserving", "box", "gauss-box2", "gauss-box3"};
+    static const char *const names[] = {"leapfrog", "energy-conserving", "box", "gauss-box3"};
     static const struct {
         const char *text;
         bool large;

@@ -14,7 +14,7 @@
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/mesh/certify/law.h"
-#include "core/mesh/families/multiplier.h"
+#include "core/mesh/families/families.h"
 #include "core/mesh/soliton.h"
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
@@ -146,10 +146,10 @@ static void typed_again_the_soliton_is_the_same(void **unused)
 static struct gm_scheme with_a_wrong_digit(void)
 {
     static struct gm_tableau tableau;
-    static struct gm_multiplier digit;
+    static struct gm_mesh_row digit;
     tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-3;
-    digit = gm_multiplier_lobatto4;
+    digit = gm_mesh_multiplier4;
     digit.tableau = &tableau;
     struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
     wrong.coefficients = &digit;

@@ -22,9 +22,9 @@
 #include "core/schemes.h"
 
 static const struct gm_settings no_settings;
-static const char *const all[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
-                                  "midpoint-box", "gauss-box2",        "gauss-box3", "lobatto-box2",
-                                  "lobatto-box4", "lobatto-nystrom4"};
+static const char *const all[] = {"leapfrog",     "energy-conserving", "box",
+                                  "euler-box",    "midpoint-box",      "gauss-box3",
+                                  "lobatto-box2", "lobatto-box4",      "lobatto-nystrom4"};
 
 /* A kink of velocity 1/2 that meets its mirror image at x = 10 when t = 8. */
 #define KINK                                                                                                 \

@@ -172,9 +172,9 @@ static void the_step_may_change(void **unused)
 static void bits_do_not_depend_on_bursts(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
-                                        "midpoint-box", "gauss-box2",        "gauss-box3", "lobatto-box2",
-                                        "lobatto-box4", "lobatto-nystrom4"};
+    static const char *const names[] = {"leapfrog",     "energy-conserving", "box",
+                                        "euler-box",    "midpoint-box",      "gauss-box3",
+                                        "lobatto-box2", "lobatto-box4",      "lobatto-nystrom4"};
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         struct gm_problem problem[3];
         const size_t points = strncmp(names[s], "lobatto", 7) == 0 ? 98 : 97;
@@ -201,7 +201,7 @@ static void bits_do_not_depend_on_bursts(void **unused)
     }
 }
 
-/* The box in all its variables, through the matrices and the gradient of the facet: from the levels of a run
+/* The box in all its variables, through the matrices of the facet: from the levels of a run
    the mean velocity V = A_x v of every cell and the mean slope W = A_t w of every node follow up to a
    constant, and with them every equation of the box; so does the local law of energy, whose residual is known
    in closed form. */
@@ -246,8 +246,7 @@ static void the_box_solves_the_whole_system(void **unused)
             /* M s_t + K s_x - grad S(mean) */
             const double s_t[3] = {rate, (v_next[i] - v[i]) / dt, 0}, s_x[3] = {slope, 0, turn};
             const double mean[3] = {(a + b) / 2, (v[i] + v_next[i]) / 2, (w[i] + w[r]) / 2};
-            double gradient[3];
-            gm_field_of(&problem)->form->gradient(problem.parameters, mean, gradient);
+            const double gradient[3] = {sin(mean[0]), mean[1], -mean[2]};
             for (size_t row = 0; row < 3; row++) {
                 double residual = -gradient[row];
                 for (size_t k = 0; k < 3; k++) {
@@ -330,9 +329,8 @@ static void the_form_is_kept_or_not(void **unused)
     static const struct {
         const char *name;
         bool kept;
-    } of_waves[] = {{"leapfrog", true},          {"euler-box", true},  {"box", true},
-                    {"midpoint-box", true},      {"gauss-box2", true}, {"gauss-box3", true},
-                    {"energy-conserving", false}};
+    } of_waves[] = {{"leapfrog", true},     {"euler-box", true},  {"box", true},
+                    {"midpoint-box", true}, {"gauss-box3", true}, {"energy-conserving", false}};
     enum { POINTS = 101 };
     static double y[2 * POINTS + 1];
     for (size_t s = 0; s < GM_COUNT(of_waves); s++) {
@@ -379,7 +377,7 @@ static void the_form_is_kept_or_not(void **unused)
 static void many_cells(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"box", "gauss-box2", "gauss-box3"};
+    static const char *const names[] = {"box", "gauss-box3"};
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         for (size_t points = 2000; points < 2002; points++) {
             struct gm_problem problem;
@@ -395,23 +393,10 @@ static void many_cells(void **unused)
     }
 }
 
-/* Collocation at one point is the box, whatever solves it; with an even number of points as well. At two
-   points it comes closer, by its order. */
-static void collocation_at_one_point_is_the_box(void **unused)
+/* Collocation at two points comes closer by its order. */
+static void collocation_at_two_points_has_its_order(void **unused)
 {
     (void)unused;
-    for (size_t points = 200; points <= 201; points++) {
-        struct gm_problem problem[2];
-        struct gm_run *box = breather_run(&problem[0], "box", points, 0.1);
-        struct gm_run *gauss = breather_run(&problem[1], "gauss-box2", points, 0.1);
-        assert_int_equal(gm_run_advance(box, 100), GM_OK);
-        assert_int_equal(gm_run_advance(gauss, 100), GM_OK);
-        for (size_t i = 0; i < points; i++) {
-            assert_true(fabs(gm_run_state(box)[i] - gm_run_state(gauss)[i]) < 1e-8);
-        }
-        gm_run_close(box);
-        gm_run_close(gauss);
-    }
     double error[2];
     for (size_t k = 0; k < 2; k++) {
         struct gm_problem problem;
@@ -665,7 +650,7 @@ int main(void)
         cmocka_unit_test(the_box_solves_the_whole_system),
         cmocka_unit_test(the_form_is_kept_or_not),
         cmocka_unit_test(many_cells),
-        cmocka_unit_test(collocation_at_one_point_is_the_box),
+        cmocka_unit_test(collocation_at_two_points_has_its_order),
         cmocka_unit_test(slopes_are_those_of_the_scheme),
         cmocka_unit_test(dispersive_levels_agree),
         cmocka_unit_test(matrices_are_skew),

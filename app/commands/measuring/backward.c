@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/measuring/studied.h"
+#include "app/commands/measuring/measuring.h"
 
 static void print_number(double value, const char *format)
 {
@@ -79,16 +79,8 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
     gm_row_list(row, "slopes", line->orders, GM_POWERS);
 }
 
-static int command_backward(const struct gm_options *options)
+int gm_command_backward(const struct gm_options *options)
 {
     return gm_command_study(options, GM_STUDY_BACKWARD,
                             &(const struct gm_study_printer){print_table, "points", put_front, NULL});
 }
-
-const struct gm_command_row gm_command_backward = {
-    .name = "backward",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "the modified Hamiltonian that a symplectic scheme keeps: its error by step and truncation",
-    .bit = GM_BACKWARD,
-    .function = command_backward,
-};

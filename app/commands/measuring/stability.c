@@ -1,14 +1,286 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint stability: which time step keeps which scheme bounded, and how it fails beyond. */
+/* geomint stability: which time step keeps which scheme bounded, and how it fails beyond; with --region the linear
+   stability region, found by stepping. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/measuring/region.h"
-#include "app/commands/measuring/studied.h"
+#include "app/commands/measuring/measuring.h"
+#include "app/grid/chart.h"
 #include "app/grid/judge.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
+#include "app/words/scheme.h"
 #include "core/expression/number.h"
+#include "core/memory.h"
+#include "core/ode/certify/linear_stability.h"
+#include "core/schemes.h"
+
+/* ---- the region ---- */
+
+enum { SIDE = 121, LINE = 601 };
+
+struct region {
+    const struct gm_scheme *scheme;
+    enum gm_linear_test test;
+    double reach;     /* the plane: from -reach to reach; the oscillator: 0 to reach */
+    double *measured; /* SIDE * SIDE, rows from the bottom; or LINE */
+    double *known;    /* the same from the coefficients; NAN: not known */
+    double limit;     /* the oscillator: stable up to this h w */
+};
+
+/* A symplectic map's eigenvalues stay on the circle but for rounding. */
+static bool stable(double growth)
+{
+    return growth <= 1 + 1e-7;
+}
+
+static double place(const struct region *region, size_t i)
+{
+    return -region->reach + 2 * region->reach * (double)i / (SIDE - 1);
+}
+
+/* Whether the family keeps more than one step in mind. */
+static int64_t steps_of(const struct gm_scheme *scheme)
+{
+    return scheme->family->not_resumable ? 24 : 1;
+}
+
+static void measure_plane(struct region *region)
+{
+    for (size_t r = 0; r < SIDE && !gm_interrupted; r++) {
+        for (size_t c = 0; c < SIDE; c++) {
+            const double re = place(region, c), im = place(region, r);
+            /* a conjugate pair grows alike */
+            if (r < SIDE / 2) {
+                continue;
+            }
+            const double measured = gm_linear_growth(region->scheme, re, im, steps_of(region->scheme));
+            const double known = gm_linear_growth_known(region->scheme, re, im);
+            region->measured[r * SIDE + c] = region->measured[(SIDE - 1 - r) * SIDE + c] = measured;
+            region->known[r * SIDE + c] = region->known[(SIDE - 1 - r) * SIDE + c] = known;
+        }
+    }
+}
+
+static void measure_line(struct region *region)
+{
+    for (size_t i = 0; i < LINE && !gm_interrupted; i++) {
+        const double w = region->reach * (double)i / (LINE - 1);
+        region->measured[i] = i > 0 ? gm_linear_growth(region->scheme, 0, w, 1) : 1;
+        region->known[i] = gm_linear_growth_known(region->scheme, 0, w);
+    }
+    region->limit = gm_linear_limit(region->scheme, 0, 1, region->reach, 1);
+}
+
+static void draw_plane(const struct region *region, struct gm_picture *picture)
+{
+    const struct gm_axis x = {
+        .label = "Re z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
+    const struct gm_axis y = {
+        .label = "Im z", .scale = GM_LINEAR, .low = -region->reach, .high = region->reach};
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_STATE, region->scheme->title, &x, &y);
+    panel->equal = true;
+    panel->colour_bar = true;
+    panel->colour_bar_label = "growth a step, log₁₀";
+    double *values = gm_picture_memory(picture, (size_t)SIDE * SIDE * sizeof *values);
+    double *points = gm_picture_memory(picture, (size_t)2 * SIDE * SIDE * sizeof *points);
+    int *triangles = gm_picture_memory(picture, (size_t)6 * (SIDE - 1) * (SIDE - 1) * sizeof *triangles);
+    if (!values || !points || !triangles) {
+        return;
+    }
+    size_t made = 0;
+    bool known = true;
+    for (size_t r = 0; r < SIDE; r++) {
+        for (size_t c = 0; c < SIDE; c++) {
+            const size_t i = r * SIDE + c;
+            const double growth = region->measured[i];
+            values[i] = isfinite(growth) ? fmax(-1, fmin(log10(fmax(growth, 1e-9)), 1)) : 1;
+            points[2 * i] = place(region, c);
+            points[2 * i + 1] = place(region, r);
+            known &= isfinite(region->known[i]) || r == SIDE / 2;
+            if (r + 1 < SIDE && c + 1 < SIDE) {
+                const int corner = (int)i, above = (int)(i + SIDE);
+                const int both[] = {corner, corner + 1, above, corner + 1, above + 1, above};
+                memcpy(triangles + 3 * made, both, sizeof both);
+                made += 2;
+            }
+        }
+    }
+    gm_mark_mesh(picture, panel, GM_MAP_DIVERGING, -1, 1, points, values, (size_t)SIDE * SIDE, triangles,
+                 made);
+    const double zero = 0;
+    gm_mark_level_lines(picture, panel, (struct gm_style){GM_INK, 1, 2.6, GM_SOLID}, points, values,
+                        (size_t)SIDE * SIDE, triangles, made, &zero, 1);
+    if (known) {
+        for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+            values[i] = fmax(-1, fmin(log10(fmax(region->known[i], 1e-9)), 1));
+        }
+        gm_mark_level_lines(picture, panel, (struct gm_style){GM_PAPER, 1, 1.6, GM_LONG_DASH}, points, values,
+                            (size_t)SIDE * SIDE, triangles, made, &zero, 1);
+    }
+}
+
+static void draw_line(const struct region *region, struct gm_picture *picture)
+{
+    const struct gm_axis x = {.label = "h ω", .scale = GM_LINEAR, .low = 0, .high = region->reach};
+    const struct gm_axis y = {.label = "growth a step", .scale = GM_LINEAR, .low = 0, .high = 4};
+    struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, region->scheme->title, &x, &y);
+    panel->note = gm_picture_text(picture, "stable up to h ω = %.4g", region->limit);
+    double points[2 * LINE];
+    for (int known = 0; known < 2; known++) {
+        for (size_t i = 0; i < LINE; i++) {
+            points[2 * i] = region->reach * (double)i / (LINE - 1);
+            points[2 * i + 1] = known ? region->known[i] : region->measured[i];
+        }
+        const struct gm_style style = known ? (struct gm_style){GM_INK, 1, 1.4, GM_SHORT_DASH}
+                                            : (struct gm_style){gm_lane_role(0), 1, 3, GM_SOLID};
+        gm_mark_line(picture, panel, style, points, LINE, false);
+    }
+}
+
+static void draw_region(const void *data, struct gm_picture *picture)
+{
+    const struct region *region = data;
+    picture->clock = "";
+    picture->title = "Linear stability, found by stepping";
+    picture->subtitle =
+        region->test == GM_TEST_PLANE
+            ? "y′ = z y with the step 1;  solid: growth 1, measured;  dashed: from the coefficients"
+            : "q″ = −ω² q;  solid: spectral radius of a step, measured;  dashed: from the coefficients";
+    if (region->test == GM_TEST_PLANE) {
+        draw_plane(region, picture);
+    } else {
+        draw_line(region, picture);
+    }
+}
+
+static bool write_region(const void *data, const char *path)
+{
+    const struct region *region = data;
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    const bool plane = region->test == GM_TEST_PLANE;
+    fprintf(csv, "scheme,re,im,growth,growth_known\n");
+    for (size_t i = 0; i < (plane ? (size_t)SIDE * SIDE : LINE); i++) {
+        struct gm_row row = {.stream = csv, .form = GM_ROW_CSV};
+        gm_row_text(&row, "scheme", region->scheme->name);
+        gm_row_number(&row, "re", plane ? place(region, i % SIDE) : 0, 9);
+        gm_row_number(&row, "im", plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
+                      9);
+        gm_row_number(&row, "growth", isfinite(region->measured[i]) ? region->measured[i] : NAN, 9);
+        gm_row_number(&row, "growth_known", isfinite(region->known[i]) ? region->known[i] : NAN, 9);
+        fputc('\n', csv);
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
+}
+
+static void print_region(const struct region *region, double left, double up, double part, double apart)
+{
+    const bool plane = region->test == GM_TEST_PLANE;
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "scheme", region->scheme->name);
+    gm_row_text(&row, "test", plane ? "y' = z y" : "q'' = -w^2 q");
+    gm_row_number(&row, "reach", region->reach, 17);
+    if (plane) {
+        gm_row_number(&row, "real_limit", left, 17);
+        gm_row_number(&row, "imaginary_limit", up, 17);
+        gm_row_number(&row, "stable_part", part, 17);
+        gm_row_number(&row, "difference", apart, 17);
+    } else {
+        gm_row_number(&row, "limit", region->limit, 17);
+    }
+    printf("}\n");
+}
+
+static void print_limits(const struct region *region, bool json)
+{
+    if (json && region->test == GM_TEST_OSCILLATOR) {
+        print_region(region, NAN, NAN, NAN, NAN);
+        return;
+    }
+    if (region->test == GM_TEST_OSCILLATOR) {
+        printf("%s: stable on the oscillator up to h ω = %.4g%s\n", region->scheme->name, region->limit,
+               region->limit == region->reach ? " at least" : "");
+        return;
+    }
+    const double left = gm_linear_limit(region->scheme, -1, 0, region->reach, steps_of(region->scheme));
+    const double up = gm_linear_limit(region->scheme, 0, 1, region->reach, steps_of(region->scheme));
+    double apart = 0;
+    size_t inside = 0, compared = 0;
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+        inside += stable(region->measured[i]);
+        if (isfinite(region->known[i]) && isfinite(region->measured[i]) && region->known[i] < 1e3) {
+            apart = fmax(apart, fabs(region->known[i] - region->measured[i]));
+            compared++;
+        }
+    }
+    const double part = (double)inside / (SIDE * SIDE);
+    if (gm_memory_was_short()) {
+        return;
+    }
+    if (json) {
+        print_region(region, left, up, part, compared > 0 ? apart : NAN);
+        return;
+    }
+    printf("%s: stable for real z from -%.4g%s, for imaginary z up to %.4g%s; %.1f %% of the picture\n",
+           region->scheme->name, left, left == region->reach ? " and below" : "", up,
+           up == region->reach ? " and beyond" : "", 100 * part);
+    if (compared > 0) {
+        printf("largest difference from the stability function of its coefficients: %.1e\n", apart);
+    }
+}
+
+static int find_region(const struct gm_options *options)
+{
+    char name[128], message[GM_MESSAGE];
+    int status = GM_EXIT_OK;
+    struct region region = {.scheme = gm_scheme_sought(options->region, &status, message)};
+    if (!region.scheme) {
+        return gm_give_up(status, "%s", message);
+    }
+    region.test = gm_linear_test_of(region.scheme);
+    if (region.test == GM_TEST_NONE) {
+        return gm_give_up(GM_EXIT_USAGE,
+                          "%s takes neither y' = z y nor an oscillator: it has no linear stability region",
+                          region.scheme->name);
+    }
+    gm_catch_interrupts();
+    region.reach = region.test == GM_TEST_PLANE ? 6 : 2 * M_PI;
+    region.measured = calloc((size_t)SIDE * SIDE, sizeof *region.measured);
+    region.known = calloc((size_t)SIDE * SIDE, sizeof *region.known);
+    char own[41];
+    snprintf(own, sizeof own, "%s", region.scheme->word ? region.scheme->title : "");
+    for (char *at = own; *at; at++) {
+        *at = isalnum((unsigned char)*at) ? *at : '-';
+    }
+    snprintf(name, sizeof name, "%s-stability", own[0] ? own : region.scheme->name);
+    if (!region.measured || !region.known) {
+        status = gm_give_up(GM_EXIT_FILE, "not enough memory");
+    } else {
+        if (region.test == GM_TEST_PLANE) {
+            measure_plane(&region);
+        } else {
+            measure_line(&region);
+        }
+        if (!gm_options_take_stdout(options)) {
+            print_limits(&region, options->json);
+        }
+        status = gm_command_chart(options, "stability", name, &region, draw_region, write_region);
+    }
+    free(region.measured);
+    free(region.known);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}
+
+/* ---- the study ---- */
 
 static void print_table(const struct gm_grid *grid)
 {
@@ -59,23 +331,14 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
     gm_row_number(row, "limit", limit > 0 ? limit : NAN, 17);
 }
 
-static int command_stability(const struct gm_options *options)
+int gm_command_stability(const struct gm_options *options)
 {
     if (options->region && options->arguments.count > 0) {
-        gm_complain("--region takes a scheme alone, no scene");
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "--region takes a scheme alone, no scene");
     }
     if (options->region) {
-        return gm_region(options);
+        return find_region(options);
     }
     return gm_command_study(options, GM_STUDY_STABILITY,
                             &(const struct gm_study_printer){print_table, "cells", put_front, NULL});
 }
-
-const struct gm_command_row gm_command_stability = {
-    .name = "stability",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "which time step keeps which scheme bounded or accurate, and how it fails beyond",
-    .bit = GM_STABILITY,
-    .function = command_stability,
-};

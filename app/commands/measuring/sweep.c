@@ -7,10 +7,10 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/commands/confirmed.h"
-#include "app/commands/measuring/charted.h"
+#include "app/commands/measuring/measuring.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
+#include "app/words/drive.h"
 #include "core/basics.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
@@ -26,11 +26,12 @@ static size_t cores_of(const struct gm_options *options)
 static bool is_confirmed(const struct gm_sweep *sweep, const struct gm_options *options)
 {
     const size_t runs = gm_sweep_share(sweep);
-    if (options->yes || ((double)runs <= many && gm_sweep_steps(sweep) <= gm_many_steps)) {
+    if (options->yes || ((double)runs <= many && gm_sweep_total(sweep, gm_request_steps) <= gm_many_steps)) {
         return true;
     }
     char duration[64];
-    gm_put_duration(gm_sweep_seconds(sweep) / (double)cores_of(options), duration, sizeof duration);
+    gm_put_duration(gm_sweep_total(sweep, gm_drive_seconds) / (double)cores_of(options), duration,
+                    sizeof duration);
     gm_complain("these are %zu run%s, which take about %s with %zu at once; --yes makes them", runs,
                 gm_plural((double)runs), duration, cores_of(options));
     return false;
@@ -141,13 +142,11 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
 {
     char message[GM_MESSAGE];
     if (options->shards && !gm_sweep_note(sweep, path, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     struct gm_sweep_table *table = gm_sweep_table_open(sweep, path, options->retry, message);
     if (!table) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
+        return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     struct gm_sweep_sum sum;
     gm_catch_interrupts();
@@ -181,8 +180,7 @@ static int join(const struct gm_options *options)
     struct gm_sweep sweep;
     size_t missing = 0;
     if (options->arguments.count > 0) {
-        gm_complain("--join needs no scene: %s.sweep tells of the sweep", options->join);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "--join needs no scene: %s.sweep tells of the sweep", options->join);
     }
     const bool good = gm_sweep_recall(&sweep, options->join, message) &&
                       gm_sweep_join(&sweep, options->join, name_missing, &missing, message);
@@ -202,11 +200,10 @@ static int join(const struct gm_options *options)
     return status;
 }
 
-static int command_sweep(const struct gm_options *options)
+int gm_command_sweep(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_sweep sweep;
-    bool unreadable = false;
     if (options->join) {
         return gm_finish(join(options));
     }
@@ -214,17 +211,15 @@ static int command_sweep(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     int status = GM_EXIT_USAGE;
-    if (!gm_sweep_open(&sweep, &options->arguments, options->measure, &unreadable, message)) {
-        gm_complain("%s", message);
-        status = unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+    if (!gm_sweep_open(&sweep, &options->arguments, options->measure, message)) {
+        status = gm_give_up(sweep.unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
     } else {
         sweep.shard = options->shards ? (size_t)options->shard : 1;
         sweep.shards = options->shards ? (size_t)options->shards : 1;
         const bool named = options->table || is_drawn(options);
         char *path = named ? path_of(options, &sweep) : NULL;
         if (named && !path) {
-            gm_complain("not enough memory");
-            status = GM_EXIT_MEMORY;
+            status = gm_give_up(GM_EXIT_MEMORY, "not enough memory");
         } else if (is_drawn(options) && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
             gm_complain("%s; --table FILE.csv alone makes none", message);
         } else if (is_confirmed(&sweep, options)) {
@@ -235,11 +230,3 @@ static int command_sweep(const struct gm_options *options)
     gm_sweep_close(&sweep);
     return gm_finish(status);
 }
-
-const struct gm_command_row gm_command_sweep = {
-    .name = "sweep",
-    .synopsis = "SCENE key=RANGE ...",
-    .help = "a run for every combination of values, on all cores: a table of numbers, a graph or a map",
-    .bit = GM_SWEEP,
-    .function = command_sweep,
-};

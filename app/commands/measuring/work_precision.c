@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/measuring/studied.h"
+#include "app/commands/measuring/measuring.h"
 #include "app/grid/judge.h"
 
 static void print_cell(double value)
@@ -86,16 +86,8 @@ static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct
     }
 }
 
-static int command_work_precision(const struct gm_options *options)
+int gm_command_work_precision(const struct gm_options *options)
 {
     return gm_command_study(options, GM_STUDY_WORK,
                             &(const struct gm_study_printer){print_table, "points", put_front, put_end});
 }
-
-const struct gm_command_row gm_command_work_precision = {
-    .name = "work-precision",
-    .synopsis = "SCENE [key=value ...]",
-    .help = "error against run time and evaluations, of every scheme that fits",
-    .bit = GM_WORK_PRECISION,
-    .function = command_work_precision,
-};

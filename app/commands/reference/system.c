@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is known of somebody's own system: its equations as they were derived, its structure with reasons, and
    the schemes that fit it. */
-#include "app/commands/reference/system.h"
+#include "app/commands/reference/reference.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
 #include "app/words/system.h"
@@ -27,16 +26,17 @@
 #include "core/schemes.h"
 #include "render/message.h"
 
-static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian",     "ode", "poisson", "field",
-                                                   "evolution", "multisymplectic"};
-static const char *const titles[GM_SYSTEM_KINDS] = {"A canonical system",
-                                                    "A Lagrangian system",
-                                                    "An ordinary differential equation",
-                                                    "A Poisson system",
-                                                    "A wave equation",
-                                                    "An evolution equation on a line",
-                                                    "A multisymplectic equation on a line"};
-static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V", "", "S"};
+static const struct {
+    const char *word, *title, *energy;
+} kinds[GM_SYSTEM_KINDS] = {
+    {"canonical", "A canonical system", "H"},
+    {"lagrangian", "A Lagrangian system", "L"},
+    {"ode", "An ordinary differential equation", ""},
+    {"poisson", "A Poisson system", "H"},
+    {"field", "A wave equation", "V"},
+    {"evolution", "An evolution equation on a line", ""},
+    {"multisymplectic", "A multisymplectic equation on a line", "S"},
+};
 
 enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
 
@@ -216,7 +216,7 @@ static void print_texts(const struct report *report)
         }
     }
     char line[200];
-    snprintf(line, sizeof line, "%s of %zu component%s%s", titles[system->kind], system->n,
+    snprintf(line, sizeof line, "%s of %zu component%s%s", kinds[system->kind].title, system->n,
              gm_plural((double)system->n), system->timed ? " and the time" : "");
     gm_print_wrapped(line, 0, 0);
 }
@@ -256,8 +256,8 @@ static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     printf("\nequations\n");
-    if (energies[system->kind][0]) {
-        print_equation(report, energies[system->kind], system->energy);
+    if (kinds[system->kind].energy[0]) {
+        print_equation(report, kinds[system->kind].energy, system->energy);
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {
@@ -338,33 +338,48 @@ static char *linear_fact(const struct report *report, size_t i)
     return text;
 }
 
-static void print_facts(const struct report *report)
+/* Calls `put` for every fact of the structure; `of` is the component that it is about, or "". */
+static void each_fact(const struct report *report,
+                      void (*put)(struct gm_row *row, const char *word, const char *of, bool holds,
+                                  const char *reason),
+                      struct gm_row *row)
 {
-    printf("\nstructure\n");
-    for (size_t i = 0; i < report->system.n && report->system.kind == GM_EVOLUTION; i++) {
+    const struct gm_user_system *system = &report->system;
+    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        gm_print_wrapped(text ? text : "",
-                         printf("  %-16s %-3s ", "linear part", has_linear(report, i) ? "yes" : "no"), 23);
+        put(row, "linear part", system->variables[i].name, has_linear(report, i), text ? text : "");
         free(text);
     }
-    if (report->system.kind == GM_MATRICES) {
-        gm_print_wrapped(form_fact, printf("  %-16s yes ", "multisymplectic"), 23);
+    if (system->kind == GM_MATRICES) {
+        put(row, "multisymplectic", "", true, form_fact);
     }
-    for (size_t i = 0; i < FIELD_FACTS && report->system.kind == GM_FIELD; i++) {
-        gm_print_wrapped(field_facts[i][1], printf("  %-16s yes ", field_facts[i][0]), 23);
-    }
-    if (report->system.kind == GM_POISSON) {
-        printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
+        put(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
-        char *reason = finding->asked ? gm_fact_reason(&report->system, fact, finding) : NULL;
+        char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
         if (reason) {
-            gm_print_wrapped(reason,
-                             printf("  %-16s %-4s", gm_fact_word(fact), finding->holds ? "yes" : "no"), 23);
+            put(row, gm_fact_word(fact), "", finding->holds, reason);
         }
         free(reason);
     }
+}
+
+static void print_fact(struct gm_row *unused, const char *word, const char *of, bool holds,
+                       const char *reason)
+{
+    (void)unused, (void)of;
+    gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
+}
+
+static void print_facts(const struct report *report)
+{
+    printf("\nstructure\n");
+    if (report->system.kind == GM_POISSON) {
+        printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
+    }
+    each_fact(report, print_fact, NULL);
 }
 
 /* Those that fit, and those of another kind of grid. */
@@ -401,137 +416,91 @@ static void print_schemes(const struct report *report)
     }
 }
 
-static void print_parameters_json(const struct gm_user_system *system)
-{
-    printf(",\"parameters\":{");
-    const char *comma = "";
-    for (size_t i = system->parameters; i < system->velocities; i++, comma = ",") {
-        printf("%s", comma);
-        gm_json_number_pair(system->variables[i].name, system->variables[i].value);
-    }
-    printf("}");
-}
-
-/* A pair of a name and a formula, the node's. */
-static void print_formula_pair(const struct report *report, const char *name, gm_node_id node)
+static void put_formula(struct gm_row *row, const char *key, const struct report *report, gm_node_id node)
 {
     char *text = formula_of(report, node, false);
-    gm_json_pair(name, text ? text : "");
+    gm_row_text(row, key, text ? text : "");
     free(text);
 }
 
-static void print_start_json(const struct report *report)
+static void put_values(struct gm_row *row, const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     double *start = gm_equations_start(system, NULL);
-    printf(",\"start\":{");
-    const char *comma = "";
-    for (size_t i = 0; start && i < system->n; i++, comma = ",") {
-        printf("%s", comma);
+    struct gm_row parameters = gm_row_open(row, "parameters", '}');
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
+    }
+    gm_row_close(&parameters);
+    struct gm_row starts = gm_row_open(row, "start", '}');
+    for (size_t i = 0; start && i < system->n; i++) {
         if (gm_system_is_field(system)) {
-            print_formula_pair(report, system->variables[i].name, system->variables[i].start);
+            put_formula(&starts, system->variables[i].name, report, system->variables[i].start);
         } else {
-            gm_json_number_pair(system->variables[i].name, start[i]);
+            gm_row_number(&starts, system->variables[i].name, start[i], 17);
         }
     }
+    gm_row_close(&starts);
     free(start);
-    printf("}");
 }
 
-static void print_equations_json(const struct report *report)
+static void put_equations(struct gm_row *row, const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     char name[80];
-    printf(",\"equations\":{");
-    const char *comma = "";
-    for (size_t i = first_equation(system); i < system->n; i++, comma = ",") {
-        printf("%s", comma);
+    struct gm_row equations = gm_row_open(row, "equations", '}');
+    for (size_t i = first_equation(system); i < system->n; i++) {
         const gm_node_id node = equation_of(report, i, false, name, sizeof name);
-        print_formula_pair(report, name, node);
+        put_formula(&equations, name, report, node);
     }
-    printf("},\"constraints\":[");
-    comma = "";
+    gm_row_close(&equations);
+    struct gm_row constraints = gm_row_open(row, "constraints", ']');
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            char *text = formula_of(report, system->items[i].nodes[0], false);
-            printf("%s", comma);
-            gm_json_put_text(stdout, text ? text : "");
-            free(text);
-            comma = ",";
+            put_formula(&constraints, NULL, report, system->items[i].nodes[0]);
         }
     }
-    printf("],\"invariants\":{");
-    comma = "";
+    gm_row_close(&constraints);
+    struct gm_row invariants = gm_row_open(row, "invariants", '}');
     for (size_t i = 0; i < system->item_count; i++) {
         if (is_kept(&system->items[i])) {
             kept_name(system, &system->items[i], name, sizeof name);
-            printf("%s", comma);
-            gm_json_pair(name, certainty(system->items[i].check));
-            comma = ",";
+            gm_row_text(&invariants, name, certainty(system->items[i].check));
         }
     }
-    printf("}");
+    gm_row_close(&invariants);
 }
 
-/* One fact of the structure, after a comma if it is not the first. */
-static void print_fact_json(bool *first, const char *word, const char *of, bool holds, const char *reason)
+static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
 {
-    printf("%s\"%s%s\":{\"holds\":%s,", *first ? "" : ",", word, of, holds ? "true" : "false");
-    gm_json_pair("reason", reason);
-    printf("}");
-    *first = false;
-}
-
-static void print_structure_json(const struct report *report)
-{
-    const struct gm_user_system *system = &report->system;
-    bool first = true;
-    printf(",\"structure\":{");
-    if (system->kind == GM_MATRICES) {
-        print_fact_json(&first, "multisymplectic", "", true, form_fact);
-    }
-    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
-        print_fact_json(&first, field_facts[i][0], "", true, field_facts[i][1]);
-    }
-    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
-        char *text = linear_fact(report, i);
-        print_fact_json(&first, "linear_part_", system->variables[i].name, has_linear(report, i),
-                        text ? text : "");
-        free(text);
-    }
-    for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
-        const struct gm_finding *finding = &report->model.findings[fact];
-        char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
-        if (reason) {
-            print_fact_json(&first, gm_fact_word(fact), "", finding->holds, reason);
-        }
-        free(reason);
-    }
-    printf("}");
+    char key[80];
+    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
+    struct gm_row fact = gm_row_open(row, key, '}');
+    gm_row_flag(&fact, "holds", holds);
+    gm_row_text(&fact, "reason", reason);
+    gm_row_close(&fact);
 }
 
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
-    printf("{");
-    gm_json_pair("title", gm_system_title(system) ? gm_system_title(system) : "");
-    printf(",");
-    gm_json_pair("kind", kinds[system->kind]);
-    printf(",\"timed\":%s", system->timed ? "true" : "false");
-    print_parameters_json(system);
-    print_start_json(report);
-    print_equations_json(report);
-    print_structure_json(report);
-    printf(",\"schemes\":[");
-    const char *comma = "";
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "title", gm_system_title(system) ? gm_system_title(system) : "");
+    gm_row_text(&row, "kind", kinds[system->kind].word);
+    gm_row_flag(&row, "timed", system->timed);
+    put_values(&row, report);
+    put_equations(&row, report);
+    struct gm_row structure = gm_row_open(&row, "structure", '}');
+    each_fact(report, put_fact, &structure);
+    gm_row_close(&structure);
+    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         if (fits(report, gm_scheme_at(i))) {
-            printf("%s\"%s\"", comma, gm_scheme_at(i)->name);
-            comma = ",";
+            gm_row_text(&schemes, NULL, gm_scheme_at(i)->name);
         }
     }
-    printf("]");
-    gm_list_file_json(file, report->system.source);
+    gm_row_close(&schemes);
+    gm_list_put_file(&row, file, system->source);
     printf("}\n");
 }
 
@@ -579,9 +548,9 @@ static void print_latex(struct report *report)
     const struct gm_user_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
-    if (energies[system->kind][0]) {
+    if (kinds[system->kind].energy[0]) {
         char *text = formula_of(report, system->energy, true);
-        printf("  %s &= %s \\\\\n", energies[system->kind], text ? text : "");
+        printf("  %s &= %s \\\\\n", kinds[system->kind].energy, text ? text : "");
         free(text);
     }
     for (size_t i = 0; i < system->item_count; i++) {
@@ -710,8 +679,7 @@ static int open_system(struct report *report, const struct gm_arguments *argumen
                  : !file || read_values(arguments, values, &count) ? GM_EXIT_OK
                                                                    : GM_EXIT_USAGE;
     if (status == GM_EXIT_OK) {
-        status = file ? gm_system_open(&report->system, file, values, count, message)
-                      : gm_system_open_typed(&report->system, arguments->count, arguments->words, message);
+        status = gm_system_open(&report->system, file, arguments, values, count, message);
         if (status != GM_EXIT_OK) {
             gm_complain("%s", message);
         }
@@ -737,16 +705,10 @@ static int check_scene(const struct gm_arguments *arguments)
     return status;
 }
 
-void gm_list_file_json(const struct gm_file *file, const char *source)
+void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)
 {
-    if (!file) {
-        printf(",\"file\":null,\"source\":null");
-        return;
-    }
-    printf(",");
-    gm_json_pair("file", file->path);
-    printf(",");
-    gm_json_pair("source", source);
+    gm_row_text(row, "file", file ? file->path : NULL);
+    gm_row_text(row, "source", file ? source : NULL);
 }
 
 int gm_list_system(const struct gm_arguments *arguments, const struct gm_file *file, enum gm_telling telling)

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <suitesparse/cholmod.h>
 
-#include "app/commands/reference/version.h"
+#include "app/commands/reference/reference.h"
 #include "app/native/compiler.h"
 #include "app/native/sources.h"
 #include "app/output/say.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work beside the screen: studies, pictures of pixels, frames of a movie. */
-#include "app/explorer/background/job.h"
+#include "app/explorer/background/background.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -30,7 +30,9 @@ static void *go_on(void *self)
         }
     }
     pthread_mutex_unlock(&job->lock);
-    job->end(job->self);
+    if (job->end) {
+        job->end(job->self);
+    }
     return NULL;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A child process that certifies, and its output. */
-#include "app/explorer/background/measure.h"
+#include "app/explorer/background/background.h"
 
 #include <errno.h>
 #include <fcntl.h>

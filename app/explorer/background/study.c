@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study under way: what it measures goes to the screen as looks, what the screen orders comes as flags. */
-#include "app/explorer/background/study.h"
+#include "app/explorer/background/background.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "app/base/arguments.h"
-#include "app/explorer/background/job.h"
 #include "app/grid/grid.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
@@ -44,11 +43,6 @@ struct gm_study {
     double looked;            /* when the last look was handed over */
     unsigned long told;       /* number of its message */
 };
-
-const char *gm_study_name(enum gm_study_kind kind)
-{
-    return gm_study_rows[kind].name;
-}
 
 const char *gm_study_words(const struct gm_study *study)
 {
@@ -91,7 +85,7 @@ static void show(struct gm_study *study)
 static void save(struct gm_study *study, enum gm_theme theme)
 {
     char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
-    const char *study_name = gm_study_rows[study->kind].name;
+    const char *study_name = gm_study_rows[study->kind]->name;
     char *command = gm_arguments_join(study_name, &study->arguments);
     struct gm_chart chart = {
         .name = name, .command = command, .print.look = {.width = 1920, .height = 1080, .theme = theme}};
@@ -184,7 +178,8 @@ static void close_grid(void *self)
 
 static bool open_grid(struct gm_study *study, char *message)
 {
-    if (!gm_arguments_split(&study->arguments, study->words)) {
+    if (!study->words || !study->looks[0].picture || !study->looks[1].picture ||
+        !gm_arguments_split(&study->arguments, study->words)) {
         return gm_refuse(message, "There is not enough memory.");
     }
     return gm_grid_open(&study->grid, study->kind, &study->arguments, NULL, message);
@@ -212,11 +207,6 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     study->looks[0].picture = gm_picture_open();
     study->looks[1].picture = gm_picture_open();
     study->looked = -INFINITY;
-    if (!study->words || !study->looks[0].picture || !study->looks[1].picture) {
-        gm_refuse(message, "There is not enough memory.");
-        free_study(study);
-        return NULL;
-    }
     if (!open_grid(study, message)) {
         free_study(study);
         return NULL;
@@ -270,7 +260,7 @@ struct gm_study_look *gm_study_take(struct gm_study *study)
 
 char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y)
 {
-    const struct gm_study_row *row = &gm_study_rows[study->kind];
+    const struct gm_study_row *row = gm_study_rows[study->kind];
     return row->pick ? row->pick(&study->grid, panel, x, y) : NULL;
 }
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A line of text that is edited. */
-#include "app/explorer/surface/edit.h"
+#include "app/explorer/surface/surface.h"
 
 #include <curses.h>
 #include <string.h>
 #include <wchar.h>
 
-#include "app/explorer/surface/keystroke.h"
 #include "render/cells/text.h"
 
 enum { TO_BEGIN = 'A' - '@', TO_END = 'E' - '@', CLEAR = 'U' - '@', CUT = 'K' - '@' };

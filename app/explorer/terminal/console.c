@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The terminal as a device: modes, keys, signals, and every way out of it. */
-#include "app/explorer/terminal/console.h"
+#include "app/explorer/terminal/device.h"
 
 #include <curses.h>
 #include <errno.h>
@@ -17,7 +17,6 @@
 #include <unistd.h>
 
 #include "app/base/interrupt.h"
-#include "app/explorer/terminal/mouse.h"
 #include "app/words/request.h"
 #include "render/clock.h"
 

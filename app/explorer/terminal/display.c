@@ -1,16 +1,108 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Composed screens to the terminal, with the picture of pixels that a screen leaves room for. */
-#include "app/explorer/terminal/display.h"
+/* Composed screens to the terminal, with the picture of pixels that a screen leaves room for, which is painted and
+   encoded beside. */
+#include "app/explorer/terminal/device.h"
 
 #include <errno.h>
 #include <poll.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-#include "app/explorer/terminal/console.h"
+#include "app/explorer/background/background.h"
 #include "render/clock.h"
 #include "render/message.h"
+#include "render/pixels/canvas.h"
+
+/* ---- the thread that paints ---- */
+
+struct gm_pixels {
+    struct gm_job painting;
+    bool busy; /* a picture was begun and not yet taken */
+
+    /* the caller's and the thread's in turn */
+    struct gm_picture *picture;
+    struct gm_pixels_job job;
+    const char *bytes;
+    size_t size;
+
+    /* the thread's */
+    struct gm_pixels_job made_for; /* what the following are for */
+    struct gm_canvas *canvas;
+    struct gm_inline *image;
+    unsigned char *rgb;
+};
+
+static void forget(void *self)
+{
+    struct gm_pixels *pixels = self;
+    gm_canvas_close(pixels->canvas);
+    gm_inline_close(pixels->image);
+    free(pixels->rgb);
+    pixels->canvas = NULL;
+    pixels->image = NULL;
+    pixels->rgb = NULL;
+}
+
+static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
+{
+    return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
+}
+
+static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
+{
+    return same_kind(a, b) && a->theme == b->theme;
+}
+
+/* Makes sure of a canvas of the right size. */
+static bool prepare(struct gm_pixels *pixels)
+{
+    const struct gm_pixels_job *job = &pixels->job;
+    struct gm_appearance look = {.theme = job->theme, .live = true};
+    char message[GM_MESSAGE];
+    if (pixels->canvas && same_place(job, &pixels->made_for)) {
+        return true;
+    }
+    forget(pixels);
+    pixels->made_for = *job;
+    gm_inline_size(&job->place, job->kind, &look.width, &look.height);
+    pixels->canvas = gm_canvas_open(&look, message);
+    if (!pixels->canvas) {
+        return false;
+    }
+    pixels->image = gm_inline_open(job->kind, &job->place, job->most_width, job->most_height);
+    pixels->rgb = malloc((size_t)look.width * (size_t)look.height * 3);
+    return pixels->image && pixels->rgb;
+}
+
+static void paint(void *self)
+{
+    struct gm_pixels *pixels = self;
+    pixels->bytes = NULL;
+    pixels->size = 0;
+    if (!prepare(pixels) || !gm_canvas_paint(pixels->canvas, pixels->picture, pixels->rgb) ||
+        !gm_inline_encode(pixels->image, pixels->rgb, pixels->job.whole, &pixels->bytes, &pixels->size)) {
+        pixels->bytes = NULL;
+        forget(pixels);
+    } else if (!pixels->bytes) {
+        pixels->bytes = ""; /* nothing changed */
+    }
+}
+
+static struct gm_pixels *open_pixels(int wake)
+{
+    char message[GM_MESSAGE];
+    struct gm_pixels *pixels = calloc(1, sizeof *pixels);
+    /* a context of OpenGL, where there is one, is the thread's: it is closed there */
+    if (pixels && !gm_job_open(&pixels->painting, paint, forget, pixels, wake, message)) {
+        free(pixels);
+        pixels = NULL;
+    }
+    return pixels;
+}
+
+/* ---- screens ---- */
 
 bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, int wake)
 {
@@ -20,34 +112,22 @@ bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, i
 
 void gm_display_close(struct gm_display *display)
 {
-    gm_pixels_close(display->painter);
+    if (display->painter) {
+        gm_job_close(&display->painter->painting);
+        free(display->painter);
+    }
     gm_writer_close(&display->writer);
     display->painter = NULL;
 }
 
 static bool painting(const struct gm_display *display)
 {
-    return display->painter && gm_pixels_busy(display->painter);
+    return display->painter && display->painter->busy;
 }
 
 bool gm_display_takes(struct gm_display *display)
 {
     return !painting(display) && gm_writer_takes(&display->writer, display->terminal->answers.ready);
-}
-
-bool gm_display_send(struct gm_display *display)
-{
-    return gm_writer_send(&display->writer);
-}
-
-int gm_display_patience(const struct gm_display *display)
-{
-    return gm_writer_patience(&display->writer);
-}
-
-void gm_display_renew(struct gm_display *display)
-{
-    display->stale = true;
 }
 
 void gm_display_forget(struct gm_display *display)
@@ -58,10 +138,13 @@ void gm_display_forget(struct gm_display *display)
 
 bool gm_display_read(struct gm_display *display)
 {
-    char message[GM_MESSAGE];
-    if (!display->painter || !gm_pixels_take(display->painter, &display->bytes, &display->size, message)) {
+    struct gm_pixels *painter = display->painter;
+    if (!painting(display) || gm_job_is_busy(&painter->painting)) {
         return false;
     }
+    painter->busy = false;
+    display->bytes = painter->bytes;
+    display->size = painter->size;
     display->painted = display->bytes != NULL;
     display->failed = !display->painted;
     return true;
@@ -81,15 +164,9 @@ static void remove_picture(struct gm_display *display)
     display->lost = true;
 }
 
-static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
-{
-    return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
-}
-
 /* Begins the picture that the screen leaves room for, unless it is there. */
 static bool begin(struct gm_display *display, const struct gm_composed *screen)
 {
-    char message[GM_MESSAGE];
     const struct gm_terminal *terminal = display->terminal;
     struct gm_pixels_job job = {
         .kind = screen->pixels,
@@ -108,7 +185,7 @@ static bool begin(struct gm_display *display, const struct gm_composed *screen)
         return false;
     }
     if (!display->painter) {
-        display->painter = gm_pixels_open(display->wake, message);
+        display->painter = open_pixels(display->wake);
         if (!display->painter) {
             display->failed = true;
             return false;
@@ -117,7 +194,10 @@ static bool begin(struct gm_display *display, const struct gm_composed *screen)
     job.whole = display->lost;
     display->job = job;
     display->painted = display->stale = display->lost = false;
-    gm_pixels_paint(display->painter, screen->picture, &job);
+    display->painter->picture = screen->picture;
+    display->painter->job = job;
+    display->painter->busy = true;
+    gm_job_begin(&display->painter->painting);
     return true;
 }
 
@@ -144,11 +224,12 @@ const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_p
                                          int row, double *x, double *y)
 {
     const struct gm_inline_place *place = &display->job.place;
-    if (!display->painter) {
+    gm_display_finish(display);
+    if (!display->painter || !display->painter->canvas) {
         return NULL;
     }
-    gm_display_finish(display);
-    return gm_pixels_locate(display->painter, picture, (column - place->column + 0.5) * place->cell_width,
+    return gm_canvas_locate(display->painter->canvas, picture,
+                            (column - place->column + 0.5) * place->cell_width,
                             (row - place->row + 0.5) * place->cell_height, x, y);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What to show pictures with, by option, environment, answers and terminfo, and a word on why. */
-#include "app/explorer/terminal/terminal.h"
+#include "app/explorer/terminal/device.h"
 
 #include <curses.h>
 #include <langinfo.h>
@@ -46,11 +46,6 @@ static int rung_of(struct gm_graphics graphics)
         }
     }
     return RUNGS - 1;
-}
-
-static const char *graphics_name(struct gm_graphics graphics)
-{
-    return graphics_names[rung_of(graphics)];
 }
 
 /* The ladder's step as this terminal can take it: beside pixels text is ASCII where letters are. */
@@ -368,24 +363,23 @@ void gm_terminal_reconsider(struct gm_terminal *terminal)
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
 {
     if (!terminal->input || !terminal->output) {
-        gm_refuse(
+        return gm_refuse(
             message,
             "The explorer needs a terminal, but standard %s is none; `geomint render` makes pictures without.",
             terminal->input ? "output" : "input");
-    } else if (!*terminal->name) {
-        gm_refuse(message,
-                  "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
-    } else if (!terminal->known) {
-        gm_refuse(message,
-                  "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
-                  terminal->name,
-                  strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1
-                      ? "which cannot place the cursor"
-                      : "which terminfo does not know or which cannot place the cursor");
-    } else {
-        return true;
     }
-    return false;
+    if (!*terminal->name) {
+        return gm_refuse(
+            message, "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
+    }
+    const bool known = strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1;
+    return terminal->known ||
+           gm_refuse(
+               message,
+               "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
+               terminal->name,
+               known ? "which cannot place the cursor"
+                     : "which terminfo does not know or which cannot place the cursor");
 }
 
 static void line(const char *what, const char *value, const char *why)
@@ -415,11 +409,6 @@ static void report_answers(const struct gm_terminal *terminal)
     }
     line("synchronised", answers->synchronised ? "yes" : "no",
          "whether frames are shown at once (mode 2026)");
-}
-
-static const char *theme_name(const struct gm_terminal *terminal)
-{
-    return theme_names[terminal->theme == GM_THEME_LIGHT ? LIGHT : DARK];
 }
 
 static void report_ladder(const struct gm_terminal *terminal)
@@ -452,8 +441,7 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     struct gm_terminal terminal;
     char message[GM_MESSAGE], text[64];
     if (!gm_terminal_detect(&terminal, overrides, message)) {
-        gm_complain("%s", message);
-        return GM_EXIT_USAGE;
+        return gm_give_up(GM_EXIT_USAGE, "%s", message);
     }
     printf("Found\n");
     line("TERM", terminal.name, terminal.known ? "terminfo knows it" : "no entry in terminfo that serves");
@@ -474,9 +462,9 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     snprintf(text, sizeof text, "%d x %d", terminal.cell_width, terminal.cell_height);
     line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
     line("colours", colours_names[terminal.colours], terminal.colours_why);
-    line("graphics", graphics_name(terminal.graphics), terminal.graphics_why);
+    line("graphics", graphics_names[rung_of(terminal.graphics)], terminal.graphics_why);
     report_ladder(&terminal);
-    line("theme", theme_name(&terminal), terminal.theme_why);
+    line("theme", theme_names[terminal.theme == GM_THEME_LIGHT ? LIGHT : DARK], terminal.theme_why);
     if (!gm_terminal_serves(&terminal, message)) {
         printf("  %s\n", message);
     }

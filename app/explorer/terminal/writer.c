@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bytes to a terminal: what differs from the last screen, in pieces that the line takes at once. */
-#include "app/explorer/terminal/writer.h"
+#include "app/explorer/terminal/device.h"
 
 #include <curses.h>
 #include <errno.h>
@@ -12,9 +12,115 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/explorer/terminal/palette.h"
+#include "app/explorer/surface/surface.h"
 #include "render/clock.h"
 #include "render/files/base64.h"
+
+/* ---- the colours of a picture in terminals of 256 and of 16 colours ---- */
+
+/* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour
+   would end among the greys. */
+static int shift(struct gm_rgb a, struct gm_rgb b)
+{
+    int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b, light = (2 * r + 5 * g + blue) / 8;
+    return light * light + 4 * ((r - light) * (r - light) + (blue - light) * (blue - light)) / 2;
+}
+
+static struct gm_rgb of_256(int number)
+{
+    static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
+    if (number >= 232) {
+        uint8_t grey = (uint8_t)(8 + 10 * (number - 232));
+        return (struct gm_rgb){grey, grey, grey};
+    }
+    number -= 16;
+    return (struct gm_rgb){levels[number / 36], levels[number / 6 % 6], levels[number % 6]};
+}
+
+/* The nearest of the 256 colours of xterm, the first sixteen (which users redefine) left out. */
+static int nearest_256(struct gm_rgb colour)
+{
+    int best = 16;
+    for (int i = 17; i < 256; i++) {
+        if (shift(colour, of_256(i)) < shift(colour, of_256(best))) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* The sixteen as terminals usually show them; users' palettes differ, but not in what is red. */
+static const struct gm_rgb sixteen[16] = {
+    {0, 0, 0},     {205, 0, 0},     {0, 205, 0},     {205, 205, 0},   {0, 0, 238}, {205, 0, 205},
+    {0, 205, 205}, {229, 229, 229}, {127, 127, 127}, {255, 0, 0},     {0, 255, 0}, {255, 255, 0},
+    {92, 92, 255}, {255, 0, 255},   {0, 255, 255},   {255, 255, 255},
+};
+
+static int nearest_16(struct gm_rgb colour)
+{
+    int best = 0;
+    for (int i = 1; i < 16; i++) {
+        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Strong and faded, on black and on white. */
+static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
+    [GM_THEME_DARK] = {[GM_PAPER] = {0, 0},
+                       [GM_INK] = {15, 7},
+                       [GM_SECONDARY] = {7, 7},
+                       [GM_GRID] = {8, 8},
+                       [GM_INITIAL] = {9, 1},
+                       [GM_EXACT] = {7, 8},
+                       [GM_OVER] = {15, 7},
+                       [GM_LANE + 0] = {14, 6},
+                       [GM_LANE + 1] = {11, 3},
+                       [GM_LANE + 2] = {10, 2},
+                       [GM_LANE + 3] = {13, 5},
+                       [GM_LANE + 4] = {12, 4},
+                       [GM_LANE + 5] = {15, 7}},
+    [GM_THEME_LIGHT] = {[GM_PAPER] = {15, 15},
+                        [GM_INK] = {0, 8},
+                        [GM_SECONDARY] = {8, 8},
+                        [GM_GRID] = {7, 7},
+                        [GM_INITIAL] = {1, 9},
+                        [GM_EXACT] = {8, 7},
+                        [GM_OVER] = {15, 7},
+                        [GM_LANE + 0] = {4, 12},
+                        [GM_LANE + 1] = {3, 11},
+                        [GM_LANE + 2] = {2, 10},
+                        [GM_LANE + 3] = {5, 13},
+                        [GM_LANE + 4] = {6, 14},
+                        [GM_LANE + 5] = {0, 8}},
+};
+
+/* A role in its own colour, in the darker one of the pair where it is faded. */
+static int nearest_role(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
+{
+    struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
+    /* distances are squares: below a third of the square is below .58 of the way */
+    bool faded = 3 * gm_rgb_distance(colour, paper) < gm_rgb_distance(gm_theme_colour(theme, role), paper);
+    return roles[theme][role][faded];
+}
+
+static int nearest_ground(enum gm_theme theme, struct gm_rgb colour)
+{
+    struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
+    if (gm_rgb_distance(colour, paper) < 4000) {
+        return roles[theme][GM_PAPER][0];
+    }
+    return nearest_16(colour);
+}
+
+/* Whether a colour counts as ink where there are no colours at all. */
+static bool is_ink(enum gm_theme theme, struct gm_rgb colour)
+{
+    struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER), ink = gm_theme_colour(theme, GM_INK);
+    return 16 * gm_rgb_distance(colour, paper) > gm_rgb_distance(ink, paper);
+}
 
 /* ---- the line of bytes ---- */
 
@@ -37,7 +143,7 @@ static void put(struct gm_writer *writer, const char *bytes, size_t size)
     writer->length += size;
 }
 
-static void put_text(struct gm_writer *writer, const char *text)
+void gm_writer_tell(struct gm_writer *writer, const char *text)
 {
     put(writer, text, strlen(text));
 }
@@ -50,29 +156,18 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    put_text(writer, text);
+    gm_writer_tell(writer, text);
 }
 
 static void put_glyph(struct gm_writer *writer, uint32_t code)
 {
-    char bytes[4];
-    size_t size = 0;
-    if (code < 0x80) {
-        bytes[size++] = (char)code;
-    } else if (code < 0x800) {
-        bytes[size++] = (char)(0xC0 | code >> 6);
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        bytes[size++] = (char)(0xE0 | code >> 12);
-        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
-    } else {
-        bytes[size++] = (char)(0xF0 | code >> 18);
-        bytes[size++] = (char)(0x80 | (code >> 12 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
-        bytes[size++] = (char)(0x80 | (code & 0x3F));
+    static const unsigned char lead[] = {0, 0xC0, 0xE0, 0xF0};
+    const int more = (code >= 0x80) + (code >= 0x800) + (code >= 0x10000); /* bytes after the first */
+    char bytes[4] = {(char)(lead[more] | code >> 6 * more)};
+    for (int i = 1; i <= more; i++) {
+        bytes[i] = (char)(0x80 | (code >> 6 * (more - i) & 0x3F));
     }
-    put(writer, bytes, size);
+    put(writer, bytes, 1 + (size_t)more);
 }
 
 /* A capability without its padding $<5>: it would make us wait for terminals of old. */
@@ -101,12 +196,12 @@ static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum g
     case GM_COLOURS_256: {
         size_t key = (size_t)(colour.r >> 3) << 10 | (size_t)(colour.g >> 3) << 5 | (size_t)(colour.b >> 3);
         if (writer->nearest[key] < 0) {
-            writer->nearest[key] = (int16_t)gm_palette_256(colour);
+            writer->nearest[key] = (int16_t)nearest_256(colour);
         }
         return writer->nearest[key];
     }
     case GM_COLOURS_16:
-        return ground ? gm_palette_ground(writer->theme, colour) : gm_palette_16(writer->theme, colour, role);
+        return ground ? nearest_ground(writer->theme, colour) : nearest_role(writer->theme, colour, role);
     case GM_COLOURS_NONE:
         break;
     }
@@ -144,8 +239,8 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
     struct look look = {.glyph = cell->glyph ? cell->glyph : ' ', .bold = cell->bold};
     if (writer->colours == GM_COLOURS_NONE) {
         /* ink or paper is all there is: two inks in one cell are a full block, an inked ground is reversed */
-        bool ink = gm_palette_is_ink(writer->theme, cell->foreground);
-        bool ground = gm_palette_is_ink(writer->theme, cell->background);
+        bool ink = is_ink(writer->theme, cell->foreground);
+        bool ground = is_ink(writer->theme, cell->background);
         bool block = cell->glyph >= 0x2580 && cell->glyph <= 0x259F;
         if (ground && ink && block) {
             look.glyph = 0x2588;
@@ -241,13 +336,10 @@ static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
     if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows) {
         return true;
     }
-    struct gm_cell *more =
-        realloc(writer->shown.cells, sizeof *more * (size_t)cells->columns * (size_t)cells->rows);
-    if (!more) {
+    if (!gm_cells_resize(&writer->shown, cells->columns, cells->rows)) {
         writer->failed = true;
         return false;
     }
-    writer->shown = (struct gm_cells){.columns = cells->columns, .rows = cells->rows, .cells = more};
     writer->known = false;
     return true;
 }
@@ -279,7 +371,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
     /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
     bool together = writer->colours >= GM_COLOURS_256 || image;
     if (together) {
-        put_text(writer, "\033[?2026h");
+        gm_writer_tell(writer, "\033[?2026h");
     }
     size_t begun = writer->length;
     if (!writer->known) {
@@ -315,10 +407,10 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
         return;
     }
     if (together) {
-        put_text(writer, "\033[?2026l");
+        gm_writer_tell(writer, "\033[?2026l");
     }
     if (writer->asks && writer->asked - writer->answered < GM_WRITER_FLYING) {
-        put_text(writer, GM_ASK_READY);
+        gm_writer_tell(writer, GM_ASK_READY);
         writer->asked_at = gm_clock_milliseconds();
         writer->flying[writer->asked % GM_WRITER_FLYING] = writer->length;
         writer->sent_at[writer->asked++ % GM_WRITER_FLYING] = writer->asked_at;
@@ -389,16 +481,11 @@ void gm_writer_copy(struct gm_writer *writer, const char *text)
     char *coded = malloc(size);
     if (coded) {
         gm_base64((const unsigned char *)text, strlen(text), coded);
-        put_text(writer, "\033]52;c;");
+        gm_writer_tell(writer, "\033]52;c;");
         put(writer, coded, size);
-        put_text(writer, "\a");
+        gm_writer_tell(writer, "\a");
     }
     free(coded);
-}
-
-void gm_writer_tell(struct gm_writer *writer, const char *text)
-{
-    put_text(writer, text);
 }
 
 bool gm_writer_idle(const struct gm_writer *writer)
@@ -429,7 +516,7 @@ void gm_writer_cut(struct gm_writer *writer)
     if (!gm_writer_idle(writer)) {
         writer->sent = writer->length = 0;
         writer->known = false;
-        put_text(writer, "\033\\");
+        gm_writer_tell(writer, "\033\\");
     }
 }
 

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The list of schemes to choose from, searched by what is typed. */
-#include "app/explorer/view/chooser.h"
+#include "app/explorer/view/view.h"
 
 #include <curses.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/surface/search.h"
-#include "app/explorer/view/schemes.h"
+#include "app/explorer/surface/surface.h"
 
 enum { PAGE = 10 };
 
@@ -31,7 +30,8 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
                                scheme->title,
                                scheme->family->title,
                                scheme->reference ? scheme->reference : "",
-                               scheme->alias ? scheme->alias : "",
+                               scheme->alias[0],
+                               scheme->alias[1],
                                NULL};
         const int rank = gm_search_rank(face->typed, texts);
         if (rank < 0) {
@@ -68,9 +68,9 @@ static const struct gm_scheme *first_choice(const struct gm_shot *shot)
     return shot->schemes[own];
 }
 
-enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, enum gm_choosing choosing)
+enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, const struct gm_key_code *key)
 {
-    press->face->choosing = choosing;
+    press->face->choosing = (enum gm_choosing)key->meaning;
     press->face->typed[0] = '\0';
     press->face->choice = press->shot->scheme_count > 0 ? first_choice(press->shot) : NULL;
     return GM_KEY_DONE;
@@ -137,7 +137,7 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
         return GM_KEY_DONE;
     case '?':
         return face->choice && face->choice != &gm_chooser_user
-                   ? gm_keystroke_scheme_page(press, face->choice)
+                   ? gm_keystroke_page(press, GM_PAGE_SCHEME, face->choice)
                    : GM_KEY_DONE;
     default:
         if (gm_typed_key(face->typed, press->key)) {

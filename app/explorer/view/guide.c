@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A tour in the explorer: its keys, and what it tells below the picture. */
-#include "app/explorer/view/guide.h"
+#include "app/explorer/view/view.h"
 
 #include <stdio.h>
 

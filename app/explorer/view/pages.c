@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages that explain: what is on them, and how they are scrolled. */
-#include "app/explorer/view/pages.h"
+#include "app/explorer/view/view.h"
 
 #include <curses.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/view/keys.h"
 #include "core/basics.h"
 
 enum { PAGE = 10 }; /* lines */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How schemes and lanes look in lists. */
-#include "app/explorer/view/schemes.h"
+#include "app/explorer/view/view.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The side panel: its rows shared out among the lanes and schemes, the parameters, what is observed, and the
    formula. */
-#include "app/explorer/view/side.h"
+#include "app/explorer/view/view.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/view/schemes.h"
 #include "render/layout/labels.h"
 
 /* The rows of the sections. */

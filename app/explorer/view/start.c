@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The start: scenes, tours, and what there is in files, with a live look at the chosen one. */
-#include "app/explorer/view/start.h"
+#include "app/explorer/view/view.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/view/pages.h"
-#include "app/explorer/view/typed_system.h"
 #include "core/basics.h"
 #include "render/cells/text.h"
 

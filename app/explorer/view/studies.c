@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which study is on the screen, its keys and its picture; and what is told of those that go on unseen. */
-#include "app/explorer/view/studies.h"
+#include "app/explorer/view/view.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
-#include "app/explorer/surface/keystroke.h"
+#include "app/explorer/surface/surface.h"
 
 /* 0: a tour alone shows it */
 static const char keys[GM_STUDY_COUNT] = {
@@ -188,7 +188,7 @@ static int percent(const struct gm_study_look *look)
 void gm_studies_status(const struct gm_studies *studies, char *text, size_t size)
 {
     const struct gm_study_look *look = studies->looks[studies->shown];
-    const char *name = gm_study_name(studies->shown);
+    const char *name = gm_study_rows[studies->shown]->name;
     if (studies->notice[0]) {
         snprintf(text, size, "%s", studies->notice);
     } else if (!look) {
@@ -217,10 +217,10 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
             used +=
                 (size_t)snprintf(text + used, size - used,
                                  keys[i] ? "%s of %.*s is finished: %c shows it" : "%s of %.*s is finished",
-                                 gm_study_name((enum gm_study_kind)i), length, words, keys[i]);
+                                 gm_study_rows[i]->name, length, words, keys[i]);
         } else {
-            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%",
-                                     gm_study_name((enum gm_study_kind)i), length, words, percent(look));
+            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%", gm_study_rows[i]->name,
+                                     length, words, percent(look));
         }
     }
 }

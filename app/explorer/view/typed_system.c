@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the prompt for a system or a scheme of one's own, or a map, looks like. */
-#include "app/explorer/view/typed_system.h"
+#include "app/explorer/view/view.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is kept of a session: a picture, a movie, the words that redo it. */
-#include "app/explorer/worker/capture.h"
+#include "app/explorer/worker/session.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -10,11 +10,153 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
+#include "app/base/interrupt.h"
+#include "app/explorer/background/background.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/words/current_values.h"
 #include "render/clock.h"
+#include "render/files/sink.h"
 #include "render/files/temporary.h"
+#include "render/message.h"
+#include "render/pixels/canvas.h"
+
+/* ---- a movie made beside the session that is played ---- */
+
+enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };
+
+struct gm_recorder {
+    struct gm_job painting;
+    char path[128];
+    enum gm_theme theme;
+    struct gm_sink *sink;
+
+    /* the caller's */
+    double begun; /* the time of the first frame, without what was left out */
+    long frames;  /* that the movie has, with those that are under way */
+
+    /* the caller's and the thread's in turn */
+    struct gm_picture *picture;
+    long repeat; /* so many frames show it */
+
+    /* the thread's */
+    struct gm_canvas *canvas; /* NULL: not yet */
+    unsigned char *rgb;
+    bool failed;
+    char message[GM_MESSAGE];
+};
+
+static bool open_canvas(struct gm_recorder *recorder)
+{
+    if (!recorder->canvas) {
+        const struct gm_appearance look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
+        recorder->canvas = gm_canvas_open(&look, recorder->message);
+    }
+    if (!recorder->rgb) {
+        recorder->rgb = malloc((size_t)WIDTH * HEIGHT * 3);
+    }
+    return recorder->canvas && recorder->rgb;
+}
+
+/* Paints a picture once and puts it into the movie so many times. */
+static void record(void *self)
+{
+    struct gm_recorder *recorder = self;
+    recorder->failed = recorder->failed || !open_canvas(recorder) ||
+                       !gm_canvas_paint(recorder->canvas, recorder->picture, recorder->rgb) ||
+                       !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
+}
+
+/* In the thread, because the context is its own. */
+static void end(void *self)
+{
+    struct gm_recorder *recorder = self;
+    gm_canvas_close(recorder->canvas);
+    free(recorder->rgb);
+}
+
+static void release(struct gm_recorder *recorder)
+{
+    gm_picture_close(recorder->picture);
+    free(recorder);
+}
+
+static bool begin_movie(struct gm_recorder *recorder, char *message)
+{
+    const struct gm_sink_settings settings = {
+        .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
+    recorder->picture = gm_picture_open();
+    if (!recorder->picture) {
+        return gm_refuse(message, "There is not enough memory.");
+    }
+    recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
+    if (recorder->sink && !gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
+        char given_up[GM_MESSAGE];
+        gm_sink_close(recorder->sink, false, given_up);
+        return false;
+    }
+    return recorder->sink != NULL;
+}
+
+static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, char *message)
+{
+    struct gm_recorder *recorder = calloc(1, sizeof *recorder);
+    if (!recorder) {
+        gm_refuse(message, "There is not enough memory.");
+        return NULL;
+    }
+    recorder->theme = theme;
+    recorder->begun = NAN;
+    snprintf(recorder->path, sizeof recorder->path, "%s", path);
+    if (!begin_movie(recorder, message)) {
+        release(recorder);
+        return NULL;
+    }
+    return recorder;
+}
+
+static bool close_recorder(struct gm_recorder *recorder, char *message)
+{
+    gm_job_close(&recorder->painting);
+    bool good = gm_sink_close(recorder->sink, true, message);
+    if (recorder->message[0]) { /* there was nothing to paint with */
+        gm_refuse(message, "%s", recorder->message);
+        good = false;
+    }
+    release(recorder);
+    return good;
+}
+
+double gm_recorder_length(const struct gm_recorder *recorder)
+{
+    return (double)recorder->frames / RATE;
+}
+
+static struct gm_picture *due_picture(struct gm_recorder *recorder, double now)
+{
+    if (isnan(recorder->begun)) {
+        recorder->begun = now - 1.0 / RATE;
+    }
+    long due = (long)((now - recorder->begun) * RATE + 1e-6) - recorder->frames;
+    if (due < 1 || gm_job_is_busy(&recorder->painting)) {
+        return NULL;
+    }
+    if (due > RATE) { /* nothing changed for long */
+        recorder->begun += (double)(due - RATE) / RATE;
+        due = RATE;
+    }
+    recorder->repeat = due;
+    gm_picture_clear(recorder->picture);
+    return recorder->picture;
+}
+
+static void put_picture(struct gm_recorder *recorder)
+{
+    recorder->frames += recorder->repeat;
+    gm_job_begin(&recorder->painting);
+}
+
+/* ---- what is kept ---- */
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
@@ -67,9 +209,9 @@ bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)
     if (!capture->recorder) {
         return false;
     }
-    snprintf(path, sizeof path, "%s", gm_recorder_path(capture->recorder));
+    snprintf(path, sizeof path, "%s", capture->recorder->path);
     double length = gm_recorder_length(capture->recorder);
-    if (gm_recorder_close(capture->recorder, message)) {
+    if (close_recorder(capture->recorder, message)) {
         snprintf(sentence, GM_MESSAGE, "Saved %.100s, a movie of %.1f s.", path, length);
     } else {
         gm_refuse(sentence, "No movie: %.400s", message);
@@ -86,7 +228,7 @@ void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm
         return;
     }
     gm_folder_free_file(play->session.scene->name, ".mp4", path, sizeof path);
-    capture->recorder = gm_recorder_open(path, theme, message);
+    capture->recorder = open_recorder(path, theme, message);
     if (capture->recorder) {
         snprintf(sentence, sizeof sentence, "Recording %.100s; R ends it.", path);
     } else {
@@ -101,10 +243,10 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
     if (!capture->recorder || !capture->unrecorded) {
         return;
     }
-    struct gm_picture *picture = gm_recorder_due(capture->recorder, gm_clock_seconds());
+    struct gm_picture *picture = due_picture(capture->recorder, gm_clock_seconds());
     if (picture) {
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
-        gm_recorder_put(capture->recorder);
+        put_picture(capture->recorder);
         capture->unrecorded = false;
     }
 }
@@ -155,18 +297,20 @@ static void put_changes(FILE *stream, const struct gm_request *log)
     free(list);
 }
 
-static char *tell_picture(const struct gm_session *session, enum gm_theme theme)
+/* A command of the arguments of a request: malloc'ed. Of a session's view it makes the picture. */
+static char *command_of(const struct gm_request *request, const struct gm_session *view, enum gm_theme theme)
 {
-    const struct gm_request *log = &session->log;
-    char *text = NULL, *arguments = gm_request_format(log);
+    char *text = NULL, *arguments = gm_request_format(request);
     size_t size = 0;
     FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
     if (stream) {
-        fputs("geomint render", stream);
-        put_arguments(stream, arguments, true);
-        put_end(stream, session);
-        put_changes(stream, log);
-        fprintf(stream, " --theme %s", theme == GM_THEME_DARK ? "dark" : "light");
+        fputs(view ? "geomint render" : "geomint", stream);
+        put_arguments(stream, arguments, view);
+        if (view) {
+            put_end(stream, view);
+            put_changes(stream, request);
+            fprintf(stream, " --theme %s", theme == GM_THEME_DARK ? "dark" : "light");
+        }
         fclose(stream);
     }
     free(arguments);
@@ -193,15 +337,7 @@ static char *tell_explorer(const struct gm_session *session)
             timing->dt = fabs(timing->dt); /* a start is forwards */
         }
     }
-    char *text = NULL, *arguments = good ? gm_request_format(&present) : NULL;
-    size_t size = 0;
-    FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
-    if (stream) {
-        fputs("geomint", stream);
-        put_arguments(stream, arguments, false);
-        fclose(stream);
-    }
-    free(arguments);
+    char *text = good ? command_of(&present, NULL, GM_THEME_DARK) : NULL;
     for (size_t i = 0; i < session->count; i++) {
         free(lanes[i].parameters);
     }
@@ -213,7 +349,7 @@ void gm_capture_tell(struct gm_capture *capture, const struct gm_session *sessio
     for (size_t i = 0; i < GM_COMMANDS; i++) {
         free(capture->commands[i]);
     }
-    capture->commands[GM_COMMAND_PICTURE] = tell_picture(session, theme);
+    capture->commands[GM_COMMAND_PICTURE] = command_of(&session->log, session, theme);
     capture->commands[GM_COMMAND_EXPLORER] = tell_explorer(session);
     capture->command_number++;
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "app/explorer/worker/orders.h"
+#include "app/explorer/worker/session.h"
 #include "core/basics.h"
 
 static void move_parameter(struct gm_play *play, const struct gm_order *order)
@@ -146,46 +146,6 @@ static bool add_lane(struct gm_play *play, char *message)
     return true;
 }
 
-/* Orders that move in time. */
-static bool travel(const struct gm_order *order, struct gm_play *play, char *message)
-{
-    struct gm_session *session = &play->session;
-    bool ok = true;
-    play->paused = play->paused || order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_VISIT;
-    if (order->kind == GM_ORDER_BACK) {
-        ok = gm_session_back(session, message);
-    } else if (order->kind == GM_ORDER_TURN) {
-        ok = turn(play, message);
-    } else {
-        ok = gm_session_visit(session, moment_of(session, order), message);
-    }
-    gm_agenda_rewind(&play->agenda, gm_session_time(session));
-    return ok;
-}
-
-/* Orders that change which lanes there are, and by which schemes. */
-static bool arrange(const struct gm_order *order, struct gm_play *play, char *message)
-{
-    struct gm_session *session = &play->session;
-    bool ok = true;
-    switch (order->kind) {
-    case GM_ORDER_SWITCH:
-        return gm_session_switch(session, play->selected, order->scheme, message);
-    case GM_ORDER_FORK:
-        ok = gm_session_fork(session, play->selected, order->scheme, message);
-        play->selected = ok ? session->count - 1 : play->selected;
-        return ok;
-    case GM_ORDER_OVERLAY:
-        return gm_session_overlay(session, message);
-    case GM_ORDER_ADD:
-        return add_lane(play, message);
-    default:
-        ok = gm_session_remove(session, play->selected, message);
-        play->selected = play->selected < session->count ? play->selected : session->count - 1;
-        return ok;
-    }
-}
-
 void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm_capture *capture)
 {
     struct gm_session *session = &play->session;
@@ -212,9 +172,15 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         gm_play_set_speed(play, play->speed + order->amount);
         break;
     case GM_ORDER_BACK:
+        play->paused = true;
+        ok = gm_session_back(session, message);
+        break;
     case GM_ORDER_TURN:
+        ok = turn(play, message);
+        break;
     case GM_ORDER_VISIT:
-        ok = travel(order, play, message);
+        play->paused = true;
+        ok = gm_session_visit(session, moment_of(session, order), message);
         break;
     case GM_ORDER_AHEAD:
         ok = run_ahead(play, order->text, message);
@@ -239,11 +205,21 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         move_parameter(play, order);
         break;
     case GM_ORDER_SWITCH:
+        ok = gm_session_switch(session, play->selected, order->scheme, message);
+        break;
     case GM_ORDER_FORK:
+        ok = gm_session_fork(session, play->selected, order->scheme, message);
+        play->selected = ok ? session->count - 1 : play->selected;
+        break;
     case GM_ORDER_OVERLAY:
+        ok = gm_session_overlay(session, message);
+        break;
     case GM_ORDER_ADD:
+        ok = add_lane(play, message);
+        break;
     case GM_ORDER_REMOVE:
-        ok = arrange(order, play, message);
+        ok = gm_session_remove(session, play->selected, message);
+        play->selected = play->selected < session->count ? play->selected : session->count - 1;
         break;
     case GM_ORDER_RECORD:
         gm_capture_record(capture, play, (enum gm_theme)order->amount);
@@ -266,6 +242,9 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
     }
     if (!ok) {
         gm_play_say(play, message);
+    }
+    if (order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_TURN || order->kind == GM_ORDER_VISIT) {
+        gm_agenda_rewind(&play->agenda, gm_session_time(session));
     }
     gm_play_set_clock(play, jumps ? gm_session_time(session) : due);
     play->changed = capture->unrecorded = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Model time against the clock on the wall: how far to step, ahead, back home, and what stands still. */
-#include "app/explorer/worker/play.h"
+#include "app/explorer/worker/session.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -94,7 +94,7 @@ double gm_play_left_until(const struct gm_play *play, double t)
 }
 
 /* Makes what the agenda has until now; true if that was something. */
-static bool make_changes(struct gm_play *play)
+bool gm_play_keep_agenda(struct gm_play *play)
 {
     char message[GM_MESSAGE] = "";
     const double limit = gm_agenda_limit(&play->agenda);
@@ -112,11 +112,6 @@ static bool make_changes(struct gm_play *play)
         gm_play_set_clock(play, gm_session_time(&play->session));
     }
     return gm_agenda_limit(&play->agenda) > limit;
-}
-
-void gm_play_keep_agenda(struct gm_play *play)
-{
-    make_changes(play);
 }
 
 void gm_play_run_ahead(struct gm_play *play, double to)
@@ -140,7 +135,7 @@ static bool step_ahead(struct gm_play *play)
         on = gm_session_advance(&play->session, to);
         worked = worked || on;
     }
-    if (!on && make_changes(play)) {
+    if (!on && gm_play_keep_agenda(play)) {
         return true;
     }
     if (!on) {

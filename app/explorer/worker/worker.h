@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_WORKER_WORKER_H
 #define GM_APP_EXPLORER_WORKER_WORKER_H
 
-#include "app/explorer/worker/orders.h"
+#include "app/explorer/worker/session.h"
 
 /* The thread that steps. It alone touches the lanes: orders go to it through a queue and finished shots come
    back, so that a key never waits for a step and a step never for the terminal. When there is nothing to do

@@ -62,24 +62,21 @@ static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, cha
     chart->key_count = axes;
     chart->shown = sweep->measure || sweep->chosen.count < 1 ? sweep->chosen.count : 1;
     if (chart->shown == 0) {
-        snprintf(message, GM_MESSAGE, "%s has no observable that a picture could show", sweep->scene->name);
-        return false;
+        return gm_refuse(message, "%s has no observable that a picture could show", sweep->scene->name);
     }
     const size_t panels = chart->shown * (axes == 2 ? chart->lines : 1);
     if (axes < 1 || axes > 2 || (axes == 2 && sweep->words.zip)) {
-        snprintf(message, GM_MESSAGE,
-                 "a picture is made of one key with several numbers, or of two, and not of %zu%s", axes,
-                 axes == 2 ? " that are paired" : "");
-        return false;
+        return gm_refuse(message,
+                         "a picture is made of one key with several numbers, or of two, and not of %zu%s",
+                         axes, axes == 2 ? " that are paired" : "");
     }
-    if (panels > MOST_PANELS || (axes == 1 && chart->lines > GM_LANE_COLOURS)) {
-        snprintf(message, GM_MESSAGE, "a picture has up to %d %s, and these are %zu",
-                 axes == 1 && panels <= MOST_PANELS ? GM_LANE_COLOURS : MOST_PANELS,
-                 axes == 1 && panels <= MOST_PANELS ? "lines"
-                 : axes == 1                        ? "graphs"
-                                                    : "maps",
-                 axes == 1 && panels <= MOST_PANELS ? chart->lines : panels);
-        return false;
+    if (panels > MOST_PANELS) {
+        return gm_refuse(message, "a picture has up to %d %s, and these are %zu", MOST_PANELS,
+                         axes == 1 ? "graphs" : "maps", panels);
+    }
+    if (axes == 1 && chart->lines > GM_LANE_COLOURS) {
+        return gm_refuse(message, "a picture has up to %d lines, and these are %zu", GM_LANE_COLOURS,
+                         chart->lines);
     }
     for (size_t i = 0; i < 2; i++) {
         const size_t count = i < axes ? sweep->words.list[chart->keys[i]].count : 1;
@@ -150,13 +147,10 @@ void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *r
 struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message)
 {
     struct gm_sweep_chart *chart = calloc(1, sizeof *chart);
-    char *head = gm_sweep_head(sweep);
-    bool good = (chart && head) || gm_refuse(message, "not enough memory");
-    good = good && plan(chart, sweep, message);
-    for (const char *at = good ? strstr(head, ",status,") : head; at > head; at--) {
+    bool good = (chart || gm_refuse(message, "not enough memory")) && plan(chart, sweep, message);
+    for (const char *at = good ? strstr(sweep->head, ",status,") : sweep->head; at > sweep->head; at--) {
         chart->status += *at == ',';
     }
-    free(head);
     if (good) {
         chart->cells =
             calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);

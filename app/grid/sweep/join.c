@@ -8,36 +8,23 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "app/base/text.h"
 #include "app/grid/sweep.h"
 #include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 
-static char *note_path(const char *path)
-{
-    char *text = NULL;
-    return asprintf(&text, "%s.sweep", path) < 0 ? NULL : text;
-}
-
-/* ---- the note ---- */
-
-/* As gm_arguments_split reads it. */
-static char *note_text(const struct gm_sweep *sweep)
-{
-    char *text = NULL;
-    return asprintf(&text, "geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n", sweep->arguments,
-                    sweep->measure ? sweep->measure : "", sweep->shards) < 0
-               ? NULL
-               : text;
-}
-
 enum { LONGEST_NOTE = 1 << 20 };
 
 bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message)
 {
     size_t size;
-    char reason[GM_REGULAR_REASON], *note = note_path(path), *text = note_text(sweep);
+    char reason[GM_REGULAR_REASON];
+    char *note = gm_text("%s.sweep", path);
+    /* the words as gm_arguments_split reads them */
+    char *text = gm_text("geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n", sweep->arguments,
+                         sweep->measure ? sweep->measure : "", sweep->shards);
     bool good = note && text;
     if (!good) {
         gm_refuse(message, "%.360s could not be opened: not enough memory", path);
@@ -66,10 +53,9 @@ static char *find(char *note, const char *word)
 
 bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message)
 {
-    bool unreadable = false;
     struct gm_arguments arguments = {0};
     size_t size;
-    char reason[GM_REGULAR_REASON] = "not enough memory", *name = note_path(path);
+    char reason[GM_REGULAR_REASON] = "not enough memory", *name = gm_text("%s.sweep", path);
     char *note = name ? gm_regular_read(name, LONGEST_NOTE, &size, reason) : NULL;
     char *words = find(note, "\nsweep: "), *measure = find(note, "\nmeasure: "),
          *shares = find(note, "\nshares: ");
@@ -83,7 +69,7 @@ bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message)
         words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
         good = (gm_arguments_split(&arguments, words) ||
                 gm_refuse(message, "%.360s could not be read: not enough memory", name)) &&
-               gm_sweep_open(sweep, &arguments, measure[0] ? measure : NULL, &unreadable, message);
+               gm_sweep_open(sweep, &arguments, measure[0] ? measure : NULL, message);
         sweep->shards = strtoul(shares, NULL, 10);
     }
     gm_arguments_close(&arguments);
@@ -106,7 +92,7 @@ static void allow_files(void)
 
 /* Opens the share behind its head. A share that is not there has no rows; one that is being written, or that
    is of another sweep, is refused. */
-static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard, const char *head,
+static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard,
                        struct gm_csv_lines *share, char *message)
 {
     char *name = gm_sweep_share_path(path, shard, sweep->shards);
@@ -118,7 +104,7 @@ static bool open_share(const struct gm_sweep *sweep, const char *path, size_t sh
         good = gm_refuse(message, "%.360s is being written by another process", name);
     } else if (share->stream) {
         gm_csv_next(share);
-        good = !share->line || !share->line[0] || strcmp(share->line, head) == 0 ||
+        good = !share->line || !share->line[0] || strcmp(share->line, sweep->head) == 0 ||
                gm_refuse(message, "%.360s is not a share of this sweep: its columns are others", name);
     }
     free(name);
@@ -133,10 +119,7 @@ static bool merge(const struct gm_sweep *sweep, struct gm_csv_lines *shares, FIL
     for (size_t run = 0; run < sweep->count; run++) {
         struct gm_csv_lines *share = &shares[run % sweep->shards];
         const char *row = gm_csv_next(share); /* a torn row is none */
-        char *front = row ? gm_sweep_front(sweep, run) : NULL;
-        const bool good = !row || (front && strncmp(row, front, strlen(front)) == 0);
-        free(front);
-        if (!good) {
+        if (row && gm_sweep_front(sweep, run, row) == 0) {
             return gm_refuse(message, "share %zu has a row that is not that of run %zu",
                              run % sweep->shards + 1, run);
         }
@@ -171,26 +154,26 @@ static bool replace(const char *part, const char *path, const char *head, char *
 bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
                    void (*missing)(size_t run, const char *words), size_t *missing_count, char *message)
 {
-    char *head = gm_sweep_head(sweep), *part = NULL;
+    char *part = gm_text("%s.part", path);
     struct gm_csv_lines *shares = calloc(sweep->shards, sizeof *shares);
     *missing_count = 0;
     allow_files();
-    bool good = head && shares && asprintf(&part, "%s.part", path) >= 0;
+    bool good = shares && part;
     if (!good) {
         gm_refuse(message, "%.360s could not be joined: not enough memory", path);
     }
     for (size_t i = 0; good && i < sweep->shards; i++) {
-        good = open_share(sweep, path, i + 1, head, &shares[i], message);
+        good = open_share(sweep, path, i + 1, &shares[i], message);
     }
     FILE *table = good ? fopen(part, "w") : NULL;
     if (table) {
-        fputs(head, table);
+        fputs(sweep->head, table);
         good = merge(sweep, shares, table, missing, missing_count, message);
         const bool failed = ferror(table) != 0;
         if ((fclose(table) != 0 || failed) && good) {
             good = gm_refuse(message, "%.360s could not be written: %s", part, strerror(errno));
         }
-        good = good && replace(part, path, head, message);
+        good = good && replace(part, path, sweep->head, message);
         if (!good) {
             unlink(part);
         }
@@ -201,7 +184,6 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
         gm_csv_close(&shares[i]);
     }
     free(shares);
-    free(head);
     free(part);
     return good;
 }

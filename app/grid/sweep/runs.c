@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The runs of a sweep: from a number to a run, and from a run to a row. */
 #include "app/base/interrupt.h"
+#include "app/base/text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -45,8 +46,8 @@ static bool is_column(const struct gm_word *word)
 
 static bool add_word(struct gm_arguments *arguments, const char *key, const char *value)
 {
-    char *word = NULL;
-    const bool good = asprintf(&word, "%s=%s", key, value) >= 0 && gm_arguments_add(arguments, word);
+    char *word = gm_text("%s=%s", key, value);
+    const bool good = word && gm_arguments_add(arguments, word);
     free(word);
     return good;
 }
@@ -149,25 +150,26 @@ static bool ask(const struct gm_sweep *sweep, size_t run, const char *key, const
     return good;
 }
 
-static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value,
-                    bool *unreadable, char *message)
+static bool try_run(struct gm_sweep *sweep, size_t run, const char *key, const char *value, char *message)
 {
     struct gm_request request;
     const bool good = ask(sweep, run, key, value, &request, message);
-    *unreadable = request.refusal == GM_EXIT_FILE;
+    sweep->unreadable = request.refusal == GM_EXIT_FILE;
     gm_request_close(&request);
     return good;
 }
 
 /* Whether the first run can be asked for, with another value of a key, or else the one in the middle: in a
    corner of ranges there may be no run. False with a sentence on the first. */
-static bool try_some(const struct gm_sweep *sweep, const char *key, const char *value, bool *unreadable,
-                     char *message)
+static bool try_some(struct gm_sweep *sweep, const char *key, const char *value, char *message)
 {
     char ignored[GM_MESSAGE];
-    bool also_unreadable;
-    return try_run(sweep, 0, key, value, unreadable, message) ||
-           try_run(sweep, middle_of(sweep), key, value, &also_unreadable, ignored);
+    if (try_run(sweep, 0, key, value, message)) {
+        return true;
+    }
+    const bool unreadable = sweep->unreadable, good = try_run(sweep, middle_of(sweep), key, value, ignored);
+    sweep->unreadable = unreadable && !good;
+    return good;
 }
 
 /* Whether a value is one of its key. */
@@ -187,7 +189,7 @@ static bool fits(const struct gm_scene *scene, const char *key, const char *valu
 
 /* A run can be asked for with all schemes, and every list holds values of its key: of a range the ends
    tell. */
-static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
+static bool check(struct gm_sweep *sweep, char *message)
 {
     char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
     for (size_t i = 0; i < sweep->words.count; i++) {
@@ -197,7 +199,7 @@ static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
         }
         if (strcmp(word->key, "scheme") == 0) {
             for (size_t k = 0; k < word->count; k++) {
-                if (!try_some(sweep, "scheme", gm_word_value(word, k, first), unreadable, message)) {
+                if (!try_some(sweep, "scheme", gm_word_value(word, k, first), message)) {
                     return false;
                 }
             }
@@ -209,7 +211,7 @@ static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
                                   gm_word_value(word, value + values - 1, last)};
             for (size_t end = 0; end < 2; end++) {
                 if (!fits(sweep->scene, word->key, ends[end]) &&
-                    !try_some(sweep, word->key, ends[end], unreadable, message)) {
+                    !try_some(sweep, word->key, ends[end], message)) {
                     return false;
                 }
             }
@@ -225,51 +227,6 @@ static bool choose_observables(struct gm_sweep *sweep, const char *measure, char
     return (!measure || sweep->measure || gm_refuse(message, "not enough memory")) &&
            gm_chosen_open(&sweep->chosen, sweep->scene, measure, message);
 }
-
-bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
-                   bool *unreadable, char *message)
-{
-    *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
-    *unreadable = false;
-    if (arguments->count == 0) {
-        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
-    }
-    int status;
-    sweep->scene = gm_request_scene(arguments->count, arguments->words, &status, message);
-    if (!sweep->scene) {
-        *unreadable = status == GM_EXIT_FILE;
-        return false;
-    }
-    if (!gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
-                       GM_RUN_SCHEMES, message) ||
-        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
-        !choose_observables(sweep, measure, message) || !check(sweep, unreadable, message)) {
-        return false;
-    }
-    sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
-    return sweep->arguments || gm_refuse(message, "not enough memory");
-}
-
-void gm_sweep_close(struct gm_sweep *sweep)
-{
-    gm_words_close(&sweep->words);
-    free(sweep->arguments);
-    free(sweep->measure);
-    gm_chosen_close(&sweep->chosen);
-    *sweep = (struct gm_sweep){0};
-}
-
-size_t gm_sweep_share(const struct gm_sweep *sweep)
-{
-    return (sweep->count + sweep->shards - sweep->shard) / sweep->shards;
-}
-
-size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
-{
-    return k * sweep->shards + sweep->shard - 1;
-}
-
-/* ---- rows ---- */
 
 static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
@@ -290,10 +247,51 @@ static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
     return true;
 }
 
-char *gm_sweep_head(const struct gm_sweep *sweep)
+bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
+                   char *message)
 {
-    return text_of(sweep, 0, put_head);
+    *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
+    if (arguments->count == 0) {
+        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
+    }
+    int status;
+    sweep->scene = gm_request_scene(arguments->count, arguments->words, &status, message);
+    if (!sweep->scene) {
+        sweep->unreadable = status == GM_EXIT_FILE;
+        return false;
+    }
+    if (!gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                       GM_RUN_SCHEMES, message) ||
+        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
+        !choose_observables(sweep, measure, message) || !check(sweep, message)) {
+        return false;
+    }
+    sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
+    sweep->head = text_of(sweep, 0, put_head);
+    return (sweep->arguments && sweep->head) || gm_refuse(message, "not enough memory");
 }
+
+void gm_sweep_close(struct gm_sweep *sweep)
+{
+    gm_words_close(&sweep->words);
+    free(sweep->arguments);
+    free(sweep->head);
+    free(sweep->measure);
+    gm_chosen_close(&sweep->chosen);
+    *sweep = (struct gm_sweep){0};
+}
+
+size_t gm_sweep_share(const struct gm_sweep *sweep)
+{
+    return (sweep->count + sweep->shards - sweep->shard) / sweep->shards;
+}
+
+size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
+{
+    return k * sweep->shards + sweep->shard - 1;
+}
+
+/* ---- rows ---- */
 
 static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
@@ -320,9 +318,13 @@ static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
     return true;
 }
 
-char *gm_sweep_front(const struct gm_sweep *sweep, size_t run)
+size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line)
 {
-    return text_of(sweep, run, put_front);
+    char *front = text_of(sweep, run, put_front);
+    const size_t length = front ? strlen(front) : 0;
+    const bool same = front && strncmp(line, front, length) == 0;
+    free(front);
+    return same ? length : 0;
 }
 
 /* The cells behind the front, of a run that has ended or could not begin (no lane). */
@@ -417,11 +419,8 @@ void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row
     gm_request_close(&request);
 }
 
-/* ---- how long it takes ---- */
-
-/* Of all runs, judged by a few of them. */
-static double sum_of(const struct gm_sweep *sweep,
-                     double (*of)(const struct gm_request *request, size_t index))
+double gm_sweep_total(const struct gm_sweep *sweep,
+                      double (*of)(const struct gm_request *request, size_t index))
 {
     enum { SAMPLES = 5 };
     const size_t runs = gm_sweep_share(sweep);
@@ -434,14 +433,4 @@ static double sum_of(const struct gm_sweep *sweep,
         gm_request_close(&request);
     }
     return sum / SAMPLES * (double)runs;
-}
-
-double gm_sweep_seconds(const struct gm_sweep *sweep)
-{
-    return sum_of(sweep, gm_drive_seconds);
-}
-
-double gm_sweep_steps(const struct gm_sweep *sweep)
-{
-    return sum_of(sweep, gm_request_steps);
 }

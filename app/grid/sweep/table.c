@@ -12,10 +12,11 @@
 
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
+#include "app/base/text.h"
 #include "app/grid/sweep.h"
 #include "app/output/csv.h"
 #include "app/output/folder.h"
-#include "core/memory.h"
+#include "core/expression/reader.h"
 #include "render/clock.h"
 
 struct gm_sweep_table {
@@ -35,22 +36,14 @@ struct gm_sweep_table {
 
 static bool refuse_writing(char *message, const char *path)
 {
-    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s; the rows before are there", path,
-             strerror(errno));
-    return false;
+    return gm_refuse(message, "%.360s could not be written: %s; the rows before are there", path,
+                     strerror(errno));
 }
 
 char *gm_sweep_share_path(const char *path, size_t shard, size_t shards)
 {
-    char *text = NULL;
-    const size_t length = strlen(path);
-    const bool ends = length > 4 && strcmp(path + length - 4, ".csv") == 0;
-    if (shards == 1) {
-        return strdup(path);
-    }
-    return asprintf(&text, "%.*s.%zu-of-%zu.csv", (int)(length - (ends ? 4 : 0)), path, shard, shards) < 0
-               ? NULL
-               : text;
+    const size_t front = strlen(path) - (gm_word_ends(path, ".csv") ? strlen(".csv") : 0);
+    return shards == 1 ? strdup(path) : gm_text("%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
 }
 
 /* ---- what is there ---- */
@@ -65,21 +58,17 @@ static size_t commas_of(const char *line)
 }
 
 /* Whether a line is the row of a run: it begins as that does, and has as many cells as the head. */
-static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line, size_t commas)
+static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line)
 {
-    char *front = gm_sweep_front(sweep, run);
-    const bool same = front && strncmp(line, front, strlen(front)) == 0;
-    free(front);
-    return same && commas_of(line) == commas;
+    return gm_sweep_front(sweep, run, line) > 0 && commas_of(line) == commas_of(sweep->head);
 }
 
 /* Whether a row has this status, behind the front, or any warning, which comes next. */
 static bool has_status(const struct gm_sweep *sweep, size_t run, const char *line, const char *status)
 {
-    char *front = gm_sweep_front(sweep, run);
-    const char *cell = front ? line + strlen(front) : "", *warning = gm_csv_cell(cell, 1);
+    const size_t front = gm_sweep_front(sweep, run, line);
+    const char *cell = front > 0 ? line + front : "", *warning = gm_csv_cell(cell, 1);
     const bool has = strncmp(cell, status, strlen(status)) == 0 && cell[strlen(status)] == ',';
-    free(front);
     return has || (strcmp(status, "warning") == 0 && *warning && *warning != ',');
 }
 
@@ -95,30 +84,31 @@ static bool is_older_head(const char *line, const char *head)
 
 /* A row that is not that of the next run: of a later one in a table that was joined before its shares had all
    rows, else of another sweep. */
-static bool refuse_row(const struct gm_sweep_table *table, const char *line, size_t commas, char *message)
+static bool refuse_row(const struct gm_sweep_table *table, const char *line, char *message)
 {
-    const size_t runs = gm_sweep_share(table->sweep), row = table->there;
+    const struct gm_sweep *sweep = table->sweep;
+    const size_t runs = gm_sweep_share(sweep), row = table->there;
     size_t later = row;
-    while (later < runs && !is_row_of(table->sweep, gm_sweep_run(table->sweep, later), line, commas)) {
+    while (later < runs && !is_row_of(sweep, gm_sweep_run(sweep, later), line)) {
         later++;
     }
     if (later < runs) {
-        snprintf(message, GM_MESSAGE,
-                 "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shares "
-                 "gets its rows by its shares and --join)",
-                 table->path, row + 1, gm_sweep_run(table->sweep, later));
-    } else {
-        snprintf(
-            message, GM_MESSAGE,
-            "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
-            table->path, row + 1, gm_sweep_run(table->sweep, row));
+        return gm_refuse(
+            message,
+            "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shares "
+            "gets its rows by its shares and --join)",
+            table->path, row + 1, gm_sweep_run(sweep, later));
     }
-    return false;
+    return gm_refuse(
+        message,
+        "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
+        table->path, row + 1, gm_sweep_run(sweep, row));
 }
 
 /* The head, or where the table is empty or its head torn, nothing; false with a sentence if it is another one. */
-static bool read_head(struct gm_sweep_table *table, const char *head, char *message)
+static bool read_head(struct gm_sweep_table *table, char *message)
 {
+    const char *head = table->sweep->head;
     const char *line = gm_csv_next(&table->old), *torn = table->old.line ? table->old.line : "";
     if (line && strcmp(line, head) == 0) {
         table->size = (off_t)strlen(head);
@@ -133,28 +123,25 @@ static bool read_head(struct gm_sweep_table *table, const char *head, char *mess
 /* Notes that a row is made anew. */
 static bool add_again(struct gm_sweep_table *table, size_t k, char *message)
 {
-    if ((table->again_count & (table->again_count - 1)) == 0) { /* room for twice as many */
-        const size_t most = table->again_count ? 2 * table->again_count : 1;
-        size_t *again = realloc(table->again, most * sizeof *again);
-        if (!again) {
-            return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
-        }
-        table->again = again;
+    size_t *again = realloc(table->again, (table->again_count + 1) * sizeof *again);
+    if (!again) {
+        return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
     }
-    table->again[table->again_count++] = k;
+    table->again = again;
+    again[table->again_count++] = k;
     return true;
 }
 
 /* What is there, line by line: how many rows of the sweep, and where the last one ends. False with a sentence
    if a line is none. */
-static bool read_rows(struct gm_sweep_table *table, const char *head, const char *retry, char *message)
+static bool read_rows(struct gm_sweep_table *table, const char *retry, char *message)
 {
-    const size_t commas = commas_of(head), runs = gm_sweep_share(table->sweep);
-    bool good = read_head(table, head, message);
+    const size_t runs = gm_sweep_share(table->sweep);
+    bool good = read_head(table, message);
     for (const char *line; good && (line = gm_csv_next(&table->old));) {
         const size_t run = gm_sweep_run(table->sweep, table->there);
-        if (table->there == runs || !is_row_of(table->sweep, run, line, commas)) {
-            return refuse_row(table, line, commas, message);
+        if (table->there == runs || !is_row_of(table->sweep, run, line)) {
+            return refuse_row(table, line, message);
         }
         good =
             !retry || !has_status(table->sweep, run, line, retry) || add_again(table, table->there, message);
@@ -188,10 +175,10 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
 }
 
 /* Where rows are made anew, all go to another file, which takes the table's place in the end. */
-static bool begin_anew(struct gm_sweep_table *table, const char *head, char *message)
+static bool begin_anew(struct gm_sweep_table *table, char *message)
 {
-    if (asprintf(&table->part, "%s.part", table->path) < 0) {
-        table->part = NULL;
+    table->part = gm_text("%s.part", table->path);
+    if (!table->part) {
         return gm_refuse(message, "%.360s could not be opened: not enough memory", table->path);
     }
     const int part = open(table->part, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
@@ -202,11 +189,11 @@ static bool begin_anew(struct gm_sweep_table *table, const char *head, char *mes
     table->fd = part;
     table->size = 0;
     rewind(table->old.stream);
-    return gm_csv_next(&table->old) && append(table, head, message);
+    return gm_csv_next(&table->old) && append(table, table->sweep->head, message);
 }
 
 /* The file, locked, read and made ready for the next row. */
-static bool open_file(struct gm_sweep_table *table, const char *head, const char *retry, char *message)
+static bool open_file(struct gm_sweep_table *table, const char *retry, char *message)
 {
     if (!gm_folder_make_for(table->path, message)) {
         return false;
@@ -230,16 +217,16 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
         }
         return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
     }
-    if (!read_rows(table, head, retry, message)) {
+    if (!read_rows(table, retry, message)) {
         return false;
     }
     if (table->again_count > 0) {
-        return begin_anew(table, head, message);
+        return begin_anew(table, message);
     }
     if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
         return refuse_writing(message, table->path);
     }
-    return table->size > 0 || append(table, head, message);
+    return table->size > 0 || append(table, table->sweep->head, message);
 }
 
 static void free_table(struct gm_sweep_table *table)
@@ -258,23 +245,19 @@ struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const c
                                            char *message)
 {
     struct gm_sweep_table *table = calloc(1, sizeof *table);
-    char *head = gm_sweep_head(sweep);
-    bool good = table && head;
-    if (good) {
+    if (table) {
         *table = (struct gm_sweep_table){.sweep = sweep, .fd = path ? -1 : STDOUT_FILENO};
         table->path = path ? gm_sweep_share_path(path, sweep->shard, sweep->shards) : NULL;
-        good = !path || table->path;
     }
-    if (!good) {
+    if (!table || (path && !table->path)) {
         gm_refuse(message, "%.360s could not be opened: not enough memory", path ? path : "standard output");
-    } else {
-        fflush(stdout);
-        good = !path || open_file(table, head, retry, message);
+        free(table);
+        return NULL;
     }
-    free(head);
-    if (!good && table) {
+    fflush(stdout);
+    if (path && !open_file(table, retry, message)) {
         free_table(table);
-        table = NULL;
+        return NULL;
     }
     return table;
 }
@@ -383,11 +366,8 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
                          const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message)
 {
     struct filling *filling = calloc(1, sizeof *filling);
-    char *head = table->path ? NULL : gm_sweep_head(table->sweep);
     *sum = (struct gm_sweep_sum){0};
-    if (!filling || !(head || table->path)) {
-        free(filling);
-        free(head);
+    if (!filling) {
         return gm_refuse(message, "%.360s is not filled: not enough memory",
                          table->path ? table->path : "standard output");
     }
@@ -403,11 +383,10 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
                                  .take = take,
                                  .stopped = fills_no_more,
                                  .self = filling};
-    filling->failed = head && !append(table, head, message);
+    filling->failed = !table->path && !append(table, table->sweep->head, message);
     if (!filling->failed) {
         gm_pool_run(&pool);
     }
-    free(head);
     /* where that was interrupted, rows that are there stay, behind those that were made */
     filling->failed = filling->failed || !copy_old(table, SIZE_MAX, message);
     sum->unheard = table->unheard;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/grid/hooks.h"
+#include "core/arena.h"
 #include "render/message.h"
 
 enum { MOST_RUNS = 100000, PATH = 32 };
@@ -18,49 +19,47 @@ static const char *path_of(const struct gm_grid *grid, char path[PATH])
     return path;
 }
 
-/* The words but --measure LIST, which is returned: NULL for none. False: no memory. */
-static bool take_measure(const struct gm_arguments *arguments, struct gm_arguments *others,
-                         const char **measure)
+static void close_sweep(void *data)
 {
-    bool good = true;
-    *measure = NULL;
-    for (int i = 0; good && i < arguments->count; i++) {
-        if (strcmp(arguments->words[i], "--measure") == 0 && i + 1 < arguments->count) {
-            *measure = arguments->words[++i];
+    struct gm_grid *grid = data;
+    gm_sweep_chart_close(grid->chart);
+    gm_sweep_close(&grid->sweep);
+    if (grid->table >= 0) {
+        close(grid->table);
+    }
+}
+
+static void open_grid(struct gm_grid *grid)
+{
+    const struct gm_arguments *typed = grid->typed;
+    const char *measure = grid->requested;
+    char message[GM_MESSAGE];
+    struct gm_arguments *others = gm_arguments_in(grid->arena);
+    for (int i = 0; i < typed->count; i++) { /* --measure LIST stands among the words */
+        if (strcmp(typed->words[i], "--measure") == 0 && i + 1 < typed->count) {
+            measure = typed->words[++i];
         } else {
-            good = gm_arguments_add(others, arguments->words[i]);
+            gm_arena_need(grid->arena, gm_arguments_add(others, typed->words[i]));
         }
     }
-    return good;
-}
-
-bool gm_sweep_grid_open(struct gm_grid *grid, const struct gm_arguments *typed, const char *measure,
-                        char *message)
-{
-    struct gm_arguments others = {0};
-    bool unreadable;
     grid->table = -1;
-    bool good = take_measure(typed, &others, &measure) || gm_refuse(message, "not enough memory");
-    good = good && gm_sweep_open(&grid->sweep, &others, measure, &unreadable, message) &&
-           (grid->chart = gm_sweep_chart_open(&grid->sweep, message));
-    gm_arguments_close(&others);
-    if (good && grid->sweep.count > MOST_RUNS) {
-        good = gm_refuse(message, "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
-                         grid->sweep.count, MOST_RUNS);
+    gm_arena_keep(grid->arena, grid, close_sweep);
+    if (!gm_sweep_open(&grid->sweep, others, measure, message) ||
+        !(grid->chart = gm_sweep_chart_open(&grid->sweep, message))) {
+        gm_arena_refuse(grid->arena, "%s", message);
     }
-    if (good) {
-        grid->table = memfd_create("sweep", MFD_CLOEXEC);
-        good = grid->table >= 0 || gm_refuse(message, "no room for a table: %s", strerror(errno));
+    if (grid->sweep.count > MOST_RUNS) {
+        gm_arena_refuse(grid->arena,
+                        "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
+                        grid->sweep.count, MOST_RUNS);
     }
-    if (good) {
-        message[0] = '\0'; /* of a corner of the map in which there is no run */
-    } else {
-        gm_sweep_grid_close(grid);
+    grid->table = memfd_create("sweep", MFD_CLOEXEC);
+    if (grid->table < 0) {
+        gm_arena_refuse(grid->arena, "no room for a table: %s", strerror(errno));
     }
-    return good;
 }
 
-bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
+static bool measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
 {
     char path[PATH], unwritten[GM_MESSAGE];
     struct gm_sweep_sum sum;
@@ -72,12 +71,12 @@ bool gm_sweep_grid_measure(struct gm_grid *grid, const struct gm_listener *liste
     return good;
 }
 
-void gm_sweep_grid_draw(const struct gm_grid *grid, struct gm_picture *picture)
+static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
     gm_sweep_chart_draw(grid->chart, picture);
 }
 
-bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path)
+static bool write_table(const struct gm_grid *grid, const char *path)
 {
     char from[PATH], block[1 << 14];
     FILE *table = fopen(path_of(grid, from), "r"), *file = table ? fopen(path, "w") : NULL;
@@ -92,16 +91,7 @@ bool gm_sweep_grid_write(const struct gm_grid *grid, const char *path)
     return file && fclose(file) == 0 && good;
 }
 
-void gm_sweep_grid_close(struct gm_grid *grid)
-{
-    gm_sweep_chart_close(grid->chart);
-    gm_sweep_close(&grid->sweep);
-    if (grid->table >= 0) {
-        close(grid->table);
-    }
-}
-
-char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, double y)
+static char *pick(const struct gm_grid *grid, size_t panel, double x, double y)
 {
     static const char command[] = "run ";
     size_t run;
@@ -111,3 +101,11 @@ char *gm_sweep_grid_pick(const struct gm_grid *grid, size_t panel, double x, dou
     }
     return words;
 }
+
+const struct gm_study_row gm_study_sweep = {.name = "sweep",
+                                            .refusal = GM_EXIT_USAGE,
+                                            .open = open_grid,
+                                            .measure = measure,
+                                            .draw = draw,
+                                            .write = write_table,
+                                            .pick = pick};

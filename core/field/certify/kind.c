@@ -43,6 +43,288 @@ static const struct gm_facet_words words[] = {
     {0},
 };
 
+static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
+                      struct gm_field_subject *subject, const double *y,
+                      double (*value)(const struct gm_problem *problem, const double *y))
+{
+    const struct gm_invariant invariant = {value, &subject->problem};
+    const struct gm_kept kept = {.value = gm_invariant_value, .data = &invariant};
+    gm_field_note_kept(certificate, claim, subject, y, &kept, subject->problem.name);
+}
+
+/* ---- on the program's own equations ---- */
+
+static void exact_breather(const struct gm_problem *problem, double x, double t, double *values)
+{
+    values[0] = gm_sine_gordon_exact(problem->parameters, INFINITY, x, t);
+}
+
+static void exact_kdv(const struct gm_problem *problem, double x, double t, double *values)
+{
+    values[0] = gm_kdv_exact(gm_kdv_of(problem), &problem->line, x, t);
+}
+
+static void exact_nls(const struct gm_problem *problem, double x, double t, double *values)
+{
+    gm_nls_exact(gm_nls_of(problem), &problem->line, x, t, &values[0], &values[1]);
+}
+
+static void exact_dirac(const struct gm_problem *problem, double x, double t, double *values)
+{
+    gm_dirac_exact(problem->parameters, x, t, values);
+}
+
+static void exact_burgers(const struct gm_problem *problem, double x, double t, double *values)
+{
+    values[0] = gm_burgers_exact(gm_burgers_of(problem), false, x, t);
+}
+
+static void exact_heat(const struct gm_problem *problem, double x, double t, double *values)
+{
+    values[0] = gm_heat_exact(gm_heat_of(problem), false, x, t);
+}
+
+/* Frames of reference: the same solution from a moving one, the value at node i that the original frame sees of a run,
+   and the defect of one step under a symmetry, NaN where there is none. */
+struct frames {
+    const void *parameters;
+    double (*seen)(const struct gm_run *run, size_t i);
+    double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                     const double *y);
+};
+
+/* Nodes that rest in the frame have travelled over whole nodes of the original one. */
+static double seen_kdv(const struct gm_run *run, size_t i)
+{
+    const struct gm_kdv *kdv = gm_kdv_of(run->problem);
+    const struct gm_grid1 *line = &run->problem->line;
+    const long travelled = gm_kdv_fixed(kdv, run->scheme) ? lround(kdv->lambda * run->t / line->dx) : 0;
+    return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->lambda / kdv->eta;
+}
+
+static double defect_kdv(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                         const double *y)
+{
+    static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
+    return gm_kdv_defect(problem, scheme, dt, &symmetry, y);
+}
+
+static double seen_burgers(const struct gm_run *run, size_t i)
+{
+    return gm_run_state(run)[i] - gm_burgers_of(run->problem)->lambda;
+}
+
+/* Three nodes do not determine an implicit step: its claim is of boosts alone. */
+static double defect_burgers(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                             const double *y)
+{
+    (void)problem;
+    (void)dt;
+    (void)y;
+    static const double u[3] = {0.4, 0.3, 0.15};
+    static const struct gm_burgers burgers = {.viscosity = 0.005, .a = -0.3, .d = 0.2};
+    static const struct gm_burgers_symmetry symmetry = {.a4 = 0.5, .a5 = 0.4, .scale = 1.3};
+    return gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &symmetry, 0.3, u);
+}
+
+static double seen_heat(const struct gm_run *run, size_t i)
+{
+    const double x = gm_grid1_node(&run->problem->line, i);
+    return gm_run_state(run)[i] / gm_heat_factor(gm_heat_of(run->problem), false, x, run->t);
+}
+
+static double defect_heat(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                          const double *y)
+{
+    const double projection = gm_heat_keeps(scheme) & GM_HEAT_PROJECTIONS ? 0.5 : 0;
+    const struct gm_heat_symmetry symmetry = {.boost = 0.5, .projection = projection, .scale = 1.3};
+    return gm_heat_defect(problem, scheme, dt, &symmetry, y);
+}
+
+static bool is_above_second_order(const struct gm_scheme *scheme)
+{
+    return scheme->order > 2;
+}
+
+static bool is_pseudospectral(const struct gm_scheme *scheme)
+{
+    return scheme->family == &gm_family_pseudospectral;
+}
+
+static bool is_explicit_for_kdv(const struct gm_scheme *scheme)
+{
+    return scheme->needs & GM_NEEDS_KDV && !gm_kdv_solves(scheme);
+}
+
+static bool is_explicit_for_nls(const struct gm_scheme *scheme)
+{
+    return scheme->family == &gm_family_schroedinger_nodes;
+}
+
+/* An equation with an exact solution to start from, the runs that the order is measured by, and what else is measured;
+   of several rows for an equation a scheme takes the first that is meant for it. */
+struct equation {
+    const struct gm_problem *problem;
+    const void *parameters;
+    void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
+    size_t numbers; /* of the exact solution at a node; 0: one, of which the state holds two levels */
+    bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
+    struct gm_grid1 line;
+    double dt, until;
+    int power; /* dt falls as this power of dx, and errors give the order in space and time; 0: order in time alone */
+    enum gm_claim claim;
+    double (*kept)(const struct gm_problem *problem, const double *y);
+    const struct frames *frames;
+};
+
+#define SINE_GORDON                                                                                          \
+    .problem = &gm_problem_sine_gordon,                                                                      \
+    .parameters = &(const struct gm_sine_gordon){.initial = GM_BREATHER, .frequency = 0.6},                  \
+    .exact = exact_breather, .until = 4, .power = 1, .claim = GM_KEEPS_ENERGY, .kept = gm_wave_energy
+
+#define KDV_SOLITON .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1
+#define KDV                                                                                                  \
+    .problem = &gm_problem_kdv, .parameters = &(const struct gm_kdv){KDV_SOLITON}, .exact = exact_kdv,       \
+    .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
+    .kept = gm_kdv_mass, .frames = &(const struct frames)                                                    \
+    {                                                                                                        \
+        &(const struct gm_kdv){KDV_SOLITON, .lambda = 2}, seen_kdv, defect_kdv                               \
+    }
+
+#define NLS                                                                                                  \
+    .problem = &gm_problem_nls,                                                                              \
+    .parameters = &(const struct gm_nls){.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1},          \
+    .exact = exact_nls, .numbers = 2, .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1,   \
+    .claim = GM_KEEPS_QUADRATIC, .kept = gm_nls_node_charge
+
+#define FRONT .frame = GM_FRAME_MOVING, .viscosity = 0.1, .a = -0.3, .d = 0.2
+#define KERNELS .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .age = 0.25
+
+/* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring that the
+   breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by less than a quarter. */
+static const struct equation equations[] = {
+    {SINE_GORDON, .meant = is_above_second_order, .line = {.points = 1200, .dx = 0.05, .first = -30},
+     .dt = 0.025},
+    {SINE_GORDON, .line = {.points = 301, .dx = 30.0 / 301, .first = -15}, .dt = 0.08},
+    {SINE_GORDON, .line = {.points = 302, .dx = 30.0 / 302, .first = -15}, .dt = 0.08},
+    {KDV, .meant = is_pseudospectral, .dt = 0.005},
+    {KDV, .meant = is_explicit_for_kdv, .dt = 0.0016, .power = 3},
+    {KDV, .dt = 0.04, .power = 1},
+    {NLS, .meant = is_explicit_for_nls, .dt = 0.005},
+    {NLS, .dt = 0.02, .power = 1},
+    {.problem = &gm_problem_dirac,
+     .parameters = &(const struct gm_dirac){.mass = 1, .coupling = 0.5, .frequency = 0.75},
+     .exact = exact_dirac,
+     .numbers = 4,
+     .line = {.points = 361, .dx = 60.0 / 361, .first = -30},
+     .dt = 0.05,
+     .until = 4,
+     .power = 1},
+    {.problem = &gm_problem_burgers,
+     .parameters = &(const struct gm_burgers){FRONT},
+     .exact = exact_burgers,
+     .numbers = 1,
+     .line = {.points = 81, .dx = 0.05, .first = -2},
+     .dt = 0.002,
+     .until = 0.2,
+     .frames = &(const struct frames){&(const struct gm_burgers){FRONT, .lambda = 2}, seen_burgers,
+                                      defect_burgers}},
+    {.problem = &gm_problem_heat,
+     .parameters = &(const struct gm_heat){KERNELS},
+     .exact = exact_heat,
+     .numbers = 1,
+     .line = {.points = 81, .dx = 0.1, .first = -4},
+     .dt = 0.002,
+     .until = 0.2,
+     .frames = &(const struct frames){&(const struct gm_heat){KERNELS, .lambda = 2}, seen_heat, defect_heat}},
+};
+
+/* The problem of an equation with these parameters, on a grid that is twice as fine `finer` times. */
+static struct gm_problem problem_of(const struct equation *equation, const void *parameters, int finer)
+{
+    struct gm_problem problem = *equation->problem;
+    problem.parameters = parameters;
+    problem.line = equation->line;
+    problem.line.points <<= finer;
+    problem.line.dx = ldexp(problem.line.dx, -finer);
+    const size_t points = problem.line.points;
+    if (equation->numbers == 0) {
+        problem.n = gm_wave_size(points);
+    } else if (gm_field_of(&problem)->equation == GM_NEEDS_BURGERS) {
+        problem.n = gm_burgers_size(parameters, points);
+    } else {
+        problem.n = equation->numbers * points;
+    }
+    return problem;
+}
+
+/* The exact state at 0, or the levels 0 and dt, malloc'ed; NULL where memory is short. */
+static double *start_of(const struct equation *equation, const struct gm_problem *problem, double dt)
+{
+    const size_t points = problem->line.points;
+    double *y = calloc(problem->n, sizeof *y), values[4];
+    for (size_t i = 0; y && i < points; i++) {
+        const double x = gm_grid1_node(&problem->line, i);
+        equation->exact(problem, x, 0, values);
+        y[i] = values[0];
+        for (size_t c = 1; c < equation->numbers; c++) {
+            y[c * points + i] = values[c];
+        }
+        if (equation->numbers == 0) {
+            equation->exact(problem, x, dt, &y[points + i]);
+        }
+    }
+    if (y && equation->numbers == 0) {
+        y[2 * points] = dt;
+    }
+    return y;
+}
+
+/* The largest difference of the field from the exact solution; INFINITY for a failure. */
+static double error_of(const struct equation *equation, struct gm_field_subject *subject, const double *y)
+{
+    double largest = INFINITY, values[4];
+    if (gm_field_begin(subject, y)) {
+        largest = gm_run_until(subject->run, equation->until) == GM_OK ? 0 : INFINITY;
+        for (size_t i = 0; i < subject->problem.line.points; i++) {
+            equation->exact(&subject->problem, gm_grid1_node(&subject->problem.line, i), equation->until,
+                            values);
+            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - values[0]));
+        }
+        gm_run_close(subject->run);
+    }
+    return largest;
+}
+
+/* The difference between a run and one from the moving frame, or the defect of a step under a symmetry where that is
+   larger; INFINITY for a failure. */
+static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
+                           const double *y)
+{
+    struct gm_field_subject rest = *subject, moving = *subject;
+    moving.problem = problem_of(equation, equation->frames->parameters, 0);
+    double *start = start_of(equation, &moving.problem, subject->dt), largest = INFINITY;
+    const bool begun = gm_field_begin(&rest, y);
+    if (start && begun && gm_field_begin(&moving, start)) {
+        if (gm_run_until(rest.run, equation->until) == GM_OK &&
+            gm_run_until(moving.run, equation->until) == GM_OK) {
+            largest = 0;
+            for (size_t i = 0; i < subject->problem.line.points; i++) {
+                const double apart =
+                    fabs(equation->frames->seen(moving.run, i) - equation->frames->seen(rest.run, i));
+                largest = gm_larger(apart, largest);
+            }
+            largest =
+                fmax(largest, equation->frames->defect(&subject->problem, subject->scheme, subject->dt, y));
+        }
+        gm_run_close(moving.run);
+    }
+    gm_run_close(rest.run);
+    free(start);
+    return largest;
+}
+
+/* Takes in the order on one problem. The one farthest from the claimed order counts. */
 static void note_order(struct gm_certificate *certificate, double *farthest, double order,
                        const char *problem)
 {
@@ -54,429 +336,56 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
-static const struct gm_settings no_settings;
-
-/* Steps to the time t; the largest difference of the field from `exact`, INFINITY for a failure. */
-static double error_at(struct gm_field_subject *subject, double t,
-                       double (*exact)(const struct gm_problem *problem, size_t i, double t))
-{
-    double largest = INFINITY;
-    if (gm_run_until(subject->run, t) == GM_OK) {
-        largest = 0;
-        for (size_t i = 0; i < subject->problem.line.points; i++) {
-            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - exact(&subject->problem, i, t)));
-        }
-    }
-    gm_run_close(subject->run);
-    return largest;
-}
-
-static double wave_energy(const void *problem, const double *y, const double *memory)
-{
-    (void)memory;
-    return gm_wave_energy(problem, y);
-}
-
-static double kdv_mass(const void *problem, const double *y, const double *memory)
-{
-    (void)memory;
-    return gm_kdv_mass(problem, y);
-}
-
-static double nls_charge(const void *problem, const double *y, const double *memory)
-{
-    (void)memory;
-    return gm_nls_node_charge(problem, y);
-}
-
-static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
-                      struct gm_field_subject *subject, const double *y,
-                      double (*quantity)(const void *problem, const double *y, const double *memory))
-{
-    const struct gm_kept kept = {.value = quantity, .data = &subject->problem};
-    gm_field_note_kept(certificate, claim, subject, y, &kept, subject->problem.name);
-}
-
-static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.6};
-
-static double exact_breather(const struct gm_problem *problem, size_t i, double t)
-{
-    return gm_sine_gordon_exact(&breather, 15, gm_grid1_node(&problem->line, i), t);
-}
-
-static void certify_wave(struct gm_certificate *certificate, double *farthest)
-{
-    struct gm_field_subject subject = {.problem = gm_problem_sine_gordon, .scheme = certificate->scheme};
-    struct gm_problem *problem = &subject.problem;
-    const char *name = problem->name;
-    problem->parameters = &breather;
-    if (!gm_scheme_fits(certificate->scheme, problem)) {
-        return;
-    }
-    double error[2] = {NAN, NAN};
-    for (size_t k = 0; k < 2; k++) {
-        /* two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a
-           ring that the breather's ends do not reach around */
-        const bool fine = certificate->scheme->order > 2;
-        const size_t points = (fine ? 1200u : certificate->scheme->needs & GM_NEEDS_PAIRS ? 302u : 301u) << k;
-        const double length = fine ? 60 : 30;
-        problem->line =
-            (struct gm_grid1){.points = points, .dx = length / (double)points, .first = -length / 2};
-        problem->n = gm_wave_size(points);
-        subject.dt = (fine ? 0.025 : 0.08) / (double)(1u << k);
-        double *y = malloc(problem->n * sizeof *y);
-        if (!y) {
-            return;
-        }
-        gm_sine_gordon_levels(problem, 0, subject.dt, y);
-        if (k == 0) {
-            gm_field_note_form(certificate, &subject, y, 1);
-            note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, wave_energy);
-        }
-        if (gm_field_begin(&subject, y)) {
-            error[k] = error_at(&subject, 4, exact_breather);
-        }
-        free(y);
-    }
-    note_order(certificate, farthest, log2(error[0] / error[1]), name);
-}
-
-static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
-
-static double exact_kdv(const struct gm_problem *problem, size_t i, double t)
-{
-    return gm_kdv_exact(&soliton, &problem->line, gm_grid1_node(&problem->line, i), t);
-}
-
-/* The difference between a run to t = 1 and one from a frame of velocity 2, which travels over whole nodes; or
-   the defect of a step under a boost and a scaling, where there is one and it is larger. */
-static double frame_defect(const struct gm_field_subject *subject, const double *y)
-{
-    static const struct gm_kdv boosted = {
-        .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .lambda = 2};
-    static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
-    struct gm_field_subject rest = *subject, moving = *subject;
-    const struct gm_grid1 *grid = &subject->problem.line;
-    const bool fixed = gm_kdv_fixed(&boosted, subject->scheme);
-    const size_t travelled = fixed ? (size_t)lround(boosted.lambda / grid->dx) : 0;
-    const double step = gm_kdv_defect(&subject->problem, subject->scheme, subject->dt, &symmetry, y);
-    double *start = malloc(subject->problem.n * sizeof *start), largest = INFINITY;
-    if (!start) {
-        return INFINITY;
-    }
-    moving.problem.parameters = &boosted;
-    gm_kdv_levels(&moving.problem, subject->dt, start);
-    if (gm_field_begin(&rest, y)) {
-        if (gm_field_begin(&moving, start)) {
-            if (gm_run_until(rest.run, 1) == GM_OK && gm_run_until(moving.run, 1) == GM_OK) {
-                largest = isnan(step) ? 0 : step;
-                for (size_t i = 0; i < grid->points; i++) {
-                    const double seen = gm_run_state(moving.run)[(i + travelled) % grid->points];
-                    const double apart =
-                        fabs(seen - boosted.lambda / boosted.eta - gm_run_state(rest.run)[i]);
-                    largest = gm_larger(apart, largest);
-                }
-            }
-            gm_run_close(moving.run);
-        }
-        gm_run_close(rest.run);
-    }
-    free(start);
-    return largest;
-}
-
-static void certify_kdv(struct gm_certificate *certificate, double *farthest)
-{
-    struct gm_field_subject subject = {.problem = gm_problem_kdv, .scheme = certificate->scheme};
-    struct gm_problem *problem = &subject.problem;
-    problem->parameters = &soliton;
-    if (!gm_scheme_fits(certificate->scheme, problem)) {
-        return;
-    }
-    double error[2] = {NAN, NAN};
-    for (size_t k = 0; k < 2; k++) {
-        const size_t points = 200u << k;
-        problem->line = (struct gm_grid1){.points = points, .dx = 40.0 / (double)points, .first = -20};
-        problem->n = gm_wave_size(points);
-        /* an explicit scheme follows dx^3, by less than a quarter */
-        const struct gm_scheme *scheme = certificate->scheme;
-        const bool is_explicit = scheme->needs & GM_NEEDS_KDV && !gm_kdv_solves(scheme);
-        subject.dt = scheme->family == &gm_family_pseudospectral ? 0.005
-                     : is_explicit                               ? 0.0016 / (double)(1u << 3 * k)
-                                                                 : 0.04 / (double)(1u << k);
-        double *y = malloc(problem->n * sizeof *y);
-        if (!y) {
-            return;
-        }
-        gm_kdv_levels(problem, subject.dt, y);
-        if (k == 0) {
-            note_kept(certificate, GM_KEEPS_LINEAR, &subject, y, kdv_mass);
-            gm_field_note_form(certificate, &subject, y, 1);
-            gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(&subject, y), problem->name);
-        }
-        if (scheme->family == &gm_family_pseudospectral) {
-            note_order(certificate, farthest, gm_field_order_in_time(&subject, y), problem->name);
-            free(y);
-            return;
-        }
-        if (gm_field_begin(&subject, y)) {
-            error[k] = error_at(&subject, 1, exact_kdv);
-        }
-        free(y);
-    }
-    note_order(certificate, farthest, log2(error[0] / error[1]), problem->name);
-}
-
-static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
-
-static double exact_nls(const struct gm_problem *problem, size_t i, double t)
-{
-    double re = 0, im = 0;
-    gm_nls_exact(&bright, &problem->line, gm_grid1_node(&problem->line, i), t, &re, &im);
-    return re;
-}
-
-/* The state of a soliton on the grid of the problem; NULL where memory is short. */
-static double *nls_state(const struct gm_problem *problem)
-{
-    const size_t points = problem->line.points;
-    double *y = malloc(2 * points * sizeof *y);
-    for (size_t i = 0; y && i < points; i++) {
-        gm_nls_exact(&bright, &problem->line, gm_grid1_node(&problem->line, i), 0, &y[i], &y[points + i]);
-    }
-    return y;
-}
-
-static void certify_nls(struct gm_certificate *certificate, double *farthest)
-{
-    struct gm_field_subject subject = {.problem = gm_problem_nls, .scheme = certificate->scheme};
-    struct gm_problem *problem = &subject.problem;
-    problem->parameters = &bright;
-    if (!gm_scheme_fits(certificate->scheme, problem)) {
-        return;
-    }
-    const bool explicit = certificate->scheme->family == &gm_family_schroedinger_nodes;
-    double error[2] = {NAN, NAN};
-    for (size_t k = 0; k < 2; k++) {
-        const size_t points = 300u << k;
-        problem->line = (struct gm_grid1){.points = points, .dx = 40.0 / (double)points, .first = -20};
-        problem->n = 2 * points;
-        subject.dt = (explicit ? 0.005 : 0.02) / (double)(1u << k);
-        double *y = nls_state(problem);
-        if (!y) {
-            return;
-        }
-        if (k == 0) {
-            note_kept(certificate, GM_KEEPS_QUADRATIC, &subject, y, nls_charge);
-            gm_field_note_form(certificate, &subject, y, 1);
-        }
-        if (explicit) {
-            note_order(certificate, farthest, gm_field_order_in_time(&subject, y), problem->name);
-            free(y);
-            return;
-        }
-        if (gm_field_begin(&subject, y)) {
-            error[k] = error_at(&subject, 1, exact_nls);
-        }
-        free(y);
-    }
-    note_order(certificate, farthest, log2(error[0] / error[1]), problem->name);
-}
-
-static const struct gm_dirac standing = {.mass = 1, .coupling = 0.5, .frequency = 0.75};
-
-static double exact_dirac(const struct gm_problem *problem, size_t i, double t)
-{
-    double s[4];
-    gm_dirac_exact(&standing, gm_grid1_node(&problem->line, i), t, s);
-    return s[0];
-}
-
-static void certify_dirac(struct gm_certificate *certificate, double *farthest)
-{
-    struct gm_field_subject subject = {.problem = gm_problem_dirac, .scheme = certificate->scheme};
-    struct gm_problem *problem = &subject.problem;
-    problem->parameters = &standing;
-    if (!gm_scheme_fits(certificate->scheme, problem)) {
-        return;
-    }
-    double error[2] = {NAN, NAN};
-    for (size_t k = 0; k < 2; k++) {
-        const size_t points = 361u << k;
-        problem->line = (struct gm_grid1){.points = points, .dx = 60 / (double)points, .first = -30};
-        problem->n = 4 * points;
-        subject.dt = 0.05 / (double)(1u << k);
-        double *y = malloc(problem->n * sizeof *y);
-        if (!y) {
-            return;
-        }
-        for (size_t i = 0; i < points; i++) {
-            double s[4];
-            gm_dirac_exact(&standing, gm_grid1_node(&problem->line, i), 0, s);
-            for (size_t c = 0; c < 4; c++) {
-                y[c * points + i] = s[c];
-            }
-        }
-        if (k == 0) {
-            gm_field_note_form(certificate, &subject, y, 1);
-        }
-        if (gm_field_begin(&subject, y)) {
-            error[k] = error_at(&subject, 4, exact_dirac);
-        }
-        free(y);
-    }
-    note_order(certificate, farthest, log2(error[0] / error[1]), problem->name);
-}
-
-enum { FRONT = 81 };
-
-/* The field after a time on a resolved front, nu = 0.1, dx = 0.05; false for a failure. */
-static bool front_after(const struct gm_scheme *scheme, double lambda, double dt, double until, double *u)
-{
-    const struct gm_burgers burgers = {
-        .frame = GM_FRAME_MOVING, .viscosity = 0.1, .lambda = lambda, .a = -0.3, .d = 0.2};
-    struct gm_problem problem = gm_problem_burgers;
-    problem.parameters = &burgers;
-    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.05, .first = -2};
-    problem.n = gm_burgers_size(&burgers, FRONT);
-    double y[2 * FRONT + 1] = {0};
-    for (size_t j = 0; j < FRONT; j++) {
-        y[j] = gm_burgers_exact(&burgers, false, gm_grid1_node(&problem.line, j), 0);
-    }
-    struct gm_run *run = gm_run_open(&problem, scheme, &no_settings, 0, dt, y);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_until(run, until) == GM_OK;
-    for (size_t j = 0; j < FRONT; j++) {
-        u[j] = gm_run_state(run)[j] - lambda;
-    }
-    gm_run_close(run);
-    return good;
-}
-
-static void certify_burgers(struct gm_certificate *certificate, double *farthest)
+static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
 {
     const struct gm_scheme *scheme = certificate->scheme;
-    if (!(scheme->needs & GM_NEEDS_BURGERS)) {
-        return;
+    const char *const name = equation->problem->name;
+    double error[2] = {NAN, NAN}, order = NAN;
+    for (int k = 0; k < (equation->power > 0 ? 2 : 1); k++) {
+        struct gm_field_subject subject = {.problem = problem_of(equation, equation->parameters, k),
+                                           .scheme = scheme,
+                                           .dt = ldexp(equation->dt, -k * equation->power)};
+        double *y = start_of(equation, &subject.problem, subject.dt);
+        if (!y) {
+            return;
+        }
+        if (k == 0 && equation->kept) {
+            note_kept(certificate, equation->claim, &subject, y, equation->kept);
+        }
+        if (k == 0 && gm_field_of(&subject.problem)->form) {
+            gm_field_note_form(certificate, &subject, y, 1);
+        }
+        if (k == 0 && equation->frames) {
+            gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
+        }
+        if (equation->power > 0) {
+            error[k] = error_of(equation, &subject, y);
+        } else {
+            order = gm_field_order_in_time(&subject, y, equation->until);
+        }
+        free(y);
     }
-    const char *name = gm_problem_burgers.name;
-    double level[3][FRONT], boosted[FRONT];
-    bool good = true;
-    for (int k = 0; k < 3; k++) {
-        good &= front_after(scheme, 0, ldexp(0.002, -k), 0.2, level[k]);
-    }
-    note_order(certificate, farthest,
-               good ? log2(gm_distance(level[0], level[1], FRONT) / gm_distance(level[1], level[2], FRONT))
-                    : NAN,
-               name);
-    static const double u[3] = {0.4, 0.3, 0.15};
-    const struct gm_burgers burgers = {.viscosity = 0.005, .a = -0.3, .d = 0.2};
-    const struct gm_burgers_symmetry symmetry = {.a4 = 0.5, .a5 = 0.4, .scale = 1.3};
-    const double step = gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &symmetry, 0.3, u);
-    good &= front_after(scheme, 2, 0.002, 0.2, boosted);
-    const double boost = good ? gm_distance(boosted, level[0], FRONT) : INFINITY;
-    /* three nodes do not determine an implicit step: its claim is of boosts alone */
-    gm_certificate_note(certificate, GM_EQUIVARIANT, isnan(step) ? boost : fmax(boost, step), name);
+    note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
 }
 
-/* The field after a time on two kernels, nu = 1, dx = 0.1, as the original frame sees it; false for a
-   failure. */
-static bool heat_after(const struct gm_scheme *scheme, double lambda, double dt, double until, double *u)
-{
-    const struct gm_heat heat = {
-        .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .lambda = lambda, .age = 0.25};
-    struct gm_problem problem = gm_problem_heat;
-    problem.parameters = &heat;
-    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.1, .first = -4};
-    problem.n = FRONT;
-    double y[FRONT];
-    for (size_t j = 0; j < FRONT; j++) {
-        y[j] = gm_heat_exact(&heat, false, gm_grid1_node(&problem.line, j), 0);
-    }
-    struct gm_run *run = gm_run_open(&problem, scheme, &no_settings, 0, dt, y);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_until(run, until) == GM_OK;
-    for (size_t j = 0; j < FRONT; j++) {
-        u[j] = gm_run_state(run)[j] / gm_heat_factor(&heat, false, gm_grid1_node(&problem.line, j), run->t);
-    }
-    gm_run_close(run);
-    return good;
-}
-
-static void certify_heat(struct gm_certificate *certificate, double *farthest)
-{
-    const struct gm_scheme *scheme = certificate->scheme;
-    if (!(scheme->needs & GM_NEEDS_HEAT)) {
-        return;
-    }
-    static const struct gm_heat heat = {.diffusivity = 1};
-    struct gm_problem problem = gm_problem_heat;
-    problem.parameters = &heat;
-    problem.line = (struct gm_grid1){.points = FRONT, .dx = 0.1, .first = -4};
-    double level[3][FRONT], boosted[FRONT];
-    bool good = true;
-    for (int k = 0; k < 3; k++) {
-        good &= heat_after(scheme, 0, ldexp(0.002, -k), 0.2, level[k]);
-    }
-    note_order(certificate, farthest,
-               good ? log2(gm_distance(level[0], level[1], FRONT) / gm_distance(level[1], level[2], FRONT))
-                    : NAN,
-               problem.name);
-    const unsigned keeps = gm_heat_keeps(scheme);
-    const struct gm_heat_symmetry symmetry = {
-        .boost = 0.5, .projection = keeps & GM_HEAT_PROJECTIONS ? 0.5 : 0, .scale = 1.3};
-    good &= heat_after(scheme, 2, 0.002, 0.2, boosted);
-    const double step = gm_heat_defect(&problem, scheme, 0.002, &symmetry, level[0]);
-    gm_certificate_note(certificate, GM_EQUIVARIANT,
-                        good ? fmax(step, gm_distance(boosted, level[0], FRONT)) : INFINITY, problem.name);
-}
-
-/* Measures the claims of a scheme for fields on a line, on every equation that it fits: order against exact
-   solutions (Burgers: in time, by itself), the multisymplectic law, energy, mass and charge, return after a
-   reversed step, equivariance under boosts, projections and scalings. */
+/* Measures the claims of a scheme for fields on a line, on every equation that it fits. */
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
-    (void)scheme; /* the certificate's */
+    const struct gm_problem *measured = NULL;
     double farthest = -1;
-    certify_wave(certificate, &farthest);
-    certify_kdv(certificate, &farthest);
-    certify_nls(certificate, &farthest);
-    certify_dirac(certificate, &farthest);
-    certify_burgers(certificate, &farthest);
-    certify_heat(certificate, &farthest);
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        certificate->claims[bit].reason = NULL; /* on the program's own equations nothing excuses a claim */
+    for (size_t i = 0; i < GM_COUNT(equations); i++) {
+        const struct equation *equation = &equations[i];
+        const struct gm_problem problem = problem_of(equation, equation->parameters, 0);
+        if (equation->problem != measured && gm_scheme_fits(scheme, &problem) &&
+            (!equation->meant || equation->meant(scheme))) {
+            measured = equation->problem;
+            measure(certificate, equation, &farthest);
+        }
     }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
 
 /* ---- on a given equation ---- */
-
-/* Which claims a kept quantity of a field tells of: whether it is linear or quadratic, along directions that a scheme's
-   own numbers do not take part in. */
-static unsigned claims_of(const struct gm_kept *kept, const struct gm_certified_system *system, double size)
-{
-    enum { DIRECTIONS = 3 };
-    const double none = 1e-11;
-    const size_t n = system->problem->n,
-                 fixed = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
-    double *direction = calloc(n, sizeof *direction);
-    bool varies = false, linear = true, quadratic = true;
-    for (int k = 1; direction && k <= DIRECTIONS; k++) {
-        for (size_t c = 0; c < n - fixed; c++) {
-            direction[c] = size * sin(k * (double)(3 * c + 1)); /* any */
-        }
-        varies = varies || !(gm_kept_differences(kept, system->start, n, 1, direction) < none);
-        linear = linear && gm_kept_differences(kept, system->start, n, 2, direction) < none;
-        quadratic = quadratic && gm_kept_differences(kept, system->start, n, 3, direction) < none;
-    }
-    free(direction);
-    return !varies ? 0 : linear ? GM_KEEPS_LINEAR : quadratic ? GM_KEEPS_QUADRATIC : 0;
-}
 
 /* The energy of a form, which is of a scheme's own kind. */
 static double form_energy(const void *subject, const double *y, const double *memory)
@@ -509,6 +418,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
     const struct gm_field *field = gm_field_of(system->problem);
     const double *const y = system->start, size = gm_field_size(system->problem, y);
+    const size_t n = system->problem->n,
+                 levels = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
     const char *const name = system->problem->name;
     const char *const failing =
         field->equation ? "without --on it is measured on this equation" : no_steps(&subject, y);
@@ -518,16 +429,18 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
         gm_field_note_form(certificate, &subject, y, size);
         if (field->wave) {
-            note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, wave_energy);
+            note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {
             const struct gm_kept energy = {.value = form_energy, .data = &subject};
             gm_field_note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
         }
         for (size_t i = 0; i < system->kept_count; i++) {
-            const unsigned claim = claims_of(&system->kept[i], system, size);
-            if (claim) {
-                gm_field_note_kept(certificate, (enum gm_claim)claim, &subject, y, &system->kept[i],
-                                   system->kept[i].name);
+            /* along directions that a scheme's own last number takes no part in */
+            const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size);
+            if (claims & (GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC)) {
+                gm_field_note_kept(certificate,
+                                   claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC, &subject,
+                                   y, &system->kept[i], system->kept[i].name);
             }
         }
     }
@@ -542,12 +455,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     for (size_t i = 0; i < GM_COUNT(missing); i++) {
         gm_certificate_withhold(certificate, missing[i].claim, failing ? failing : missing[i].reason);
     }
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (certificate->claims[bit].claimed && !certificate->claims[bit].reason) {
-            gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit),
-                                    failing ? failing : "it is measured on the scheme's own equation alone");
-        }
-    }
+    gm_certificate_withhold_all(certificate, scheme->claims,
+                                failing ? failing : "it is measured on the scheme's own equation alone");
 }
 
 static const struct gm_family *const families[] = {

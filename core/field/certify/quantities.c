@@ -10,40 +10,24 @@
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
-/* The velocity of the frame that an equation is seen from, and since when; false where there is none. */
-static bool find_frame(const struct gm_problem *problem, double *lambda, double *t0)
+/* The velocity of the frame that an equation is seen from, and since when; false where its nodes do not move. */
+static bool find_frame(const struct gm_run *run, double *lambda, double *t0)
 {
+    const struct gm_problem *problem = run->problem;
     *t0 = 0;
     switch (gm_field_of(problem)->equation) {
     case GM_NEEDS_HEAT:
         *lambda = gm_heat_of(problem)->lambda;
-        return true;
+        return *lambda != 0 && !gm_heat_fixed(gm_heat_of(problem), run->scheme);
     case GM_NEEDS_KDV:
         *lambda = gm_kdv_of(problem)->lambda;
-        return true;
+        return *lambda != 0 && !gm_kdv_fixed(gm_kdv_of(problem), run->scheme);
     case GM_NEEDS_BURGERS:
         *lambda = gm_burgers_of(problem)->lambda;
         *t0 = gm_burgers_t0(gm_burgers_of(problem));
-        return true;
+        return *lambda != 0 && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
     default:
         return false;
-    }
-}
-
-static bool moves(const struct gm_run *run)
-{
-    const struct gm_problem *problem = run->problem;
-    double lambda = 0, t0 = 0;
-    if (!find_frame(problem, &lambda, &t0) || lambda == 0) {
-        return false;
-    }
-    switch (gm_field_of(problem)->equation) {
-    case GM_NEEDS_HEAT:
-        return !gm_heat_fixed(gm_heat_of(problem), run->scheme);
-    case GM_NEEDS_KDV:
-        return !gm_kdv_fixed(gm_kdv_of(problem), run->scheme);
-    default:
-        return !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
     }
 }
 
@@ -51,7 +35,7 @@ static bool moves(const struct gm_run *run)
 static void places(const struct gm_run *run, double *values)
 {
     double lambda = 0, t0 = 0;
-    find_frame(run->problem, &lambda, &t0);
+    find_frame(run, &lambda, &t0);
     gm_quantity_grid(run).derive(run, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
         values[i] += lambda * (run->t - t0);
@@ -73,10 +57,10 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
     const size_t points = problem->line.points, seen = gm_grid1_seen(&problem->line);
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
-    const bool moving = moves(run);
     struct gm_quantity *end = quantities + 1;
+    double lambda = 0, t0 = 0;
     *quantities = gm_quantity_grid(run);
-    if (moving) {
+    if (find_frame(run, &lambda, &t0)) {
         snprintf(quantities->name, sizeof quantities->name, "x");
         quantities->fixed = false;
         quantities->derive = places;

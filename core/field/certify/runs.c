@@ -152,22 +152,18 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
     note(certificate, claim, change, round_off(subject, y), name);
 }
 
-double gm_field_order_in_time(struct gm_field_subject *subject, const double *y)
+double gm_field_order_in_time(const struct gm_field_subject *subject, const double *y, double until)
 {
-    const size_t points = subject->problem.line.points;
-    double *end = calloc(3 * points, sizeof *end), change[2] = {0};
+    const size_t n = subject->problem.n;
+    double *end = calloc(3 * n, sizeof *end), change[2] = {0};
     bool good = end != NULL;
-    for (size_t k = 0; good && k < 3; k++) {
-        struct gm_field_subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
-        good = gm_field_begin(&part, y);
-        if (good) {
-            good = gm_run_until(part.run, 1) == GM_OK;
-            memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
-            gm_run_close(part.run);
-        }
+    for (int k = 0; good && k < 3; k++) {
+        const struct gm_trial trial = {&subject->problem, subject->scheme, &no_settings,
+                                       ldexp(subject->dt, -k), (int64_t)lround(until / subject->dt) << k};
+        good = gm_trial_advance(&trial, y, end + (size_t)k * n);
     }
     for (size_t k = 0; good && k < 2; k++) {
-        change[k] = gm_distance(end + k * points, end + (k + 1) * points, points);
+        change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
     }
     free(end);
     return good ? log2(change[0] / change[1]) : NAN;
@@ -187,22 +183,18 @@ struct refined {
 static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct refined *refined)
 {
-    struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
-    const size_t n = subject.problem.n, k = refined->count;
-    double *end = malloc(n * sizeof *end);
-    bool good = end && gm_field_begin(&subject, system->start);
-    if (good) {
-        good = gm_run_advance(subject.run, (int64_t)STEPS << k) == GM_OK;
-        memcpy(end, gm_run_state(subject.run), n * sizeof *end);
-        refined->dt[k] = system->dt;
-        refined->error[k] = system->error ? system->error(system->error_data, subject.run->t, end) : NAN;
-        refined->count++;
-        gm_run_close(subject.run);
-    }
-    if (!good) {
+    const size_t k = refined->count;
+    const int64_t steps = (int64_t)STEPS << k;
+    const struct gm_trial trial = {system->problem, scheme, &no_settings, system->dt, steps};
+    double *end = malloc(system->problem->n * sizeof *end);
+    if (!end || !gm_trial_advance(&trial, system->start, end)) {
         free(end);
-        end = NULL;
+        return NULL;
     }
+    refined->dt[k] = system->dt;
+    refined->error[k] =
+        system->error ? system->error(system->error_data, (double)steps * system->dt, end) : NAN;
+    refined->count++;
     return end;
 }
 

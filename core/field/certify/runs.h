@@ -38,8 +38,8 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
                         struct gm_field_subject *subject, const double *y, const struct gm_kept *kept,
                         const char *name);
 
-/* The order in time on one grid, to t = 1, from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
-double gm_field_order_in_time(struct gm_field_subject *subject, const double *y);
+/* The order in time on one grid from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
+double gm_field_order_in_time(const struct gm_field_subject *subject, const double *y, double until);
 
 /* The order over 16 steps, by a system and what is finer, as a slope of the error where an exact solution is told that
    closes on the ring, else of the differences between a run and the next finer one. NaN with the reason where none can

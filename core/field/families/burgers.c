@@ -33,109 +33,88 @@
 #include "core/field/families/families.h"
 #include "core/linear/settled.h"
 
-/* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
-GM_CLONES static void ftcs_printed(const double *restrict u, double *restrict v, size_t points, double k,
-                                   double viscosity, double h)
+GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progress *progress)
 {
-    for (size_t j = 1; j + 1 < points; j++) {
-        v[j] = u[j] - k * u[j] * (u[j + 1] - u[j - 1]) / (2 * h) +
-               k * viscosity * (u[j + 1] - 2 * u[j] + u[j - 1]) / (h * h);
+    const double *restrict u = step->u;
+    double *restrict v = step->out;
+    const double k = step->k, h = step->h, viscosity = step->burgers->viscosity;
+    const double convection = k / (2 * h), diffusion = viscosity * k / (h * h);
+    progress->evaluations++;
+    if (step->burgers->printed) {
+        /* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
+        for (size_t j = 1; j + 1 < step->points; j++) {
+            v[j] = u[j] - k * u[j] * (u[j + 1] - u[j - 1]) / (2 * h) +
+                   k * viscosity * (u[j + 1] - 2 * u[j] + u[j - 1]) / (h * h);
+        }
+        return GM_OK;
     }
-}
-
-GM_CLONES static void ftcs_conservative(const double *restrict u, double *restrict v, size_t points,
-                                        double convection, double diffusion)
-{
-    for (size_t j = 1; j + 1 < points; j++) {
+    for (size_t j = 1; j + 1 < step->points; j++) {
         v[j] = u[j] - convection * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2 +
                diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]);
     }
-}
-
-static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progress *progress)
-{
-    const double k = step->k, h = step->h, viscosity = step->burgers->viscosity;
-    if (step->burgers->printed) {
-        ftcs_printed(step->u, step->out, step->points, k, viscosity, h);
-    } else {
-        ftcs_conservative(step->u, step->out, step->points, k / (2 * h), viscosity * k / (h * h));
-    }
-    progress->evaluations++;
     return GM_OK;
 }
 
-GM_CLONES static void lax_wendroff_nodes(const double *restrict u, double *restrict v, size_t points,
-                                         double ratio, double diffusion)
+GM_CLONES static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm_progress *progress)
 {
-    for (size_t j = 1; j + 1 < points; j++) {
+    const double *restrict u = step->u;
+    double *restrict v = step->out;
+    const double ratio = step->k / step->h;
+    const double diffusion = step->burgers->viscosity * step->k / (step->h * step->h);
+    for (size_t j = 1; j + 1 < step->points; j++) {
         const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
         const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
         v[j] = u[j] - ratio / 2 * (right - left) + ratio * ratio / 2 * second +
                diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]);
     }
-}
-
-static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm_progress *progress)
-{
-    lax_wendroff_nodes(step->u, step->out, step->points, step->k / step->h,
-                       step->burgers->viscosity * step->k / (step->h * step->h));
     progress->evaluations++;
     return GM_OK;
 }
 
-GM_CLONES static void ftcs_invariant_nodes(const double *restrict u, double *restrict v, size_t points,
-                                           double k, double sigma, double over_2h, double diffusion)
+GM_CLONES static enum gm_status ftcs_invariant(const struct gm_burgers_step *step,
+                                               struct gm_progress *progress)
 {
-    for (size_t j = 1; j + 1 < points; j++) {
+    const double *restrict u = step->u;
+    double *restrict v = step->out;
+    const double k = step->k, sigma = step->sigma, over_2h = 1 / (2 * step->h);
+    const double diffusion = step->burgers->viscosity * k / (step->h * step->h);
+    for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
         v[j] = (u[j] + sigma * slope + diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]) / m) / m;
     }
-}
-
-static enum gm_status ftcs_invariant(const struct gm_burgers_step *step, struct gm_progress *progress)
-{
-    ftcs_invariant_nodes(step->u, step->out, step->points, step->k, step->sigma, 1 / (2 * step->h),
-                         step->burgers->viscosity * step->k / (step->h * step->h));
     progress->evaluations++;
     return GM_OK;
 }
 
-GM_CLONES static void ftcs_family_nodes(const double *restrict u, double *restrict v, size_t points, double k,
-                                        double sigma, double h, double viscosity, double a, double d)
+GM_CLONES static enum gm_status ftcs_family(const struct gm_burgers_step *step, struct gm_progress *progress)
 {
-    for (size_t j = 1; j + 1 < points; j++) {
+    const double *restrict u = step->u;
+    double *restrict v = step->out;
+    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->viscosity;
+    const double a = step->burgers->a, d = step->burgers->d;
+    for (size_t j = 1; j + 1 < step->points; j++) {
         const double bend = u[j + 1] - 2 * u[j] + u[j - 1];
         const double a4 = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / h, m = 1 - k * a4;
         const double rate = viscosity * bend / (h * h) - d * bend * (a + 0.5) * bend / h;
         v[j] = (u[j] - sigma * a4 + k / m * rate) / m;
     }
-}
-
-static enum gm_status ftcs_family(const struct gm_burgers_step *step, struct gm_progress *progress)
-{
-    ftcs_family_nodes(step->u, step->out, step->points, step->k, step->sigma, step->h,
-                      step->burgers->viscosity, step->burgers->a, step->burgers->d);
     progress->evaluations++;
     return GM_OK;
 }
 
-GM_CLONES static void lax_wendroff_invariant_nodes(const double *restrict u, double *restrict v,
-                                                   size_t points, double k, double sigma, double over_2h,
-                                                   double over_square, double viscosity)
+GM_CLONES static enum gm_status lax_wendroff_invariant(const struct gm_burgers_step *step,
+                                                       struct gm_progress *progress)
 {
-    const double a5 = -sigma / k;
-    for (size_t j = 1; j + 1 < points; j++) {
+    const double *restrict u = step->u;
+    double *restrict v = step->out;
+    const double k = step->k, sigma = step->sigma, a5 = -sigma / k, viscosity = step->burgers->viscosity;
+    const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
+    for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), over_m = 1 / (1 + k * slope);
         const double a = (u[j + 1] + 2 * u[j] + u[j - 1]) / 4 + a5;
         const double second = over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
         v[j] = (u[j] + sigma * slope + k * over_m * (viscosity + k / 2 * over_m * (a * a)) * second) * over_m;
     }
-}
-
-static enum gm_status lax_wendroff_invariant(const struct gm_burgers_step *step, struct gm_progress *progress)
-{
-    lax_wendroff_invariant_nodes(step->u, step->out, step->points, step->k, step->sigma, 1 / (2 * step->h),
-                                 1 / (step->h * step->h), step->burgers->viscosity);
     progress->evaluations++;
     return GM_OK;
 }
@@ -259,38 +238,24 @@ static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *ste
 struct work {
     size_t points;
     double *level[2], *companion[2], *scratch;
-    double *memory;
 };
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_burgers_row *row = scheme->coefficients;
+    (void)scheme;
+    enum { ARRAYS = 4 + 3 };
     const size_t points = problem->line.points;
-    const size_t arrays = 2 + (gm_burgers_of(problem)->lambda != 0 ? 2 : 0) + (row->implicit ? 3 : 0);
-    struct work *work = malloc(sizeof *work);
-    double *memory = calloc(arrays * points, sizeof *memory);
-    if (!work || !memory) {
-        free(work);
-        free(memory);
-        return NULL;
+    struct work *work = calloc(1, sizeof *work + ARRAYS * points * sizeof(double));
+    if (work) {
+        double *memory = (double *)(work + 1);
+        work->points = points;
+        for (size_t k = 0; k < 2; k++) {
+            work->level[k] = memory + k * points;
+            work->companion[k] = memory + (2 + k) * points;
+        }
+        work->scratch = memory + 4 * points;
     }
-    *work = (struct work){.points = points, .memory = memory};
-    double *next = memory;
-    work->level[0] = next;
-    work->level[1] = next += points;
-    if (gm_burgers_of(problem)->lambda != 0) {
-        work->companion[0] = next += points;
-        work->companion[1] = next += points;
-    }
-    work->scratch = row->implicit ? next + points : NULL;
     return work;
-}
-
-static void workspace_close(void *workspace)
-{
-    struct work *work = workspace;
-    free(work->memory);
-    free(work);
 }
 
 GM_CLONES static bool within(const double *u, size_t points, double lambda, double limit)
@@ -347,10 +312,11 @@ static struct gm_progress advance(const struct gm_task *task)
     const size_t points = work->points, size = points * sizeof(double);
     struct gm_burgers at_rest = *burgers;
     at_rest.lambda = 0;
-    bool accompanied = work->companion[0] && task->y[2 * points] != 0;
+    const bool has_companion = burgers->lambda != 0;
+    bool accompanied = has_companion && task->y[2 * points] != 0;
     struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
     memcpy(work->level[0], task->y, size);
-    if (work->companion[0]) {
+    if (has_companion) {
         memcpy(work->companion[0], task->y + points, size);
     }
     for (int64_t k = 0; k < task->steps; k++) {
@@ -365,7 +331,7 @@ static struct gm_progress advance(const struct gm_task *task)
         progress.done++;
     }
     memcpy(task->out, work->level[0], size);
-    if (work->companion[0]) {
+    if (has_companion) {
         memcpy(task->out + points, work->companion[0], size);
         task->out[2 * points] = accompanied;
     }
@@ -509,5 +475,5 @@ const struct gm_family gm_family_burgers = {
     .count = GM_COUNT(schemes),
     .loop = advance,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = free,
 };

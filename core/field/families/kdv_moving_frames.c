@@ -33,14 +33,17 @@
 #include "core/linear/ring.h"
 #include "core/linear/settled.h"
 
-enum { REACH = 2 /* of D3 */, PAD = 3, KNOWN = 6 /* nodes that P goes through */ };
+enum {
+    REACH = 2 /* of D3 */,
+    PAD = 3,
+    KNOWN = 6 /* nodes that P goes through */
+};
 
 /* Levels have PAD more points on both sides, level[-PAD] to level[points + PAD - 1]. */
 struct work {
     size_t points;
-    double *level[3];    /* past, present, next */
-    double *rest, *mean; /* u - (mu k/2) D3 u; w */
-    double *memory;
+    double *level[3];         /* past, present, next */
+    double *rest, *mean;      /* u - (mu k/2) D3 u; w */
     struct gm_ring_band band; /* 1 + (mu k/2) D3, of rows that solve */
     double factored_k, factored_h;
 };
@@ -197,7 +200,6 @@ static void close_work(void *workspace)
     if (work->band.right) {
         gm_ring_band_close(&work->band);
     }
-    free(work->memory);
     free(work);
 }
 
@@ -206,23 +208,16 @@ static void *open_work(const struct gm_problem *problem, const struct gm_scheme 
     enum { ARRAYS = 5 };
     const struct row *row = scheme->coefficients;
     const size_t points = problem->line.points, length = points + 2 * PAD;
-    struct work *work = calloc(1, sizeof *work);
-    double *memory = calloc(ARRAYS * length, sizeof *memory);
-    if (!work || !memory) {
+    struct work *work = calloc(1, sizeof *work + ARRAYS * length * sizeof(double));
+    if (!work || (row->solves && !gm_ring_band_open(&work->band, points, 1, REACH))) {
         free(work);
-        free(memory);
         return NULL;
     }
-    work->points = points;
-    work->memory = memory;
     double **const arrays[ARRAYS] = {&work->level[0], &work->level[1], &work->level[2], &work->rest,
                                      &work->mean};
+    work->points = points;
     for (size_t i = 0; i < ARRAYS; i++) {
-        *arrays[i] = memory + i * length + PAD;
-    }
-    if (row->solves && !gm_ring_band_open(&work->band, points, 1, REACH)) {
-        close_work(work);
-        return NULL;
+        *arrays[i] = (double *)(work + 1) + i * length + PAD;
     }
     return work;
 }
@@ -313,13 +308,16 @@ bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme)
     return gm_frame_rests(kdv->frame, gm_kdv_has_frames(scheme));
 }
 
-/* A first step from values at nodes, each as it is carried; the next level is in work->level[2]. */
-static bool make_carried(struct work *work, const struct row *row, const struct gm_kdv *kdv, double h,
-                         double k, double sigma, const struct gm_kdv_symmetry *symmetry, const double *y)
+static const struct gm_kdv_symmetry identity = {.scale = 1};
+
+/* A first step of length k from values at nodes, each as a symmetry carries it; the next level is in work->level[2]. */
+static bool make_carried(struct work *work, const struct gm_problem *problem, const struct gm_scheme *scheme,
+                         double k, const struct gm_kdv_symmetry *symmetry, const double *y)
 {
-    const double s = symmetry->scale;
+    const struct gm_kdv *kdv = gm_kdv_of(problem);
+    const double s = symmetry->scale, sigma = gm_kdv_fixed(kdv, scheme) ? 0 : kdv->lambda * k;
     const struct step step = {.kdv = kdv,
-                              .h = s * h,
+                              .h = s * problem->line.dx,
                               .k = s * s * s * k,
                               .sigma = s * (sigma + symmetry->boost * k),
                               .first = true};
@@ -328,21 +326,18 @@ static bool make_carried(struct work *work, const struct row *row, const struct 
         work->level[1][j] = gm_kdv_carried(kdv, symmetry, (struct gm_event){.u = y[j]}).u;
     }
     close_ring(work->level[1], work->points);
-    return row->make(work, &step, &uncounted) == GM_OK;
+    return ((const struct row *)scheme->coefficients)->make(work, &step, &uncounted) == GM_OK;
 }
 
 bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                           const double *y, double *boosts)
 {
-    static const struct gm_kdv_symmetry none = {.scale = 1};
-    const struct gm_kdv *kdv = gm_kdv_of(problem);
-    const struct row *row = scheme->coefficients;
-    const double sigma = gm_kdv_fixed(kdv, scheme) ? 0 : kdv->lambda * k;
     struct work *work = open_work(problem, scheme);
-    const bool good = work && make_carried(work, row, kdv, problem->line.dx, k, sigma, &none, y);
+    const bool good = work && make_carried(work, problem, scheme, k, &identity, y);
     for (size_t j = 0; good && j < work->points; j++) {
         const double *u = work->level[1] + j;
-        boosts[j] = -kdv->eta * (row->solves ? work->mean[j] : (u[-1] + u[0] + u[1]) / 3);
+        boosts[j] =
+            -gm_kdv_of(problem)->eta * (gm_kdv_solves(scheme) ? work->mean[j] : (u[-1] + u[0] + u[1]) / 3);
     }
     if (work) {
         close_work(work);
@@ -353,22 +348,18 @@ bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_sche
 double gm_kdv_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                      const struct gm_kdv_symmetry *symmetry, const double *y)
 {
-    static const struct gm_kdv_symmetry none = {.scale = 1};
-    const struct gm_kdv *kdv = gm_kdv_of(problem);
-    const struct row *row = scheme->coefficients;
     if (!gm_kdv_has_frames(scheme)) {
         return NAN;
     }
-    const double h = problem->line.dx, sigma = gm_kdv_fixed(kdv, scheme) ? 0 : kdv->lambda * k;
     struct work *plain = open_work(problem, scheme), *carried = open_work(problem, scheme);
     double largest = NAN;
-    if (plain && carried && make_carried(plain, row, kdv, h, k, sigma, &none, y) &&
-        make_carried(carried, row, kdv, h, k, sigma, symmetry, y)) {
+    if (plain && carried && make_carried(plain, problem, scheme, k, &identity, y) &&
+        make_carried(carried, problem, scheme, k, symmetry, y)) {
         largest = 0;
         for (size_t j = 0; j < plain->points; j++) {
             const struct gm_event event = {.t = k, .u = plain->level[2][j]};
-            const double defect = fabs(carried->level[2][j] - gm_kdv_carried(kdv, symmetry, event).u);
-            largest = gm_larger(defect, largest);
+            const double moved = gm_kdv_carried(gm_kdv_of(problem), symmetry, event).u;
+            largest = gm_larger(fabs(carried->level[2][j] - moved), largest);
         }
     }
     if (plain) {

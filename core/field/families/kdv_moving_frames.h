@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetries of the Korteweg-de Vries equation, and the moving frames that its invariant schemes step in. */
-#ifndef GM_CORE_FIELD_FAMILIES_KDV_FRAMES_H
-#define GM_CORE_FIELD_FAMILIES_KDV_FRAMES_H
+#ifndef GM_CORE_FIELD_FAMILIES_KDV_MOVING_FRAMES_H
+#define GM_CORE_FIELD_FAMILIES_KDV_MOVING_FRAMES_H
 
 #include "core/field/field.h"
 #include "core/field/problems/dispersive.h"

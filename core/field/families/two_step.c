@@ -14,19 +14,15 @@ void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme 
     (void)scheme;
     enum { ARRAYS = 8 };
     const size_t points = problem->line.points, length = points + 2;
-    struct gm_two_step_work *work = calloc(1, sizeof *work);
-    double *memory = calloc(ARRAYS * length, sizeof *memory);
-    if (!work || !memory) {
-        free(work);
-        free(memory);
+    struct gm_two_step_work *work = calloc(1, sizeof *work + ARRAYS * length * sizeof(double));
+    if (!work) {
         return NULL;
     }
-    work->points = points;
-    work->memory = memory;
     double **const arrays[ARRAYS] = {&work->level[0], &work->level[1], &work->level[2], &work->force,
                                      &work->right,    &work->guess,    &work->cells,    &work->change};
+    work->points = points;
     for (size_t i = 0; i < ARRAYS; i++) {
-        *arrays[i] = memory + i * length + 1;
+        *arrays[i] = (double *)(void *)(work + 1) + i * length + 1;
     }
     return work;
 }
@@ -35,7 +31,6 @@ void gm_two_step_close(void *workspace)
 {
     struct gm_two_step_work *work = workspace;
     gm_ring_newton_close(&work->newton);
-    free(work->memory);
     free(work);
 }
 
@@ -60,6 +55,16 @@ void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *probl
         const double velocity = (other[i] - now[i]) / gap - gap / 2 * acceleration;
         next[i] = now[i] + dt * (velocity + dt / 2 * acceleration);
     }
+}
+
+double gm_wave_longest(const struct gm_problem *problem, const double *y, double square, double stiffness)
+{
+    const struct gm_grid1 *grid = &problem->line;
+    double most = 0;
+    for (size_t i = 0; i < grid->points; i++) {
+        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
+    }
+    return sqrt(square / (stiffness / (grid->dx * grid->dx) + most));
 }
 
 static void subtract(double *change, const double *level, const double *before, size_t points)

@@ -15,7 +15,6 @@ struct gm_two_step_work {
     double *change;                /* from the past to the present level, of schemes that keep it */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
-    double *memory;
 };
 
 /* One step of length dt: next from past and now, both with their end points; status GM_OK. */
@@ -27,6 +26,9 @@ typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct g
 typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                double gap, const double *now, const double *other, double *next);
 gm_two_step_start gm_wave_start;
+
+/* The longest step dt of a wave for which (w dt)^2 <= square, w^2 = stiffness/dx^2 + V'' wherever u is. */
+double gm_wave_longest(const struct gm_problem *problem, const double *y, double square, double stiffness);
 
 /* Whose discrete conservation laws a scheme has: those of nodes, those of nodes at twice the distance in time
    and space, those of cells, or others. */
@@ -51,6 +53,14 @@ static inline void gm_grid1_close(double *level, size_t points, double jump)
 {
     level[-1] = level[points - 1] - jump;
     level[points] = level[0] + jump;
+}
+
+/* The node that lies `by` nodes from node i; it may be beyond an end. */
+static inline double gm_grid1_value(const struct gm_grid1 *grid, const double *level, size_t i, long by)
+{
+    const long points = (long)grid->points, place = (long)i + by;
+    const long turns = (place >= points) - (place < 0);
+    return level[place - turns * points] + (double)turns * grid->jump;
 }
 
 #endif

@@ -43,11 +43,6 @@ static void gradients(const void *parameters, const double *s, double *gradient,
     }
 }
 
-static void gradient(const void *parameters, const double *s, double *to)
-{
-    gradients(parameters, s, to, 1);
-}
-
 static void hessians(const void *parameters, const double *s, double *hessian, size_t count)
 {
     const struct gm_dirac *dirac = parameters;
@@ -81,7 +76,6 @@ static const struct gm_form form = {.names = names,
                                     .dimension = DIMENSION,
                                     .m = m,
                                     .k = k,
-                                    .gradient = gradient,
                                     .function = function,
                                     .gradients = gradients,
                                     .hessians = hessians};

@@ -15,15 +15,6 @@
 static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0};
 
-static void gradient(const void *parameters, const double *s, double *gradient)
-{
-    const struct gm_kdv *kdv = parameters;
-    gradient[0] = 0;
-    gradient[1] = -s[3] + kdv->eta * s[1] * s[1] / 2;
-    gradient[2] = s[2] / kdv->mu;
-    gradient[3] = -s[1];
-}
-
 static double dispersion(const struct gm_problem *problem)
 {
     return gm_kdv_of(problem)->mu;
@@ -270,7 +261,7 @@ double gm_kdv_energy(const struct gm_problem *problem, const double *profile)
     return problem->line.dx * sum;
 }
 
-static const struct gm_form form = {.dimension = 4, .m = m, .k = k, .gradient = gradient};
+static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
 static const struct gm_dispersive dispersive = {.power = 3,
                                                 .factor = {1, 0},
                                                 .dispersion = dispersion,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_PROBLEMS_FRAMES_H
-#define GM_CORE_FIELD_PROBLEMS_FRAMES_H
+#ifndef GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
+#define GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
 
 #include <stdbool.h>
 

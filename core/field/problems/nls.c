@@ -18,16 +18,6 @@
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};
 
-static void gradient(const void *parameters, const double *s, double *gradient)
-{
-    (void)parameters;
-    const double square = s[0] * s[0] + s[1] * s[1];
-    gradient[0] = square * s[0];
-    gradient[1] = square * s[1];
-    gradient[2] = s[2];
-    gradient[3] = s[3];
-}
-
 static double dispersion(const struct gm_problem *problem)
 {
     return (void)problem, 1;
@@ -187,7 +177,7 @@ double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static const struct gm_form form = {.dimension = 4, .m = m, .k = k, .gradient = gradient};
+static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
                                                 .dispersion = dispersion,

@@ -11,24 +11,9 @@
 #include "core/field/problems/wave.h"
 #include "core/linear/sine.h"
 
-const double gm_wave_m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
-const double gm_wave_k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
-
-static void gradient_sine_gordon(const void *parameters, const double *s, double *gradient)
-{
-    (void)parameters;
-    gradient[0] = sin(s[0]);
-    gradient[1] = s[1];
-    gradient[2] = -s[2];
-}
-
-static void gradient_linear(const void *parameters, const double *s, double *gradient)
-{
-    (void)parameters;
-    gradient[0] = 0;
-    gradient[1] = s[1];
-    gradient[2] = -s[2];
-}
+static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
+static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
+const struct gm_form gm_form_of_waves = {.dimension = 3, .m = m, .k = k};
 
 /* sin x / x and its derivative; series where the quotient would cancel */
 static double sinc(double x)
@@ -45,12 +30,6 @@ static double potential(const struct gm_problem *problem, double u)
 {
     (void)problem;
     return 1 - cos(u);
-}
-
-static double slope(const struct gm_problem *problem, double u)
-{
-    (void)problem;
-    return sin(u);
 }
 
 static double curvature(const struct gm_problem *problem, double u)
@@ -100,30 +79,24 @@ static void no_slopes(const struct gm_problem *problem, const double *u, double 
 
 static const struct gm_wave sine_gordon = {
     .potential = potential,
-    .slope = slope,
     .curvature = curvature,
     .slopes = slopes,
     .quotient = quotient,
     .quotient_slope = quotient_slope,
 };
-static const struct gm_form sine_gordon_form = {
-    .dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient_sine_gordon};
 
 static const struct gm_wave linear = {
     .potential = none,
-    .slope = none,
     .curvature = none,
     .slopes = no_slopes,
     .quotient = none_between,
     .quotient_slope = none_between,
 };
-static const struct gm_form linear_form = {
-    .dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient_linear};
 
 const struct gm_problem gm_problem_sine_gordon = {
     .name = "sine-Gordon",
     .kind = &gm_kind_field,
-    .facets = &(const struct gm_field){.form = &sine_gordon_form, .wave = &sine_gordon},
+    .facets = &(const struct gm_field){.form = &gm_form_of_waves, .wave = &sine_gordon},
     .m = 1,
     .bound = 1e3,
     .exact = &gm_sine_gordon_solution,
@@ -131,7 +104,7 @@ const struct gm_problem gm_problem_sine_gordon = {
 const struct gm_problem gm_problem_wave = {
     .name = "wave equation",
     .kind = &gm_kind_field,
-    .facets = &(const struct gm_field){.form = &linear_form, .wave = &linear},
+    .facets = &(const struct gm_field){.form = &gm_form_of_waves, .wave = &linear},
     .m = 1,
     .bound = 1e3,
 };

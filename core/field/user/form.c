@@ -37,11 +37,6 @@ static double function(const void *parameters, const double *s)
     return value;
 }
 
-static void gradient(const void *parameters, const double *s, double *to)
-{
-    gm_tape_values(&((const struct own *)parameters)->gradient, s, to, 1);
-}
-
 static void gradients(const void *parameters, const double *s, double *to, size_t count)
 {
     gm_tape_values(&((const struct own *)parameters)->gradient, s, to, count);
@@ -111,7 +106,7 @@ static bool find_potentials(struct gm_problem *problem, struct own *self)
             for (size_t c = 0; c < n; c++) {
                 s[c] = (y[c * points + i] + y[c * points + right] + (right == 0 ? self->jump[c] : 0)) / 2;
             }
-            gradient(self, s, slope);
+            gradients(self, s, slope, 1);
             for (size_t p = 0; p < self->form.potential_count; p++) {
                 const struct gm_form_potential *potential = &self->potentials[p];
                 self->jump[potential->component] += (i == 0 ? -self->jump[potential->component] : 0) +
@@ -147,7 +142,6 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
     self->form = (struct gm_form){.dimension = n,
                                   .m = self->k,
                                   .k = self->l,
-                                  .gradient = gradient,
                                   .function = function,
                                   .gradients = gradients,
                                   .hessians = hessians,
@@ -219,7 +213,7 @@ void gm_user_form_start(const struct gm_problem *problem, double *y)
             const double x =
                 gm_grid1_node(&problem->line, i) + problem->line.dx * (0.5 + apart * ((double)k - 1));
             gm_tape_values(&self->starts, &x, s, 1);
-            gradient(self, s, slope);
+            gradients(self, s, slope, 1);
             for (size_t p = 0; p < self->form.potential_count; p++) {
                 const struct gm_form_potential *potential = &self->potentials[p];
                 y[potential->component * points + i + 1] +=
@@ -320,11 +314,11 @@ bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_
         double s[GM_MOST_OF_FORM], here[GM_MOST_OF_FORM], further[GM_MOST_OF_FORM];
         const double x = gm_grid1_node(&problem->line, i);
         gm_tape_values(&self->starts, &x, s, 1);
-        gradient(self, s, here);
+        gradients(self, s, here, 1);
         for (size_t c = 0; c < n; c++) {
             s[c] += gm_user_form_is_potential(problem, c) ? 0 : self->jump[c];
         }
-        gradient(self, s, further);
+        gradients(self, s, further, 1);
         for (size_t c = 0; c < n; c++) {
             if (!isfinite(here[c])) {
                 snprintf(sentence, size, "the gradient of S is not finite at the start where x = %.6g", x);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* K z_t + L z_x = grad S(z) with matrices and a function that somebody wrote. */
-#ifndef GM_CORE_FIELD_OWN_FORM_H
-#define GM_CORE_FIELD_OWN_FORM_H
+#ifndef GM_CORE_FIELD_USER_FORM_H
+#define GM_CORE_FIELD_USER_FORM_H
 
 #include "core/field/field.h"
 #include "core/model/system.h"

@@ -21,7 +21,6 @@ enum { ROOM = 128 }; /* of numbers that a tape computes together */
 
 struct own {
     struct gm_field facets;
-    struct gm_form form;
     struct gm_tape potential, slope, curvature, start, exact;
     bool has_exact, brief; /* brief: Gauss's formula on one piece is exact for V' */
 };
@@ -131,19 +130,11 @@ static double quotient_slope(const struct gm_problem *problem, double a, double 
 
 static const struct gm_wave formulas = {
     .potential = potential,
-    .slope = slope,
     .curvature = curvature,
     .slopes = slopes,
     .quotient = quotient,
     .quotient_slope = quotient_slope,
 };
-
-static void gradient(const void *parameters, const double *s, double *gradient)
-{
-    gradient[0] = value_of(&((const struct own *)parameters)->slope, s[0]);
-    gradient[1] = s[1];
-    gradient[2] = -s[2];
-}
 
 bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values)
 {
@@ -153,8 +144,7 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
     if (!self) {
         return false;
     }
-    self->form = (struct gm_form){.dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient};
-    self->facets = (struct gm_field){.form = &self->form, .wave = &formulas};
+    self->facets = (struct gm_field){.form = &gm_form_of_waves, .wave = &formulas};
     problem->facets = &self->facets;
     problem->parameters = self;
     self->has_exact = wave->exact != GM_NO_NODE;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* u_tt = u_xx - V'(u) with a potential that somebody wrote. */
-#ifndef GM_CORE_FIELD_OWN_POTENTIAL_H
-#define GM_CORE_FIELD_OWN_POTENTIAL_H
+#ifndef GM_CORE_FIELD_USER_POTENTIAL_H
+#define GM_CORE_FIELD_USER_POTENTIAL_H
 
 #include "core/field/field.h"
 #include "core/model/potential.h"

@@ -16,11 +16,11 @@
    S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
 #include "core/mesh/certify/law.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
+#include "core/linear/iteration.h"
 #include "core/mesh/nodes.h"
 
 enum { POINTS = 3, ELEMENTS = POINTS + 1, DIRECTIONS = 2 * POINTS };
@@ -33,8 +33,6 @@ struct motion {
     double pull[ELEMENTS][2][2];                     /* dL_e/dq, with the multiplier's share */
     double lambda[POINTS + 2], ell[ELEMENTS];
 };
-
-static_assert(sizeof(struct motion) <= GM_MESH_OBSERVED * sizeof(double), "too many numbers");
 
 /* Where the Lagrangian of an element is taken in a step. */
 enum rule { TRAPEZOIDAL, MIDPOINT };
@@ -93,11 +91,7 @@ static void parts(const struct stages *stages, const struct gm_elements *at, dou
 /* Multipliers with which the Euler-Lagrange equations hold best: least squares of Dg^T lambda = rest. */
 static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2], double *lambda)
 {
-    struct gm_banded normal;
-    if (!gm_banded_open(&normal, POINTS, 2)) {
-        return false;
-    }
-    double row[POINTS][POINTS + 2][2] = {{{0}}}, right[POINTS] = {0};
+    double row[POINTS][POINTS + 2][2] = {{{0}}}, normal[POINTS * POINTS] = {0};
     for (size_t k = 1; k <= POINTS; k++) {
         /* ell_k - ell_(k-1) */
         row[k - 1][k][0] = at->ell_y0[k] - at->ell_y1[k - 1];
@@ -108,24 +102,34 @@ static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2
         row[k - 1][k - 1][1] = at->ell_d[k - 1];
     }
     for (size_t a = 0; a < POINTS; a++) {
+        lambda[a + 1] = 0;
         for (size_t i = 1; i <= POINTS; i++) {
             for (size_t c = 0; c < 2; c++) {
-                right[a] += row[a][i][c] * rest[i][c];
+                lambda[a + 1] += row[a][i][c] * rest[i][c];
                 for (size_t b = 0; b < POINTS; b++) {
-                    if (row[a][i][c] != 0 && row[b][i][c] != 0) {
-                        gm_banded_add(&normal, a, b, row[a][i][c] * row[b][i][c]);
-                    }
+                    normal[a * POINTS + b] += row[a][i][c] * row[b][i][c];
                 }
             }
         }
     }
-    const bool good = gm_banded_factor(&normal);
-    if (good) {
-        gm_banded_solve(&normal, right);
-        memcpy(lambda + 1, right, sizeof right);
+    return gm_eliminate(POINTS, normal, lambda + 1);
+}
+
+/* dL_e/dq' and dL_e/dq at both ends of all elements */
+static void differentiate(const struct stages *stages, double h, double push[ELEMENTS][2][2],
+                          double pull[ELEMENTS][2][2])
+{
+    double force[2], momentum[2];
+    for (size_t e = 0; e < ELEMENTS; e++) {
+        for (size_t end = 0; end < 2; end++) {
+            parts(stages, &stages->after, h, e, end, force, momentum);
+            push[e][end][0] = force[0] + momentum[0];
+            push[e][end][1] = force[1] + momentum[1];
+            parts(stages, &stages->before, h, e, end, force, momentum);
+            pull[e][end][0] = force[0] - momentum[0];
+            pull[e][end][1] = force[1] - momentum[1];
+        }
     }
-    gm_banded_close(&normal);
-    return good;
 }
 
 static bool measure(const struct gm_mesh_subject *subject, const struct law *law, struct stages *stages,
@@ -133,57 +137,40 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
 {
     *motion = (struct motion){0};
     const double h = law->step.dt;
-    double rest[POINTS + 2][2] = {{0}}, force[2], momentum[2];
+    const struct gm_elements *at = &stages->before;
+    double push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
     if (!place(subject, stages, states[0], states[1], h)) {
         return false;
     }
-    for (size_t e = 0; e < ELEMENTS; e++) {
-        for (size_t end = 0; end < 2; end++) {
-            parts(stages, &stages->after, h, e, end, force, momentum);
-            for (size_t c = 0; c < 2; c++) {
-                motion->momentum[e + end][c] += force[c] + momentum[c];
-            }
-        }
-    }
+    differentiate(stages, h, push, motion->pull);
     if (!place(subject, stages, states[1], states[2], h)) {
         return false;
     }
-    for (size_t i = 1; i <= POINTS; i++) {
-        for (size_t c = 0; c < 2; c++) {
+    differentiate(stages, h, motion->push, motion->pull);
+    memcpy(motion->ell, at->ell, sizeof motion->ell);
+    for (size_t c = 0; c < 2; c++) {
+        for (size_t i = 1; i <= POINTS; i++) {
             motion->here[i][c] = states[1][c * POINTS + i - 1];
             motion->next[i][c] = states[2][c * POINTS + i - 1];
-            rest[i][c] = motion->momentum[i][c];
         }
-    }
-    for (size_t e = 0; e < ELEMENTS; e++) {
-        motion->ell[e] = stages->before.ell[e];
-        for (size_t end = 0; end < 2; end++) {
-            parts(stages, &stages->after, h, e, end, force, momentum);
-            for (size_t c = 0; c < 2; c++) {
-                motion->push[e][end][c] = force[c] + momentum[c];
-            }
-            parts(stages, &stages->before, h, e, end, force, momentum);
-            for (size_t c = 0; c < 2; c++) {
-                motion->pull[e][end][c] = force[c] - momentum[c];
-                rest[e + end][c] += force[c] - momentum[c];
-            }
+        for (size_t i = 0; i < 2 * ELEMENTS; i++) {
+            const size_t e = i / 2, end = i % 2;
+            motion->momentum[e + end][c] += push[e][end][c];
+            rest[e + end][c] += push[e][end][c] + motion->pull[e][end][c];
         }
     }
     if (law->kind == GM_MESH_UNIFORM) {
         return true;
     }
-    if (!fit_multipliers(&stages->before, rest, motion->lambda)) {
+    if (!fit_multipliers(at, rest, motion->lambda)) {
         return false;
     }
     for (size_t e = 0; e < ELEMENTS; e++) {
-        const struct gm_elements *at = &stages->before;
         const double share = motion->lambda[e] - motion->lambda[e + 1];
-        const double gradient[2][2] = {{at->ell_y0[e], -at->ell_d[e]}, {at->ell_y1[e], at->ell_d[e]}};
-        for (size_t end = 0; end < 2; end++) {
-            for (size_t c = 0; c < 2; c++) {
-                motion->pull[e][end][c] -= share * gradient[end][c];
-            }
-        }
+        motion->pull[e][0][0] -= share * at->ell_y0[e];
+        motion->pull[e][0][1] += share * at->ell_d[e];
+        motion->pull[e][1][0] -= share * at->ell_y1[e];
+        motion->pull[e][1][1] -= share * at->ell_d[e];
     }
     return true;
 }
@@ -254,12 +241,10 @@ static double defect_of(const struct gm_mesh_subject *subject, const struct law 
     struct motion tangents[DIRECTIONS];
     double defect = 0;
     for (size_t v = 0; v < DIRECTIONS; v++) {
-        double values[GM_MESH_OBSERVED];
         if (!gm_mesh_subject_derive(subject, law->kind, v, observe, law, sizeof tangents[v] / sizeof(double),
-                                    values)) {
+                                    (double *)&tangents[v])) {
             return INFINITY;
         }
-        memcpy(&tangents[v], values, sizeof tangents[v]);
         for (size_t w = 0; w < v; w++) {
             for (size_t a = 1; a <= POINTS; a++) {
                 for (size_t b = a; b <= POINTS; b++) {

@@ -5,8 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/certify.h"
+#include "core/linear/differences.h"
 #include "core/mesh/nodes.h"
-#include "core/run.h"
 
 static const struct gm_settings settings = {0};
 
@@ -32,23 +33,20 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                              int64_t steps, const double *from, double *end)
 {
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_advance(run, steps) == GM_OK;
-    memcpy(end, gm_run_state(run), subject->problem.n * sizeof *end);
-    gm_run_close(run);
-    return good;
+    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, steps};
+    return gm_trial_advance(&trial, from, end);
 }
 
-/* The state near the start whose y and dy/dt are shifted, and X and dX/dt follow as the constraint says. */
-static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction, double by,
+/* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow as the constraint says. */
+static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, const double *by,
                   double *state)
 {
     const size_t points = subject->mesh.points;
     memcpy(state, subject->start, 4 * points * sizeof *state);
-    state[direction < points ? direction : points + direction] += by;
+    for (size_t i = 0; i < points; i++) {
+        state[i] += by[i];
+        state[2 * points + i] += by[points + i];
+    }
     if (kind == GM_MESH_UNIFORM) {
         return true;
     }
@@ -76,32 +74,26 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
     return good;
 }
 
+struct observation {
+    const struct gm_mesh_subject *subject;
+    enum gm_mesh_kind kind;
+    gm_mesh_observe *observe;
+    const void *context;
+};
+
+static bool observe_shifted(const void *data, const double *by, double *values)
+{
+    const struct observation *of = data;
+    double state[GM_MESH_SUBJECT_STATE];
+    return shift(of->subject, of->kind, by, state) && of->observe(of->subject, of->context, state, values);
+}
+
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative)
 {
-    enum { LEVELS = 4 };
-    const double widest = 0.05;
-    double table[LEVELS][GM_MESH_OBSERVED], sides[2][GM_MESH_OBSERVED], state[GM_MESH_SUBJECT_STATE];
-    for (int level = 0; level < LEVELS; level++) {
-        const double by = ldexp(widest, -level);
-        for (int side = 0; side < 2; side++) {
-            if (!shift(subject, kind, direction, side ? by : -by, state) ||
-                !observe(subject, context, state, sides[side])) {
-                return false;
-            }
-        }
-        for (size_t i = 0; i < count; i++) {
-            table[level][i] = (sides[1][i] - sides[0][i]) / (2 * by);
-        }
-    }
-    double power = 4;
-    for (int done = 1; done < LEVELS; done++, power *= 4) {
-        for (int level = LEVELS - 1; level >= done; level--) {
-            for (size_t i = 0; i < count; i++) {
-                table[level][i] += (table[level][i] - table[level - 1][i]) / (power - 1);
-            }
-        }
-    }
-    memcpy(derivative, table[LEVELS - 1], count * sizeof *derivative);
-    return true;
+    const double start[2 * GM_MESH_SUBJECT_POINTS] = {0};
+    double along[2 * GM_MESH_SUBJECT_POINTS] = {0};
+    along[direction] = 1;
+    return gm_differentiate(observe_shifted, &(const struct observation){subject, kind, observe, context},
+                            2 * subject->mesh.points, start, along, count, derivative);
 }

@@ -11,7 +11,6 @@
 enum {
     GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
     GM_MESH_SUBJECT_STATE = 4 * GM_MESH_SUBJECT_POINTS,
-    GM_MESH_OBSERVED = 72, /* numbers that are differentiated together, at most */
 };
 
 struct gm_mesh_subject {
@@ -42,9 +41,8 @@ bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct
 typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
                              double *values);
 
-/* The derivatives of `count` such numbers by component `direction` of dy and then d(dy/dt), X and dX/dt
-   following as the constraint says: central differences at 4 distances, extrapolated by Romberg. False if a
-   run fails. */
+/* The derivatives of `count` such numbers by component `direction` of dy and then d(dy/dt), X and dX/dt following as the
+   constraint says, by differences (core/linear/differences.h). False if a run fails. */
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
 

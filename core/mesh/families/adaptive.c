@@ -12,19 +12,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/mesh/families/families.h"
-#include "core/mesh/families/multiplier.h"
-#include "core/mesh/moving_mesh.h"
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return gm_multiplier_memory(problem, scheme) + 1;
+    return gm_mesh_memory(problem, scheme) + 1;
 }
 
 static double *density(const struct gm_task *task)
 {
-    return task->memory_out + gm_multiplier_memory(task->problem, task->scheme);
+    return task->memory_out + gm_mesh_memory(task->problem, task->scheme);
 }
 
 static double growth(const struct gm_mesh *mesh, const double *state)
@@ -49,15 +46,14 @@ static enum gm_status start(const struct gm_task *task)
     /* a run that turns round keeps its density; that of a new run is still zero */
     double *rho = density(task);
     *rho = *rho > 0 ? *rho : 1;
-    return gm_multiplier_start(task);
+    return gm_mesh_restart(task);
 }
 
 static struct gm_progress loop(const struct gm_task *task)
 {
     const size_t count = memory(task->problem, task->scheme);
-    struct gm_mesh mesh;
+    const struct gm_mesh *mesh = &((struct gm_mesh_solver *)task->workspace)->mesh;
     struct gm_progress progress = {.status = GM_OK, .t = task->t};
-    gm_moving_mesh_of(task->problem)->describe(task->problem, &mesh);
     memcpy(task->out, task->y, task->problem->n * sizeof *task->out);
     memcpy(task->memory_out, task->memory, count * sizeof *task->memory_out);
     struct gm_task each = *task;
@@ -66,13 +62,13 @@ static struct gm_progress loop(const struct gm_task *task)
     each.memory = task->memory_out;
     double *rho = density(task);
     while (progress.done < task->steps && progress.t < task->until) {
-        const double half = *rho + task->dt / 2 * growth(&mesh, task->out);
+        const double half = *rho + task->dt / 2 * growth(mesh, task->out);
         if (!(half > 1e-3 && half < 1e3)) {
             progress.status = GM_STEP_COLLAPSE;
             break;
         }
         each.dt = task->dt / half;
-        const struct gm_progress one = gm_multiplier_advance(&each);
+        const struct gm_progress one = gm_mesh_loop(&each);
         progress.evaluations += one.evaluations;
         progress.solves += one.solves;
         progress.iterations += one.iterations;
@@ -80,7 +76,7 @@ static struct gm_progress loop(const struct gm_task *task)
             progress.status = one.status;
             break;
         }
-        *rho = half + task->dt / 2 * growth(&mesh, task->out);
+        *rho = half + task->dt / 2 * growth(mesh, task->out);
         progress.t += each.dt;
         progress.done++;
     }
@@ -95,22 +91,17 @@ static const struct gm_scheme schemes[] = {
                    "σ⁸ = c⁻⁴ + Σ dₑ⁻⁴ of the cells",
         .reference = "E. Hairer & G. Söderlind (2005); Tyranowski & Desbrun (2019), section 6.3",
         .family = &gm_family_adaptive,
-        .coefficients = &gm_multiplier_lobatto4,
+        .coefficients = &gm_mesh_multiplier4,
         .order = 4,
         .claims = GM_SYMMETRIC | GM_REVERSIBLE,
     },
 };
 
 const struct gm_family gm_family_adaptive = {
-    .kind = &gm_kind_mesh,
     .title = "moving meshes with a time-symmetric step",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_MESH_FAMILY,
     .loop = loop,
     .memory = memory,
     .start = start,
-    .workspace_open = gm_multiplier_workspace_open,
-    .workspace_close = gm_multiplier_workspace_close,
-    .workspace_reset = gm_multiplier_workspace_reset,
     .adaptive = true,
 };

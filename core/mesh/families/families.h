@@ -3,10 +3,23 @@
 #ifndef GM_CORE_MESH_FAMILIES_FAMILIES_H
 #define GM_CORE_MESH_FAMILIES_FAMILIES_H
 
-#include "core/mesh/moving_mesh.h"
+#include "core/basics.h"
+#include "core/mesh/solver.h"
 
 #define GM_FAMILY(name) extern const struct gm_family gm_family_##name;
 #include "core/mesh/families/families.def"
 #undef GM_FAMILY
+
+/* The multiplier strategy with the stages of Lobatto's order 4. */
+extern const struct gm_mesh_row gm_mesh_multiplier4;
+
+/* What the families have in common, beside the array of their schemes. */
+#define GM_MESH_FAMILY                                                                                       \
+    .kind = &gm_kind_mesh, .schemes = schemes, .count = GM_COUNT(schemes),                                   \
+    .workspace_open = gm_mesh_workspace_open, .workspace_close = gm_mesh_workspace_close,                    \
+    .workspace_reset = gm_mesh_workspace_reset
+/* of those with steps of one length */
+#define GM_MESH_FAMILY_OF_STEPS                                                                              \
+    GM_MESH_FAMILY, .memory = gm_mesh_memory, .start = gm_mesh_restart, .loop = gm_mesh_loop
 
 #endif

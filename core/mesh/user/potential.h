@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* u_tt = u_xx - V'(u) with a potential that somebody wrote, between ends that hold u, on a moving mesh. */
-#ifndef GM_CORE_MESH_OWN_POTENTIAL_H
-#define GM_CORE_MESH_OWN_POTENTIAL_H
+#ifndef GM_CORE_MESH_USER_POTENTIAL_H
+#define GM_CORE_MESH_USER_POTENTIAL_H
 
 #include "core/mesh/moving_mesh.h"
 #include "core/model/potential.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of the geometry a scheme breaks in a step or a short run: the defects of symplecticity, volume,
    symmetry, reversibility, energy and other invariants. The derivative of a step is found by extrapolated
-   differences between members of an ensemble, so it asks nothing of the scheme. A defect refutes a claim only
+   differences, so it asks nothing of the scheme. A defect refutes a claim only
    where it stands clear of the error of the measurement: steps that stretch phase space a millionfold stretch
    round-off too. */
 #include <float.h>
@@ -9,95 +9,59 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
+#include "core/linear/differences.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
-#include "core/run.h"
 
-enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS, LEVELS = 4 };
+enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
 
-/* The derivative of one step at the start; the error of its entries is what the last extrapolation still
-   changes. Under constraints the members begin on the manifold, as close as may be to where they would
-   without; `start` is the derivative of where they begin, else the identity. */
+/* The derivative of one step at the start, and that of where it begins: the identity, or under constraints that of the
+   state on the manifold which is as close as may be. */
 struct derivative {
     double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
-    double error, largest;
+    double largest;
 };
 
-/* by Romberg's scheme; returns the last change */
-static double extrapolate(double table[LEVELS])
-{
-    double power = 4, last = 0;
-    for (size_t done = 1; done < LEVELS; done++, power *= 4) {
-        for (size_t level = LEVELS - 1; level >= done; level--) {
-            last = (table[level] - table[level - 1]) / (power - 1);
-            table[level] += last;
-        }
-    }
-    return fabs(last);
-}
+struct step {
+    const struct gm_subject *subject;
+    const struct gm_scheme *scheme;
+    double dt;
+};
 
-/* Every member of a start onto the manifold of the constraints. */
-static bool project(const struct gm_problem *problem, size_t members, double *start)
+/* Writes the state where a step begins, and behind it the one where the step ends. */
+static bool make_step(const void *context, const double *from, double *to)
 {
-    double y[MOST];
-    bool good = true;
-    for (size_t member = 0; good && member < members; member++) {
-        for (size_t c = 0; c < problem->n; c++) {
-            y[c] = start[c * members + member];
-        }
-        good = gm_manifold_project(problem, y);
-        for (size_t c = 0; c < problem->n; c++) {
-            start[c * members + member] = y[c];
-        }
-    }
-    return good;
+    const struct step *step = context;
+    const struct gm_problem *problem = &step->subject->problem;
+    const size_t n = gm_subject_components(step->subject, step->scheme);
+    memcpy(to, from, n * sizeof *to);
+    return (gm_action_constraints(problem) == 0 || gm_manifold_project(problem, to)) &&
+           gm_subject_advance(step->subject, step->scheme, step->dt, 1, to, to + n);
 }
 
 static bool differentiate(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                          double widest, struct derivative *derivative)
+                          double length, struct derivative *derivative)
 {
-    const size_t n = gm_subject_components(subject, scheme), members = n * LEVELS * 2;
-    double from[MOST], *start = malloc(2 * n * members * sizeof *start),
-                       *end = start ? start + n * members : NULL;
-    if (!start) {
-        return false;
-    }
-    derivative->error = derivative->largest = 0;
+    const size_t n = gm_subject_components(subject, scheme);
+    double from[MOST], along[TANGENTS] = {0}, slope[2 * TANGENTS];
     gm_subject_start(subject, scheme, from);
+    derivative->largest = 0;
     for (size_t column = 0; column < n; column++) {
-        for (size_t level = 0; level < LEVELS; level++) {
-            for (size_t side = 0; side < 2; side++) {
-                const size_t member = (column * LEVELS + level) * 2 + side;
-                for (size_t c = 0; c < n; c++) {
-                    const double shift = c == column ? ldexp(widest, -(int)level) : 0;
-                    start[c * members + member] = from[c] + (side ? -shift : shift);
-                }
-            }
+        along[column] = length;
+        if (!gm_differentiate(make_step, &(const struct step){subject, scheme, dt}, n, from, along, 2 * n,
+                              slope)) {
+            return false;
+        }
+        along[column] = 0;
+        for (size_t row = 0; row < n; row++) {
+            derivative->start[row][column] = slope[row] / length;
+            derivative->at[row][column] = slope[n + row] / length;
+            derivative->largest = gm_larger(fabs(derivative->at[row][column]), derivative->largest);
         }
     }
-    const bool held = gm_action_constraints(&subject->problem) > 0;
-    const bool made = (!held || project(&subject->problem, members, start)) &&
-                      gm_subject_advance(subject, scheme, dt, 1, members, start, end);
-    for (size_t row = 0; made && row < n; row++) {
-        for (size_t column = 0; column < n; column++) {
-            double table[LEVELS], begun[LEVELS];
-            for (size_t level = 0; level < LEVELS; level++) {
-                const size_t at = row * members + (column * LEVELS + level) * 2;
-                const size_t below = column * members + (column * LEVELS + level) * 2;
-                const double apart = held ? ldexp(2 * widest, -(int)level) : start[below] - start[below + 1];
-                table[level] = (end[at] - end[at + 1]) / apart;
-                begun[level] = (start[at] - start[at + 1]) / apart;
-            }
-            derivative->error = fmax(derivative->error, extrapolate(table));
-            derivative->error = held ? fmax(derivative->error, extrapolate(begun)) : derivative->error;
-            derivative->start[row][column] = held ? begun[LEVELS - 1] : row == column;
-            derivative->at[row][column] = table[LEVELS - 1];
-            derivative->largest = fmax(derivative->largest, fabs(table[LEVELS - 1]));
-        }
-    }
-    free(start);
-    return made && isfinite(derivative->largest) && isfinite(derivative->error);
+    return isfinite(derivative->largest);
 }
 
 /* A defect of one step: NaN where it fails; clear where it stands clear of the error of its measurement. */
@@ -106,51 +70,25 @@ struct defect {
     bool clear;
 };
 
-typedef struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                double tolerance);
-
-/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
-   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
-static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                     double tolerance, defect_at *measure)
-{
-    enum { SHORTER = 2, POWERS = 5 };
-    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
-    for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
-        const struct defect here = measure(subject, scheme, dt, tolerance);
-        if (here.size <= tolerance) {
-            return here.size;
-        }
-        if (here.clear) {
-            const struct defect next = measure(subject, scheme, dt / 4, tolerance);
-            if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
-                return here.size;
-            }
-        }
-    }
-    return NAN;
-}
-
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
-/* Of a polynomial of this degree in the entries of the derivative, which has to be the same between closer
-   members. */
+/* The defect that is a polynomial of this degree in the entries of the derivative. It stands clear where shorter
+   differences give nearly the same entries. */
 static struct defect of_derivative(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                    double dt, double tolerance, int degree, defect_of *defect)
 {
     const size_t n = gm_subject_components(subject, scheme);
     struct derivative derivative, closer;
     struct defect found = {.size = NAN};
-    const double scale = subject->scale > 0 ? subject->scale : 1;
-    for (double distance = 0.02 * scale;
-         distance > 1e-4 * scale && !found.clear && !(found.size <= tolerance); distance /= 4) {
-        if (!differentiate(subject, scheme, dt, distance, &derivative)) {
+    for (double length = 0.4 * subject->scale;
+         length > 2e-3 * subject->scale && !found.clear && !(found.size <= tolerance); length /= 4) {
+        if (!differentiate(subject, scheme, dt, length, &derivative)) {
             continue;
         }
         found.size = defect(subject, scheme, dt, &derivative);
-        if (found.size > tolerance && differentiate(subject, scheme, dt, distance / 4, &closer)) {
-            double error = derivative.error;
+        if (found.size > tolerance && differentiate(subject, scheme, dt, length / 3, &closer)) {
+            double error = 0;
             for (size_t row = 0; row < n; row++) {
                 error = fmax(error, gm_distance(derivative.at[row], closer.at[row], n));
             }
@@ -198,30 +136,7 @@ static double form_defect(const struct gm_subject *subject, const struct gm_sche
 static double conformal_form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                     double dt, const struct derivative *derivative)
 {
-    return areas_defect(subject, scheme, derivative, exp(-subject->friction * dt));
-}
-
-static struct defect of_form(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                             double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, form_defect);
-}
-
-double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_form);
-}
-
-static struct defect of_conformal_form(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                       double dt, double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, conformal_form_defect);
-}
-
-double gm_conformal_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_conformal_form);
+    return areas_defect(subject, scheme, derivative, exp(-gm_subject_friction(subject) * dt));
 }
 
 static double bracket_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
@@ -232,7 +147,7 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
     double start[MOST], end[MOST], *before = malloc(2 * n * n * sizeof *before),
                                    *after = before ? before + n * n : NULL, defect = 0;
     gm_subject_start(subject, scheme, start);
-    if (!before || !gm_subject_advance(subject, scheme, dt, 1, 1, start, end)) {
+    if (!before || !gm_subject_advance(subject, scheme, dt, 1, start, end)) {
         free(before);
         return NAN;
     }
@@ -251,17 +166,6 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
     return defect;
 }
 
-static struct defect of_bracket(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 2, bracket_defect);
-}
-
-double gm_poisson_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, subject->dt, tolerance, of_bracket);
-}
-
 static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  const struct derivative *derivative)
 {
@@ -277,17 +181,6 @@ static double determinant_defect(const struct gm_subject *subject, const struct 
     return fabs(determinant - 1);
 }
 
-static struct defect of_determinant(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                    double dt, double tolerance)
-{
-    return of_derivative(subject, scheme, dt, tolerance, 3, determinant_defect);
-}
-
-double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return subject->problem.n == 3 ? decide(subject, scheme, subject->dt, tolerance, of_determinant) : NAN;
-}
-
 /* How far a run that turns round ends from its start. Where the scheme chooses its steps, a few of them, so
    that it has chosen some. */
 static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
@@ -295,44 +188,62 @@ static struct defect of_way_back(const struct gm_subject *subject, const struct 
 {
     const int64_t steps = scheme->family->adaptive ? 3 : 1;
     const size_t n = gm_subject_components(subject, scheme);
-    const double scale = subject->scale > 0 ? subject->scale : 1, push = 1e-12 * scale;
+    const double push = 1e-12 * subject->scale;
     double start[MOST], back[MOST], pushed[MOST];
     gm_subject_start(subject, scheme, start);
     if (!gm_subject_turn(subject, scheme, dt, steps, reflected, 0, back)) {
         return (struct defect){.size = NAN};
     }
-    const double size = gm_distance(back, start, n) / scale;
+    const double size = gm_distance(back, start, n) / subject->scale;
     /* so many times round-off is stretched on the way back */
     const bool told = gm_subject_turn(subject, scheme, dt, steps, reflected, push, pushed);
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
-static struct defect of_return(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                               double tolerance)
+/* Claims about the derivative of a step: the defect of each is a polynomial of this degree in its entries. */
+static const struct {
+    enum gm_claim claim;
+    int degree;
+    defect_of *defect;
+} of_step[] = {
+    {GM_SYMPLECTIC, 2, form_defect},
+    {GM_CONFORMAL, 2, conformal_form_defect},
+    {GM_POISSON_MAP, 2, bracket_defect},
+    {GM_KEEPS_VOLUME, 3, determinant_defect},
+};
+
+static struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                               enum gm_claim claim, double dt, double tolerance)
 {
-    return (void)tolerance, of_way_back(subject, scheme, dt, false);
+    for (size_t i = 0; i < GM_COUNT(of_step); i++) {
+        if (of_step[i].claim == claim) {
+            return of_derivative(subject, scheme, dt, tolerance, of_step[i].degree, of_step[i].defect);
+        }
+    }
+    return of_way_back(subject, scheme, dt, claim == GM_REVERSIBLE);
 }
 
-static struct defect of_reflection(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                   double dt, double tolerance)
+/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
+   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
+static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
+                     double tolerance)
 {
-    return (void)tolerance, of_way_back(subject, scheme, dt, true);
-}
-
-static double step_of(const struct gm_subject *subject, const struct gm_scheme *scheme)
-{
-    return scheme->family->adaptive ? subject->dt / 4 : subject->dt;
-}
-
-double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
-{
-    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_return);
-}
-
-double gm_reversibility_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               double tolerance)
-{
-    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_reflection);
+    enum { SHORTER = 2, POWERS = 5 };
+    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
+    double dt = scheme->family->adaptive ? subject->dt / 4 : subject->dt;
+    for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
+        const struct defect here = defect_at(subject, scheme, claim, dt, tolerance);
+        if (here.size <= tolerance) {
+            return here.size;
+        }
+        if (here.clear) {
+            const struct defect next = defect_at(subject, scheme, claim, dt / 4, tolerance);
+            if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
+                return here.size;
+            }
+        }
+    }
+    return NAN;
 }
 
 /* The state after many smaller steps; false: they fail. */
@@ -343,29 +254,19 @@ static bool go_on(const struct gm_subject *subject, const struct gm_scheme *sche
     const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
     double whole[MOST];
     gm_subject_start(subject, scheme, whole);
-    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, 1, whole, end) || adaptive;
+    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, whole, end) || adaptive;
 }
 
-struct gm_manifold_defects gm_constraint_defects(const struct gm_subject *subject,
-                                                 const struct gm_scheme *scheme)
+static double change_of(const struct gm_kept *kept, const double *from, const double *to)
 {
-    double end[MOST];
-    return go_on(subject, scheme, end) ? gm_manifold_defects(&subject->problem, end)
-                                       : (struct gm_manifold_defects){NAN, NAN};
-}
-
-static double change_of(double before, double after)
-{
+    const double before = kept->value(kept->data, from, NULL), after = kept->value(kept->data, to, NULL);
     return fabs(after - before) / fmax(1, fabs(before));
 }
 
-double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                   const struct gm_kept *kept)
+double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept)
 {
     double end[MOST];
-    return go_on(subject, scheme, end)
-               ? change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, end, NULL))
-               : NAN;
+    return go_on(subject, scheme, end) ? change_of(kept, subject->start, end) : NAN;
 }
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
@@ -374,25 +275,37 @@ double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *k
     for (size_t c = 0; c < subject->problem.n; c++) {
         near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * sin((double)(3 * c + 1));
     }
-    return change_of(kept->value(kept->data, subject->start, NULL), kept->value(kept->data, near, NULL));
+    return change_of(kept, subject->start, near);
 }
 
-double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                gm_invariant *const *quantities, size_t count)
+static double energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
-    double end[MOST], largest = 0;
+    const struct gm_ode *ode = gm_ode_of(&subject->problem);
+    const struct gm_invariant energy = {ode->hamiltonian ? gm_energy : ode->poisson->energy,
+                                        &subject->problem};
+    return gm_drift(subject, scheme, &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
+}
+
+static double constraint_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, bool hidden)
+{
+    double end[MOST];
     if (!go_on(subject, scheme, end)) {
         return NAN;
     }
-    for (size_t i = 0; i < count && quantities[i]; i++) {
-        largest = fmax(largest, change_of(quantities[i](&subject->problem, subject->start),
-                                          quantities[i](&subject->problem, end)));
-    }
-    return largest;
+    const struct gm_manifold_defects defects = gm_manifold_defects(&subject->problem, end);
+    return hidden ? defects.hidden : defects.constraint;
 }
 
-double gm_energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme)
+double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
+                 double tolerance)
 {
-    static gm_invariant *const energies[] = {gm_energy};
-    return gm_drift(subject, scheme, energies, 1);
+    switch (claim) {
+    case GM_KEEPS_ENERGY:
+        return energy_drift(subject, scheme);
+    case GM_KEEPS_CONSTRAINTS:
+    case GM_KEEPS_HIDDEN:
+        return constraint_defect(subject, scheme, claim == GM_KEEPS_HIDDEN);
+    default:
+        return decide(subject, scheme, claim, tolerance);
+    }
 }

@@ -3,6 +3,7 @@
    that need them, and what those are certified by: every subject that they fit. */
 #include "core/ode/ode.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/variational/manifold.h"
+#include "core/ode/variational/action.h"
 
 static unsigned facets_of_bracket(const struct gm_poisson *poisson)
 {
@@ -120,109 +121,6 @@ static void note(struct gm_certificate *certificate, enum gm_claim claim, double
     }
 }
 
-static double tolerance(struct gm_certificate *certificate, enum gm_claim claim)
-{
-    return gm_certificate_claim(certificate, claim)->tolerance;
-}
-
-static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
-{
-    const struct gm_scheme *scheme = certificate->scheme;
-    const char *name = subject->problem.name;
-    struct gm_ladder ladder;
-    const double order = gm_measure_order(subject, scheme, &ladder);
-    /* what counts is the lowest of those that are settled: before the asymptotic regime an order may look
-       higher than it is, and where errors cancel, lower */
-    const bool first = !certificate->order_problem[0] || isnan(certificate->order);
-    if (first ||
-        (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
-        certificate->order = order;
-        certificate->ladder = ladder;
-        certificate->order_problem = name;
-    }
-    note(certificate, GM_SYMMETRIC, gm_symmetry_defect(subject, scheme, tolerance(certificate, GM_SYMMETRIC)),
-         name);
-    if (subject->hamiltonian && !subject->uneven) {
-        note(certificate, GM_REVERSIBLE,
-             gm_reversibility_defect(subject, scheme, tolerance(certificate, GM_REVERSIBLE)), name);
-    }
-    const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
-    if (!scheme->family->adaptive && subject->problem.n <= GM_SUBJECT_TANGENTS) {
-        if (subject->hamiltonian) {
-            note(certificate, GM_SYMPLECTIC,
-                 gm_symplecticity_defect(subject, scheme, tolerance(certificate, GM_SYMPLECTIC)), name);
-        }
-        if (subject->friction != 0) {
-            note(certificate, GM_CONFORMAL,
-                 gm_conformal_defect(subject, scheme, tolerance(certificate, GM_CONFORMAL)), name);
-        }
-        if (poisson) {
-            note(certificate, GM_POISSON_MAP,
-                 gm_poisson_defect(subject, scheme, tolerance(certificate, GM_POISSON_MAP)), name);
-        }
-        if (subject->volume) {
-            note(certificate, GM_KEEPS_VOLUME,
-                 gm_volume_defect(subject, scheme, tolerance(certificate, GM_KEEPS_VOLUME)), name);
-        }
-    }
-    const struct {
-        enum gm_claim claim;
-        gm_invariant *const *quantities;
-    } kept[] = {{GM_KEEPS_LINEAR, subject->linear},
-                {GM_KEEPS_QUADRATIC, subject->quadratic},
-                {GM_KEEPS_BILINEAR, subject->bilinear},
-                {GM_KEEPS_MOMENTUM_MAPS, subject->momentum},
-                {GM_KEEPS_CASIMIRS, subject->casimir}};
-    if (subject->hamiltonian) {
-        note(certificate, GM_KEEPS_ENERGY, gm_energy_drift(subject, scheme), name);
-    } else if (poisson) {
-        note(certificate, GM_KEEPS_ENERGY,
-             gm_drift(subject, scheme, (gm_invariant *const[]){poisson->energy}, 1), name);
-    }
-    if (gm_action_constraints(&subject->problem) > 0) {
-        const struct gm_manifold_defects defects = gm_constraint_defects(subject, scheme);
-        note(certificate, GM_KEEPS_CONSTRAINTS, defects.constraint, name);
-        note(certificate, GM_KEEPS_HIDDEN, defects.hidden, name);
-    }
-    for (size_t i = 0; i < GM_COUNT(kept); i++) {
-        if (kept[i].quantities[0]) {
-            note(certificate, kept[i].claim,
-                 gm_drift(subject, scheme, kept[i].quantities, GM_SUBJECT_INVARIANTS), name);
-        }
-    }
-}
-
-/* Which claim a kept quantity tells of: whether it is linear, of the form q' A p, quadratic; of the form p'
-   x(q), x affine, it is the momentum map of the symmetry whose generator is x (Noether's theorem, read
-   backwards). 0: none. */
-static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept *kept)
-{
-    enum { DIRECTIONS = 4 };
-    const double none = 1e-11;
-    const size_t n = subject->problem.n, half = n / 2;
-    bool varies = false, linear = true, quadratic = true, bilinear = true, of_momenta = true;
-    for (int k = 1; k <= DIRECTIONS; k++) {
-        double all[GM_SUBJECT_COMPONENTS], q[GM_SUBJECT_COMPONENTS] = {0}, p[GM_SUBJECT_COMPONENTS] = {0};
-        for (size_t c = 0; c < n; c++) {
-            all[c] = subject->scale * sin(k * (double)(3 * c + 1)); /* any direction */
-            *(c < half ? &q[c] : &p[c]) = all[c];
-        }
-        varies = varies || !(gm_kept_differences(kept, subject->start, n, 1, all) < none);
-        linear = linear && gm_kept_differences(kept, subject->start, n, 2, all) < none;
-        quadratic = quadratic && gm_kept_differences(kept, subject->start, n, 3, all) < none;
-        bilinear = bilinear && gm_kept_differences(kept, subject->start, n, 2, q) < none &&
-                   gm_kept_differences(kept, subject->start, n, 2, p) < none;
-        of_momenta = of_momenta && fabs(kept->value(kept->data, q, NULL)) <=
-                                       none * fabs(kept->value(kept->data, all, NULL));
-    }
-    const unsigned map = bilinear && of_momenta && 2 * half == n ? GM_KEEPS_MOMENTUM_MAPS : 0;
-    return !varies      ? 0
-           : linear     ? GM_KEEPS_LINEAR | map
-           : !quadratic ? 0
-           : bilinear   ? GM_KEEPS_BILINEAR | GM_KEEPS_QUADRATIC | map
-                        : GM_KEEPS_QUADRATIC;
-}
-
 /* Whether a field's equations on its grid keep a quantity: what the continuum keeps, derivatives in space may not. By
    its change along the rates, at the start and further along them, where there are as many mirrors as at the start. */
 static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct gm_kept *kept)
@@ -260,7 +158,7 @@ static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *k
     const size_t n = subject->problem.n;
     double y[GM_SUBJECT_COMPONENTS], slope[GM_SUBJECT_COMPONENTS], largest = 0, sum = 0;
     double *matrix = poisson ? malloc(n * n * sizeof *matrix) : NULL;
-    memcpy(y, subject->start, sizeof y);
+    memcpy(y, subject->start, n * sizeof *y);
     for (size_t c = 0; matrix && c < n; c++) {
         const double h = 1e-5 * subject->scale;
         y[c] = subject->start[c] + h;
@@ -301,6 +199,110 @@ static bool is_even(const struct gm_subject *subject)
     return true;
 }
 
+/* Takes in the order on one system. The lowest of those that are settled counts. Before the asymptotic regime
+   an order may look higher than it is, and where errors cancel, lower. */
+static void measure_order(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    struct gm_ladder ladder;
+    const double order = gm_measure_order(subject, certificate->scheme, &ladder);
+    const bool first = !certificate->order_problem[0] || isnan(certificate->order);
+    if (first ||
+        (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
+        certificate->order = order;
+        certificate->ladder = ladder;
+        certificate->order_problem = subject->problem.name;
+    }
+}
+
+/* Notes the change of a quantity that a system conserves, under every claim that the quantity bears on. */
+static void measure_kept(struct gm_certificate *certificate, const struct gm_subject *subject,
+                         const struct gm_kept *kept)
+{
+    const size_t n = subject->problem.n;
+    const char *const name = kept->name ? kept->name : subject->problem.name;
+    if (subject->problem.line.points > 0 && !is_kept_on_the_grid(subject, kept)) {
+        return;
+    }
+    const unsigned claims = gm_kept_claims(kept, subject->start, n, n, subject->scale) |
+                            (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
+    const double drift = claims ? gm_drift(subject, certificate->scheme, kept) : 0;
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        const enum gm_claim claim = (enum gm_claim)(1u << bit);
+        const bool changes = drift > certificate->claims[bit].tolerance;
+        if (!(claims & claim)) {
+            continue;
+        }
+        if (changes && gm_ode_of(&subject->problem)->rough) {
+            /* what it is on the one side of a corner it need not be on the other */
+            gm_certificate_undecided(certificate, claim, name);
+        } else if (changes && drift < gm_round_off_of(subject, kept)) {
+            gm_certificate_withhold(certificate, claim,
+                                    "round-off hides it: it is small beside the numbers that it is made of");
+        } else {
+            note(certificate, claim, drift, name);
+        }
+    }
+}
+
+/* Measures the order and every claim that means something on a system; the others get the reason why not. */
+static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const struct gm_scheme *scheme = certificate->scheme;
+    const struct gm_ode *ode = gm_ode_of(&subject->problem);
+    const size_t n = subject->problem.n;
+    const bool hamiltonian = ode->hamiltonian && !ode->hamiltonian->partial && n % 2 == 0,
+               even = hamiltonian && is_even(subject), poisson = ode->poisson != NULL,
+               damped = gm_subject_friction(subject) != 0,
+               held = gm_action_constraints(&subject->problem) > 0,
+               differentiable = !scheme->family->adaptive && n <= GM_SUBJECT_TANGENTS,
+               on_a_grid = subject->problem.line.points > 0;
+    const char *const no_energy = "the system has no Hamiltonian of the whole state";
+    const char *const no_bracket = "the system has no bracket";
+    const char *const no_constraints = "the system has no constraints";
+    const char *const no_derivative = n > GM_SUBJECT_TANGENTS
+                                          ? "a step is differentiated for at most 64 components"
+                                          : "the scheme chooses its steps";
+    const struct {
+        enum gm_claim claim;
+        bool measured;
+        const char *otherwise;
+    } claims[] = {
+        {GM_SYMMETRIC, true, NULL},
+        {GM_REVERSIBLE, even,
+         hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy},
+        {GM_SYMPLECTIC, hamiltonian && differentiable, hamiltonian ? no_derivative : no_energy},
+        {GM_CONFORMAL, damped && differentiable, damped ? no_derivative : "the system has no friction -c p"},
+        {GM_POISSON_MAP, poisson && differentiable, poisson ? no_derivative : no_bracket},
+        {GM_KEEPS_VOLUME, ode->volume && !(subject->beside & GM_NEEDS_VOLUME) && n == 3 && differentiable,
+         "the system is not of three components without divergence"},
+        {GM_KEEPS_ENERGY, hamiltonian || poisson, no_energy},
+        {GM_KEEPS_CONSTRAINTS, held, no_constraints},
+        {GM_KEEPS_HIDDEN, held, no_constraints},
+        {GM_KEEPS_LINEAR, false,
+         on_a_grid ? "no linear invariant is named that its derivatives in space keep"
+                   : "the system names no linear invariant"},
+        {GM_KEEPS_QUADRATIC, false,
+         on_a_grid ? "no quadratic invariant is named that its derivatives in space keep"
+                   : "the system names no quadratic invariant"},
+        {GM_KEEPS_BILINEAR, false, "the system names no invariant of the form q' A p"},
+        {GM_KEEPS_MOMENTUM_MAPS, false, "the system names no symmetry that moves q by affine maps"},
+        {GM_KEEPS_CASIMIRS, false, poisson ? "the system names no Casimir" : no_bracket},
+    };
+    measure_order(certificate, subject);
+    for (size_t i = 0; i < subject->kept_count; i++) {
+        measure_kept(certificate, subject, &subject->kept[i]);
+    }
+    for (size_t i = 0; i < GM_COUNT(claims); i++) {
+        const enum gm_claim claim = claims[i].claim;
+        const double tolerance = gm_certificate_claim(certificate, claim)->tolerance;
+        if (claims[i].measured) {
+            note(certificate, claim, gm_defect(subject, scheme, claim, tolerance), subject->problem.name);
+        } else {
+            gm_certificate_withhold(certificate, claim, claims[i].otherwise);
+        }
+    }
+}
+
 /* On a system that is not smooth what holds decides nothing: the few steps may all lie on one side of a corner.
    What fails there fails. */
 static void doubt(struct gm_certificate *certificate)
@@ -319,53 +321,23 @@ static void doubt(struct gm_certificate *certificate)
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
-    const struct gm_ode *ode = gm_ode_of(system->problem);
-    const size_t n = system->problem->n;
-    struct gm_subject subject = {
-        .problem = *system->problem, .dt = system->dt, .unit = 16 * fabs(system->dt)};
-    for (size_t c = 0; c < n; c++) {
-        subject.start[c] = system->start[c];
+    struct gm_subject subject = {.problem = *system->problem,
+                                 .start = system->start,
+                                 .dt = system->dt,
+                                 .unit = 16 * fabs(system->dt),
+                                 .kept = system->kept,
+                                 .kept_count = system->kept_count};
+    for (size_t c = 0; c < subject.problem.n; c++) {
         subject.scale = fmax(subject.scale, fabs(system->start[c]));
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
-    subject.hamiltonian = ode->hamiltonian && !ode->hamiltonian->partial && n % 2 == 0;
-    subject.friction = ode->action && ode->action->friction ? ode->action->friction(system->problem) : 0;
-    subject.volume = ode->volume && n == 3;
-    subject.uneven = subject.hamiltonian && !is_even(&subject);
     measure(certificate, &subject);
     /* an order is of short steps, and dt need not be one: that of a map is all of it */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
-        certificate->order = gm_measure_order(&subject, scheme, &certificate->ladder);
+        measure_order(certificate, &subject);
     }
-    certificate->order_problem = system->problem->name;
-    const bool on_a_grid = system->problem->line.points > 0;
-    for (size_t i = 0; i < system->kept_count; i++) {
-        if (on_a_grid && !is_kept_on_the_grid(&subject, &system->kept[i])) {
-            continue;
-        }
-        const unsigned claims = claims_of(&subject, &system->kept[i]) |
-                                (is_casimir(&subject, &system->kept[i]) ? GM_KEEPS_CASIMIRS : 0);
-        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const enum gm_claim claim = (enum gm_claim)(1u << bit);
-            if (!(claims >> bit & 1)) {
-                continue;
-            }
-            const double drift = gm_drift_of(&subject, scheme, &system->kept[i]);
-            const bool changes = drift > tolerance(certificate, claim);
-            if (changes && ode->rough) {
-                /* what it is on the one side of a corner it need not be on the other */
-                gm_certificate_undecided(certificate, claim, system->kept[i].name);
-            } else if (changes && drift < gm_round_off_of(&subject, &system->kept[i])) {
-                gm_certificate_withhold(
-                    certificate, claim,
-                    "round-off hides it: it is small beside the numbers that it is made of");
-            } else {
-                note(certificate, claim, drift, system->kept[i].name);
-            }
-        }
-    }
-    if (ode->rough) {
+    if (gm_ode_of(system->problem)->rough) {
         certificate->order = NAN;
         certificate->ladder.settled = false;
         certificate->order_reason = "the system is not smooth, so that no order can be told";
@@ -374,42 +346,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
             "no errors of steps from 8 dt down stand clear of round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
-    const char *const no_energy = "the system has no Hamiltonian of the whole state";
-    const char *const no_derivative = n > GM_SUBJECT_TANGENTS
-                                          ? "a step is differentiated for at most 64 components"
-                                          : "the scheme chooses its steps";
-    gm_certificate_withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? no_derivative : no_energy);
-    gm_certificate_withhold(certificate, GM_REVERSIBLE,
-                            subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round"
-                                                : no_energy);
-    gm_certificate_withhold(certificate, GM_KEEPS_ENERGY, no_energy);
-    gm_certificate_withhold(certificate, GM_KEEPS_VOLUME,
-                            "the system is not of three components without divergence");
-    gm_certificate_withhold(certificate, GM_KEEPS_LINEAR,
-                            on_a_grid ? "no linear invariant is named that its derivatives in space keep"
-                                      : "the system names no linear invariant");
-    gm_certificate_withhold(certificate, GM_KEEPS_QUADRATIC,
-                            on_a_grid ? "no quadratic invariant is named that its derivatives in space keep"
-                                      : "the system names no quadratic invariant");
-    gm_certificate_withhold(certificate, GM_KEEPS_BILINEAR,
-                            "the system names no invariant of the form q' A p");
-    gm_certificate_withhold(certificate, GM_KEEPS_MOMENTUM_MAPS,
-                            "the system names no symmetry that moves q by affine maps");
-    gm_certificate_withhold(certificate, GM_KEEPS_CASIMIRS,
-                            ode->poisson ? "the system names no Casimir" : "the system has no bracket");
-    gm_certificate_withhold(certificate, GM_POISSON_MAP,
-                            ode->poisson ? no_derivative : "the system has no bracket");
-    gm_certificate_withhold(certificate, GM_CONFORMAL,
-                            subject.friction != 0 ? no_derivative : "the system has no friction -c p");
-    gm_certificate_withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
-    gm_certificate_withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        gm_certificate_withhold(certificate, (enum gm_claim)(1u << bit),
-                                certificate->claims[bit].reason
-                                    ? certificate->claims[bit].reason
-                                    : "it means nothing of ordinary differential equations");
-    }
-    if (ode->rough) {
+    gm_certificate_withhold_all(certificate, UINT_MAX, "it means nothing of ordinary differential equations");
+    if (gm_ode_of(system->problem)->rough) {
         doubt(certificate);
     }
 }

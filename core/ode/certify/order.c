@@ -33,12 +33,12 @@ static bool solve_at_times(const struct gm_subject *subject, double until,
                            double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
     double y[GM_SUBJECT_COMPONENTS];
-    memcpy(y, subject->start, sizeof y);
+    memcpy(y, subject->start, subject->problem.n * sizeof *y);
     for (int k = 0; k < TIMES; k++) {
         if (!solve_by_gsl(&subject->problem, until / TIMES, y)) {
             return false;
         }
-        memcpy(exact[k], y, sizeof y);
+        memcpy(exact[k], y, subject->problem.n * sizeof *y);
     }
     return true;
 }
@@ -71,7 +71,7 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
         return NAN;
     }
     double exact[GM_SUBJECT_COMPONENTS], error = NAN;
-    memcpy(exact, subject->start, sizeof exact);
+    memcpy(exact, subject->start, subject->problem.n * sizeof *exact);
     if (gm_run_until(run, until) == GM_OK && solve_by_gsl(&subject->problem, run->t, exact)) {
         error = gm_distance(gm_run_state(run), exact, subject->problem.n);
     }
@@ -97,7 +97,7 @@ static double slope(const double *x, const double *y, int count)
 static double measure_by_tolerance(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
     enum { LADDER = 4 };
-    const double until = 10 * (subject->unit > 0 ? subject->unit : 1);
+    const double until = 10 * subject->unit;
     double exact[TIMES][GM_SUBJECT_COMPONENTS], x[LADDER], e[LADDER];
     if (!solve_at_times(subject, until, exact)) {
         return NAN;
@@ -123,11 +123,10 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     /* The higher the order, the longer the time until round-off is small beside the error. The variational
        schemes that choose their step may not reach a turning point. */
     const bool adaptive = scheme->family->adaptive;
-    const double unit = subject->unit > 0 ? subject->unit : 1,
-                 scale = subject->scale > 0 ? subject->scale : 1;
     const bool varies_time = scheme->family->parameters == gm_settings_of_variational_time;
     const double span = varies_time ? 0.4 : scheme->order < 5 ? 2 : 10;
-    const double plateau = 1e-12 * scale, ceiling = 0.1 * scale, until = span * unit;
+    const double plateau = 1e-12 * subject->scale, ceiling = 0.1 * subject->scale,
+                 until = span * subject->unit;
     double exact[TIMES][GM_SUBJECT_COMPONENTS];
     if (!adaptive && !solve_at_times(subject, until, exact)) {
         return NAN;
@@ -145,8 +144,7 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
             continue;
         }
         const double dt = until / (TIMES * (adaptive ? finer : (double)between));
-        const struct gm_settings settings = {
-            .compensated = 1, .binding = 5, .tau0 = dt, .newmark_beta = 0.15};
+        const struct gm_settings settings = gm_subject_settings(dt);
         const double error = adaptive ? error_at_own_time(subject, scheme, &settings, dt, until)
                                       : error_of(subject, scheme, &settings, dt, between, exact);
         if (error < plateau) {

@@ -191,17 +191,11 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
     const size_t n = problem->n;
-    return gm_members_open(problem, 0,
-                           VECTORS * n + (gm_matrix_size(problem) > 0 ? gm_newton_scratch(n) : n));
+    return VECTORS * n + (gm_matrix_size(problem) > 0 ? gm_newton_scratch(n) : n);
 }
 
 static const struct method avf2 = {average_field, &gm_composition_none};
@@ -246,11 +240,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_energy_keeping = {
-    .kind = &gm_kind_ode,
     .title = "energy-keeping",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step, .room = room),
 };

@@ -218,11 +218,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
 static const struct exponential euler = {1, euler_rows}, lawson = {4, lawson_rows}, etd = {4, etd_rows};
 
 #define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR, .claims = GM_KEEPS_LINEAR
@@ -263,7 +258,8 @@ const struct gm_family gm_family_exponential = {
     .title = "exponential Runge-Kutta",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = loop,
+    .loop = gm_members_loop,
+    .members = &(const struct gm_member_family){.step = step},
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,
 };

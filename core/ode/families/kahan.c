@@ -35,15 +35,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    return gm_members_open(problem, 0, problem->n + gm_matrix_size(problem));
+    return problem->n + gm_matrix_size(problem);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -60,11 +55,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_kahan = {
-    .kind = &gm_kind_ode,
     .title = "Kahan",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step, .room = room),
 };

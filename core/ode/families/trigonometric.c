@@ -97,15 +97,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    struct gm_progress progress = gm_members_advance(task, step);
-    if (task->steps_before == 0) {
-        progress.evaluations += task->problem->m; /* of start */
-    }
-    return progress;
-}
-
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
@@ -123,11 +114,10 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    const size_t half = problem->n / 2;
-    return gm_members_open(problem, half, 1 + 2 * half + PER_COMPONENT * half);
+    return 1 + (2 + PER_COMPONENT) * (problem->n / 2);
 }
 
 #define TRIGONOMETRIC .family = &gm_family_trigonometric, .order = 2, .needs = GM_NEEDS_FAST_LINEAR
@@ -166,13 +156,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_trigonometric = {
-    .kind = &gm_kind_ode,
     .title = "trigonometric",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
+    GM_MEMBERS(.step = step, .room = room, .evaluated_at_start = true),
     .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
 };

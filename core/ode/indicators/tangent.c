@@ -15,12 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/coefficients.h"
 
 struct gm_tangent {
+    struct gm_arena *arena; /* of all that is pointed to but the runs */
     struct gm_run *run;
     struct gm_run *probe; /* for differences, with a workspace of its own; NULL: none were taken yet */
     size_t n, memory;
@@ -103,122 +105,110 @@ static bool is_running(const struct gm_tangent *tangent)
     return running;
 }
 
-static double *doubles(size_t count)
+static double *doubles(const struct gm_tangent *tangent, size_t count)
 {
-    return calloc(count + 1, sizeof(double));
+    return gm_arena_take(tangent->arena, count, sizeof(double));
 }
 
-/* What the stages need; false: out of memory. */
-static bool open_stages(struct gm_tangent *tangent, const struct gm_coefficients *coefficients)
+/* What the stages need. */
+static void open_stages(struct gm_tangent *tangent, const struct gm_coefficients *coefficients)
 {
     const size_t n = tangent->n, s = (size_t)coefficients->stages;
-    bool good = true;
     tangent->stages = s;
     for (size_t side = 0; side < GM_SIDES; side++) {
         const bool plain = side >= (size_t)gm_coefficients_sides(coefficients);
         const struct gm_ball *a = coefficients->a[plain ? 0 : side], *b = coefficients->b[plain ? 0 : side];
-        tangent->a[side] = doubles(s * s);
-        tangent->b[side] = doubles(s);
-        good = good && tangent->a[side] && tangent->b[side];
-        for (size_t i = 0; good && i < s * s; i++) {
+        tangent->a[side] = doubles(tangent, s * s);
+        tangent->b[side] = doubles(tangent, s);
+        for (size_t i = 0; i < s * s; i++) {
             tangent->a[side][i] = gm_ball_midpoint(a[i]);
         }
-        for (size_t i = 0; good && i < s; i++) {
+        for (size_t i = 0; i < s; i++) {
             tangent->b[side][i] = gm_ball_midpoint(b[i]);
         }
     }
     size_t largest = 1;
-    for (size_t first = 0; good && first < s;) {
+    for (size_t first = 0; first < s;) {
         const size_t end = end_of_block(tangent, first);
         largest = end - first > largest ? end - first : largest;
         first = end;
     }
-    tangent->running = good && is_running(tangent);
-    tangent->side = malloc(n * sizeof *tangent->side);
-    for (size_t c = 0; tangent->side && c < n; c++) {
+    tangent->running = is_running(tangent);
+    tangent->side = gm_arena_take(tangent->arena, n, sizeof *tangent->side);
+    for (size_t c = 0; c < n; c++) {
         /* a last component that is the time moves with q */
         tangent->side[c] = c >= n / 2 && c < n / 2 * 2 ? GM_SIDE_P : GM_SIDE_Q;
     }
-    struct {
-        double **place;
-        size_t count;
-    } const rooms[] = {
-        {&tangent->k, s * n},
-        {&tangent->w, s * n},
-        {&tangent->kicked, n},
-        {&tangent->kick, n},
-        {&tangent->y, n},
-        {&tangent->dy, n},
-        {&tangent->base, largest * n},
-        {&tangent->d_base, largest * n},
-        {&tangent->at, largest * n},
-        {&tangent->jacobians, largest * n * n},
-        {&tangent->scratch, gm_newton_scratch(largest * n)},
-    };
-    for (size_t i = 0; i < GM_COUNT(rooms); i++) {
-        *rooms[i].place = doubles(rooms[i].count);
-        good = good && *rooms[i].place;
-    }
-    tangent->from = calloc(s, sizeof *tangent->from);
-    tangent->to = calloc(s, sizeof *tangent->to);
-    good = good && tangent->side && tangent->from && tangent->to;
-    if (good) {
-        tangent->kicked[0] = NAN;
-        choose_components(tangent);
-    }
-    return good;
+    tangent->k = doubles(tangent, s * n);
+    tangent->w = doubles(tangent, s * n);
+    tangent->kicked = doubles(tangent, n);
+    tangent->kick = doubles(tangent, n);
+    tangent->y = doubles(tangent, n);
+    tangent->dy = doubles(tangent, n);
+    tangent->base = doubles(tangent, largest * n);
+    tangent->d_base = doubles(tangent, largest * n);
+    tangent->at = doubles(tangent, largest * n);
+    tangent->jacobians = doubles(tangent, largest * n * n);
+    tangent->scratch = doubles(tangent, gm_newton_scratch(largest * n));
+    tangent->from = gm_arena_take(tangent->arena, s, sizeof *tangent->from);
+    tangent->to = gm_arena_take(tangent->arena, s, sizeof *tangent->to);
+    tangent->kicked[0] = NAN;
+    choose_components(tangent);
 }
 
-struct gm_tangent *gm_tangent_open(struct gm_run *run)
-{
-    struct gm_tangent *tangent = calloc(1, sizeof *tangent);
+struct opening {
+    struct gm_run *run;
+    bool known; /* the coefficients */
     struct gm_coefficients coefficients;
-    if (!tangent) {
-        return NULL;
-    }
+    struct gm_tangent *tangent;
+};
+
+/* The body of an arena. */
+static void open_all(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    struct gm_run *run = opening->run;
     const struct gm_family *family = run->scheme->family;
+    struct gm_tangent *tangent = opening->tangent = gm_arena_take(arena, 1, sizeof *tangent);
+    tangent->arena = arena;
     tangent->run = run;
     tangent->n = run->problem->n;
     tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
     const size_t size = gm_tangent_size(tangent);
-    tangent->before = doubles(size);
-    tangent->plus = doubles(size);
-    tangent->minus = doubles(size);
-    tangent->slope = doubles(size);
-    bool good = tangent->before && tangent->plus && tangent->minus && tangent->slope;
-    tangent->snapshot = malloc(gm_run_snapshot_size(run));
-    good = good && tangent->snapshot;
-    if (good && gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(run->scheme, &coefficients)) {
-        good = open_stages(tangent, &coefficients);
-        gm_coefficients_close(&coefficients);
+    tangent->before = doubles(tangent, size);
+    tangent->plus = doubles(tangent, size);
+    tangent->minus = doubles(tangent, size);
+    tangent->slope = doubles(tangent, size);
+    tangent->snapshot = gm_arena_take(arena, 1, gm_run_snapshot_size(run));
+    if (opening->known) {
+        open_stages(tangent, &opening->coefficients);
         tangent->together = tangent->memory == 0 && !family->adaptive;
     }
+}
+
+struct gm_tangent *gm_tangent_open(struct gm_run *run)
+{
+    struct opening opening = {.run = run};
+    struct gm_arena *arena = gm_arena_open();
+    opening.known =
+        gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(run->scheme, &opening.coefficients);
+    const bool good = gm_arena_run(arena, open_all, &opening);
+    if (opening.known) {
+        gm_coefficients_close(&opening.coefficients);
+    }
     if (!good) {
-        gm_tangent_close(tangent);
+        gm_arena_close(arena);
         return NULL;
     }
-    return tangent;
+    return opening.tangent;
 }
 
 void gm_tangent_close(struct gm_tangent *tangent)
 {
-    if (!tangent) {
-        return;
+    if (tangent) {
+        gm_run_close(tangent->probe);
+        gm_arena_close(tangent->arena);
     }
-    double *const rooms[] = {tangent->a[0],    tangent->a[1],   tangent->b[0], tangent->b[1],
-                             tangent->k,       tangent->w,      tangent->y,    tangent->dy,
-                             tangent->base,    tangent->d_base, tangent->at,   tangent->jacobians,
-                             tangent->scratch, tangent->before, tangent->plus, tangent->minus,
-                             tangent->slope,   tangent->kicked, tangent->kick};
-    for (size_t i = 0; i < GM_COUNT(rooms); i++) {
-        free(rooms[i]);
-    }
-    free(tangent->side);
-    free(tangent->from);
-    free(tangent->to);
-    free(tangent->snapshot);
-    gm_run_close(tangent->probe);
-    free(tangent);
 }
 
 size_t gm_tangent_size(const struct gm_tangent *tangent)

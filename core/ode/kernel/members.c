@@ -46,12 +46,28 @@ static bool is_within(const double *y, size_t n, double limit)
     return good;
 }
 
-struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step)
+size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    return scheme->family->members->remembered * problem->m;
+}
+
+void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_family *family = scheme->family;
+    const struct gm_member_family *members = family->members;
+    const size_t remembered = family->memory ? family->memory(problem, scheme) / problem->m : 0;
+    const size_t scratch = members->room ? members->room(problem, scheme) : members->vectors * problem->n;
+    return gm_members_open(problem, remembered, scratch);
+}
+
+struct gm_progress gm_members_loop(const struct gm_task *task)
 {
     struct gm_members *members = task->workspace;
     const size_t n = members->n, m = task->problem->m;
+    const struct gm_member_family *family = task->scheme->family->members;
     const bool adaptive = task->scheme->family->adaptive;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
+    progress.evaluations = family->evaluated_at_start && task->steps_before == 0 ? m : 0;
     members->carry = task->carry ? members->memory + members->remembered : NULL;
     for (size_t member = 0; member < m; member++) {
         gather(task->y, members->y, n, m, member);
@@ -62,7 +78,7 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
             gather(task->carry, members->carry, n, m, member);
         }
         for (int64_t done = 0; done < progress.done; done++) {
-            enum gm_status status = step(task, members, &progress);
+            enum gm_status status = family->step(task, members, &progress);
             if (status == GM_OK && !is_within(members->y, n, task->limit)) {
                 status = GM_BLOW_UP;
             }

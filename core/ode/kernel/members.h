@@ -32,8 +32,32 @@ struct gm_members *gm_members_open(const struct gm_problem *problem, size_t reme
 typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_members *members,
                                       struct gm_progress *progress);
 
-/* All steps of all members; the workspace is a gm_members. Memory is [double * m + member], as the state. */
-struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step);
+/* Such a family. */
+struct gm_member_family {
+    gm_member_step *step;
+    size_t remembered; /* doubles of memory of a member, for gm_members_memory */
+    size_t vectors;    /* the scratch is so many states */
+    /* The scratch in doubles; NULL: it is vectors. */
+    size_t (*room)(const struct gm_problem *problem, const struct gm_scheme *scheme);
+    bool evaluated_at_start; /* the start evaluates a force, which the first steps count */
+};
+
+/* All steps of all members, as the scheme's family makes them; the workspace is a gm_members. Memory is
+   [double * m + member], as the state. */
+struct gm_progress gm_members_loop(const struct gm_task *task);
+size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
+
+/* The fields of a struct gm_family that every such family has, with those of its struct gm_member_family. */
+#define GM_MEMBERS_OF_NO_ROWS(...)                                                                           \
+    .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = free,                \
+    .members = &(const struct gm_member_family)                                                              \
+    {                                                                                                        \
+        __VA_ARGS__                                                                                          \
+    }
+#define GM_MEMBERS(...)                                                                                      \
+    .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
+#define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
 
 /* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a
    matrix. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bracket of a Poisson system: its structure, and the pieces of its energy that have exact flows. */
-#ifndef GM_CORE_ODE_OWN_BRACKET_H
-#define GM_CORE_ODE_OWN_BRACKET_H
+#ifndef GM_CORE_ODE_USER_BRACKET_H
+#define GM_CORE_ODE_USER_BRACKET_H
 
 #include "core/model/system.h"
 #include "core/tape.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The constraints of a system, g(q) = 0, with their exact derivatives. */
-#ifndef GM_CORE_ODE_OWN_CONSTRAINTS_H
-#define GM_CORE_ODE_OWN_CONSTRAINTS_H
+#ifndef GM_CORE_ODE_USER_CONSTRAINTS_H
+#define GM_CORE_ODE_USER_CONSTRAINTS_H
 
 #include "core/model/system.h"
 #include "core/tape.h"

@@ -3,8 +3,8 @@
        (M u)_t = R(x, u, u_x, u_xx, u_xxx, u_xxxx, v, ..),
    as a system of ordinary differential equations: u of all nodes, then v. Derivatives are central differences
    of order 2, or those of the sum of waves through the nodes. */
-#ifndef GM_CORE_ODE_OWN_EVOLUTION_H
-#define GM_CORE_ODE_OWN_EVOLUTION_H
+#ifndef GM_CORE_ODE_USER_EVOLUTION_H
+#define GM_CORE_ODE_USER_EVOLUTION_H
 
 #include "core/model/system.h"
 #include "core/ode/ode.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system's formulas as the text of a kernel file (core/ode/compiled/over_kernels.c), to be compiled. */
-#ifndef GM_CORE_ODE_OWN_KERNEL_H
-#define GM_CORE_ODE_OWN_KERNEL_H
+#ifndef GM_CORE_ODE_USER_KERNEL_H
+#define GM_CORE_ODE_USER_KERNEL_H
 
 #include "core/expression/derivative.h"
 #include "core/tape.h"

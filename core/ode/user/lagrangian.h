@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How a Lagrangian system moves in its coordinates and momenta: at each state the velocities solve dL/dv = p,
    with the mass matrix d2L/dv2 factored there; then q' = v and p' = dL/dq + F. */
-#ifndef GM_CORE_ODE_OWN_LAGRANGIAN_H
-#define GM_CORE_ODE_OWN_LAGRANGIAN_H
+#ifndef GM_CORE_ODE_USER_LAGRANGIAN_H
+#define GM_CORE_ODE_USER_LAGRANGIAN_H
 
 #include "core/model/system.h"
 #include "core/ode/ode.h"

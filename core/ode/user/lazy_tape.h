@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tapes that are made when they are first asked for: few schemes ask for all, and of a large system they take longer
    than all else. */
-#ifndef GM_CORE_ODE_OWN_LATE_H
-#define GM_CORE_ODE_OWN_LATE_H
+#ifndef GM_CORE_ODE_USER_LAZY_TAPE_H
+#define GM_CORE_ODE_USER_LAZY_TAPE_H
 
 #include <stdatomic.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a system that somebody wrote down before its parameters have values. */
-#ifndef GM_CORE_ODE_OWN_MODEL_H
-#define GM_CORE_ODE_OWN_MODEL_H
+#ifndef GM_CORE_ODE_USER_MODEL_H
+#define GM_CORE_ODE_USER_MODEL_H
 
 #include <stdint.h>
 

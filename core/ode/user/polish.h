@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scheme whose coefficients were typed with too few digits, or with a wrong one: the decimals next to these
    that satisfy the order conditions. */
-#ifndef GM_CORE_ODE_OWN_POLISH_H
-#define GM_CORE_ODE_OWN_POLISH_H
+#ifndef GM_CORE_ODE_USER_POLISH_H
+#define GM_CORE_ODE_USER_POLISH_H
 
 #include "core/ode/user/scheme.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system that somebody wrote down, as a problem that schemes advance: its formulas are interpreted, until
    loops that were compiled of them take over. */
-#ifndef GM_CORE_ODE_OWN_OWN_H
-#define GM_CORE_ODE_OWN_OWN_H
+#ifndef GM_CORE_ODE_USER_PROBLEM_H
+#define GM_CORE_ODE_USER_PROBLEM_H
 
 #include "core/ode/ode.h"
 #include "core/ode/user/model.h"

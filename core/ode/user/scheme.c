@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/expression/reader.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
@@ -30,14 +31,12 @@
 /* Schemes in schemes; stages that theory is asked about. */
 enum { DEEPEST = 8, MOST_STAGES = 256 };
 
-/* The row and all that it is made of. */
+/* A row with its coefficients. */
 struct own {
     struct gm_scheme row; /* first */
     struct gm_coefficients exact;
-    struct own *next; /* of the schemes that were made for it */
-    struct own *made;
-    char *texts[4]; /* name, title, word, reference */
     void *coefficients;
+    struct gm_arena *arena; /* of the scheme that is opened: of all that it is made of */
 };
 
 /* Coefficients, each with one decimal moved, which the scheme takes over. */
@@ -46,46 +45,50 @@ struct moved {
     int count;
 };
 
+/* The body of an arena, which a fault leaves; the sentence is empty where memory was refused. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
+    struct gm_arena *arena;
     int depth;
     struct moved *moved; /* of the whole scheme; or NULL */
+    struct own *made;    /* the whole scheme */
 };
 
-__attribute__((format(printf, 3, 4))) static void *fail(const struct making *making, size_t place,
-                                                        const char *format, ...)
+_Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct making *making, size_t place,
+                                                                 const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(making->fault->sentence, sizeof making->fault->sentence, format, arguments);
     va_end(arguments);
     making->fault->offset = place;
-    return NULL;
+    gm_arena_leave(making->arena);
 }
 
-static void *no_memory(const struct making *making)
+/* What was opened, or refused memory. */
+static void opened(const struct making *making, bool good)
 {
-    *making->fault = (struct gm_fault){0};
-    return NULL;
+    if (!good) {
+        gm_arena_leave(making->arena);
+    }
+}
+
+static void close_coefficients(void *coefficients)
+{
+    gm_coefficients_close(coefficients);
+}
+
+static void close_written(void *written)
+{
+    gm_written_close(written);
 }
 
 static void close_user(struct own *self)
 {
-    if (!self) {
-        return;
+    if (self) {
+        gm_arena_close(self->arena);
     }
-    while (self->made) {
-        struct own *made = self->made;
-        self->made = made->next;
-        close_user(made);
-    }
-    gm_coefficients_close(&self->exact);
-    for (size_t i = 0; i < GM_COUNT(self->texts); i++) {
-        free(self->texts[i]);
-    }
-    free(self->coefficients);
-    free(self);
 }
 
 void gm_user_scheme_close(const struct gm_scheme *scheme)
@@ -93,18 +96,28 @@ void gm_user_scheme_close(const struct gm_scheme *scheme)
     close_user((struct own *)(void *)scheme);
 }
 
-static struct own *open_user(size_t coefficients)
+/* Coefficients to be opened, so many. */
+static struct gm_coefficients *take_coefficients(const struct making *making, size_t count)
 {
-    struct own *self = calloc(1, sizeof *self);
-    if (self) {
-        self->coefficients = calloc(1, coefficients);
-        self->row.coefficients = self->coefficients;
+    struct gm_coefficients *taken = gm_arena_take(making->arena, count, sizeof *taken);
+    for (size_t i = 0; i < count; i++) {
+        gm_arena_keep(making->arena, &taken[i], close_coefficients);
     }
-    if (!self || !self->coefficients) {
-        close_user(self);
-        return NULL;
-    }
+    return taken;
+}
+
+static struct own *open_user(const struct making *making, size_t coefficients)
+{
+    struct own *self = gm_arena_take(making->arena, 1, sizeof *self);
+    self->coefficients = gm_arena_take(making->arena, 1, coefficients);
+    self->row.coefficients = self->coefficients;
+    gm_arena_keep(making->arena, &self->exact, close_coefficients);
     return self;
+}
+
+static char *keep_text(const struct making *making, char *text)
+{
+    return gm_arena_keep(making->arena, text, free);
 }
 
 __attribute__((format(printf, 1, 2))) static char *text_of(const char *format, ...)
@@ -131,7 +144,7 @@ static struct gm_written_number *entry(struct tableau *tableau, int i, int j)
     return &tableau->at[i * tableau->stages + j];
 }
 
-static struct own *of_tableau(struct tableau *tableau)
+static struct own *of_tableau(const struct making *making, struct tableau *tableau)
 {
     const int stages = tableau->stages;
     bool is_explicit = true;
@@ -141,11 +154,8 @@ static struct own *of_tableau(struct tableau *tableau)
         }
     }
     struct own *self =
-        open_user(is_explicit ? sizeof(struct gm_explicit_user) : sizeof(struct gm_implicit_row));
-    if (!self || !gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages)) {
-        close_user(self);
-        return NULL;
-    }
+        open_user(making, is_explicit ? sizeof(struct gm_explicit_user) : sizeof(struct gm_implicit_row));
+    opened(making, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
     struct gm_explicit_user *explicit_row = is_explicit ? self->coefficients : NULL;
     struct gm_implicit_row *implicit_row = is_explicit ? NULL : self->coefficients;
     self->row.family = is_explicit ? &gm_family_explicit : &gm_family_implicit;
@@ -176,8 +186,7 @@ static struct own *make_runge_kutta(const struct making *making, const struct gm
     const size_t stages = (size_t)a->rows;
     memcpy(tableau.at, a->numbers, stages * stages * sizeof *a->numbers);
     memcpy(tableau.at + stages * stages, b->numbers, stages * sizeof *b->numbers);
-    struct own *self = of_tableau(&tableau);
-    return self ? self : no_memory(making);
+    return of_tableau(making, &tableau);
 }
 
 /* The doubles and the balls of one that is in a loop of tableaus; false: it is none. */
@@ -219,11 +228,8 @@ static struct own *make_partitioned(const struct making *making, const struct gm
                                  *d = &written->lines[GM_SCHEME_WORD_BH];
     const int stages = a->rows;
     d = d->said ? d : b;
-    struct own *self = open_user(sizeof(struct gm_partitioned_row));
-    if (!self || !gm_coefficients_open(&self->exact, GM_EQUATIONS_PARTITIONED, stages)) {
-        close_user(self);
-        return no_memory(making);
-    }
+    struct own *self = open_user(making, sizeof(struct gm_partitioned_row));
+    opened(making, gm_coefficients_open(&self->exact, GM_EQUATIONS_PARTITIONED, stages));
     struct gm_partitioned_row *row = self->coefficients;
     self->row.family = &gm_family_partitioned;
     self->row.needs = GM_NEEDS_HAMILTONIAN;
@@ -253,20 +259,15 @@ static struct own *make_nystrom(const struct making *making, const struct gm_wri
     const struct gm_written_line *lines = written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     const size_t s = (size_t)stages;
-    struct own *self = open_user(sizeof(struct gm_nystrom_row));
-    struct gm_ball *balls = self ? malloc((s + 3) * s * sizeof *balls) : NULL;
-    struct gm_ball *at = balls, *b = balls ? balls + s * s : NULL;
-    for (size_t k = 0; balls && k < GM_COUNT(words); k++) {
+    struct own *self = open_user(making, sizeof(struct gm_nystrom_row));
+    struct gm_ball *balls = gm_arena_take(making->arena, (s + 3) * s, sizeof *balls);
+    struct gm_ball *at = balls, *b = balls + s * s;
+    for (size_t k = 0; k < GM_COUNT(words); k++) {
         for (int i = 0; i < lines[words[k]].rows * stages; i++) {
             *at++ = lines[words[k]].numbers[i].ball;
         }
     }
-    if (!balls || !gm_coefficients_open_nystrom(&self->exact, stages, balls, b, b + s, b + 2 * s)) {
-        free(balls);
-        close_user(self);
-        return no_memory(making);
-    }
-    free(balls);
+    opened(making, gm_coefficients_open_nystrom(&self->exact, stages, balls, b, b + s, b + 2 * s));
     struct gm_nystrom_row *row = self->coefficients;
     self->row.family = &gm_family_nystrom;
     self->row.needs = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM;
@@ -310,12 +311,9 @@ static bool add_piece(struct pieces *pieces, enum gm_piece piece, double value, 
     return true;
 }
 
-static struct own *of_pieces(const struct pieces *pieces, unsigned needs)
+static struct own *of_pieces(const struct making *making, const struct pieces *pieces, unsigned needs)
 {
-    struct own *self = open_user(sizeof(struct gm_splitting_row));
-    if (!self) {
-        return NULL;
-    }
+    struct own *self = open_user(making, sizeof(struct gm_splitting_row));
     struct gm_splitting_row *row = self->coefficients;
     self->row.family = &gm_family_splitting;
     self->row.needs = GM_NEEDS_SPLIT | needs;
@@ -328,10 +326,7 @@ static struct own *of_pieces(const struct pieces *pieces, unsigned needs)
         return self;
     }
     /* the family says where each fraction stands, and which force is a step's first one again */
-    if (!gm_family_splitting.coefficients_open(&self->row, &self->exact)) {
-        close_user(self);
-        return NULL;
-    }
+    opened(making, gm_family_splitting.coefficients_open(&self->row, &self->exact));
     for (int j = 0; j < pieces->count; j++) {
         const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
         self->exact.b[side][j] = pieces->at[j].fraction.ball;
@@ -346,22 +341,17 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
 {
     const struct gm_written_line *drifts = &written->lines[GM_SCHEME_WORD_DRIFTS];
     const struct gm_written_line *kicks = &written->lines[GM_SCHEME_WORD_KICKS];
-    struct pieces *pieces = calloc(1, sizeof *pieces);
-    struct own *self = NULL;
-    if (pieces) {
-        const int all = drifts->columns + kicks->columns;
-        bool kick = written->kick_first;
-        for (int i = 0; i < all; i++, kick = !kick) {
-            const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
-            const bool only = i + 1 == all && pieces->count == 0;
-            if (number->value != 0 || only) { /* tables are filled up with zeros, which are no pieces */
-                add_piece(pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
-            }
+    struct pieces pieces = {0};
+    const int all = drifts->columns + kicks->columns;
+    bool kick = written->kick_first;
+    for (int i = 0; i < all; i++, kick = !kick) {
+        const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
+        const bool only = i + 1 == all && pieces.count == 0;
+        if (number->value != 0 || only) { /* tables are filled up with zeros, which are no pieces */
+            add_piece(&pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
         }
-        self = of_pieces(pieces, written->nystrom ? GM_NEEDS_NYSTROM : 0);
     }
-    free(pieces);
-    return self ? self : no_memory(making);
+    return of_pieces(making, &pieces, written->nystrom ? GM_NEEDS_NYSTROM : 0);
 }
 
 /* -- compositions
@@ -377,67 +367,55 @@ struct substeps {
 };
 
 /* The pieces of substeps that are all splittings. */
-static struct own *flatten(const struct making *making, const struct substeps *substeps)
+static struct own *flatten(const struct making *making, const struct substeps *substeps, size_t place)
 {
-    struct pieces *pieces = calloc(1, sizeof *pieces);
+    struct pieces pieces = {0};
     unsigned needs = 0;
-    bool good = pieces != NULL, fits = true;
-    for (int k = 0; good && fits && k < substeps->count; k++) {
+    struct gm_coefficients *exact = take_coefficients(making, (size_t)substeps->count);
+    for (int k = 0; k < substeps->count; k++) {
         const struct gm_written_number *fraction = &substeps->at[k].fraction;
         const struct gm_scheme *scheme = substeps->at[k].scheme;
         struct gm_splitting made;
         const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
-        struct gm_coefficients exact;
-        good = gm_scheme_coefficients_open(scheme, &exact);
+        opened(making, gm_scheme_coefficients_open(scheme, &exact[k]));
         needs |= scheme->needs;
-        for (int i = 0; good && fits && i < table->count; i++) {
+        for (int i = 0; i < table->count; i++) {
             const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-            fits = add_piece(pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
-                             gm_ball_multiply(exact.b[side][i], fraction->ball));
-        }
-        if (good) {
-            gm_coefficients_close(&exact);
+            if (!add_piece(&pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
+                           gm_ball_multiply(exact[k].b[side][i], fraction->ball))) {
+                fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
+            }
         }
     }
-    struct own *self = good && fits ? of_pieces(pieces, needs) : NULL;
-    free(pieces);
-    return self   ? self
-           : fits ? no_memory(making)
-                  : fail(making, 0, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
+    return of_pieces(making, &pieces, needs);
 }
 
 /* What theory knows substeps by. Left alone where it knows nothing of one, or they are too many. */
-static bool open_exact(struct gm_coefficients *exact, const struct substeps *substeps)
+static void open_exact(const struct making *making, struct gm_coefficients *exact,
+                       const struct substeps *substeps)
 {
     const size_t count = (size_t)substeps->count;
-    struct gm_coefficients *parts = calloc(count, sizeof *parts);
-    struct gm_ball *fractions = malloc(count * sizeof *fractions);
-    int stages = 0, opened = 0;
-    bool good = parts && fractions, known = true;
-    while (good && known && opened < substeps->count) {
-        const struct gm_scheme *scheme = substeps->at[opened].scheme;
-        known = scheme->exact || scheme->family->coefficients_open;
-        good = !known || gm_scheme_coefficients_open(scheme, &parts[opened]);
-        if (good && known) {
-            fractions[opened] = substeps->at[opened].fraction.ball;
-            stages += parts[opened].stages;
-            known = parts[opened].equations == parts[0].equations &&
-                    !parts[opened].nystrom == !parts[0].nystrom && stages <= MOST_STAGES;
-            opened++;
+    struct gm_coefficients *parts = take_coefficients(making, count);
+    struct gm_ball *fractions = gm_arena_take(making->arena, count, sizeof *fractions);
+    int stages = 0;
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_scheme *scheme = substeps->at[k].scheme;
+        if (!scheme->exact && !scheme->family->coefficients_open) {
+            return;
+        }
+        opened(making, gm_scheme_coefficients_open(scheme, &parts[k]));
+        fractions[k] = substeps->at[k].fraction.ball;
+        stages += parts[k].stages;
+        if (parts[k].equations != parts[0].equations || !parts[k].nystrom != !parts[0].nystrom ||
+            stages > MOST_STAGES) {
+            return;
         }
     }
-    if (good && known) {
-        good = gm_coefficients_open_composition(exact, parts, fractions, substeps->count);
-    }
-    while (opened > 0) {
-        gm_coefficients_close(&parts[--opened]);
-    }
-    free(parts);
-    free(fractions);
-    return good;
+    opened(making, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
 }
 
-static struct own *compose(const struct making *making, const struct substeps *substeps)
+/* Faults are those of the place. */
+static struct own *compose(const struct making *making, const struct substeps *substeps, size_t place)
 {
     bool splittings = true, carrying = true;
     unsigned needs = 0;
@@ -447,20 +425,16 @@ static struct own *compose(const struct making *making, const struct substeps *s
         carrying = carrying && scheme->family->carries_passive;
         needs |= scheme->needs;
         if (!gm_scheme_composes(scheme)) {
-            return fail(making, 0,
-                        "%.60s cannot be a part of a step: it remembers, or chooses its step itself",
-                        scheme->name);
+            fail(making, place, "%.60s cannot be a part of a step: it remembers, or chooses its step itself",
+                 scheme->name);
         }
     }
     if (splittings) {
-        return flatten(making, substeps);
+        return flatten(making, substeps, place);
     }
     struct own *self =
-        open_user(sizeof(struct gm_substeps) + (size_t)substeps->count * sizeof(struct gm_substep));
-    if (!self || !open_exact(&self->exact, substeps)) {
-        close_user(self);
-        return no_memory(making);
-    }
+        open_user(making, sizeof(struct gm_substeps) + (size_t)substeps->count * sizeof(struct gm_substep));
+    open_exact(making, &self->exact, substeps);
     struct gm_substeps *row = self->coefficients;
     self->row.family = carrying ? &gm_family_composition_carrying : &gm_family_composition;
     self->row.needs = needs;
@@ -477,12 +451,9 @@ static struct own *compose(const struct making *making, const struct substeps *s
 /* A row of its own for a scheme that is its own adjoint. */
 static struct own *same(const struct making *making, const struct gm_scheme *scheme)
 {
-    struct own *self = open_user(1);
+    struct own *self = open_user(making, 1);
     const bool known = scheme->exact || scheme->family->coefficients_open;
-    if (!self || (known && !gm_scheme_coefficients_open(scheme, &self->exact))) {
-        close_user(self);
-        return no_memory(making);
-    }
+    opened(making, !known || gm_scheme_coefficients_open(scheme, &self->exact));
     self->row.family = scheme->family;
     self->row.coefficients = scheme->coefficients;
     self->row.needs = scheme->needs;
@@ -494,14 +465,12 @@ static struct own *adjoint_splitting(const struct making *making, const struct g
 {
     struct gm_splitting made;
     const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
-    struct pieces *pieces = calloc(1, sizeof *pieces);
-    for (int i = table->count - 1; pieces && i >= 0; i--) {
+    struct pieces pieces = {0};
+    for (int i = table->count - 1; i >= 0; i--) {
         const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-        add_piece(pieces, table->pieces[i].piece, table->pieces[i].fraction, exact->b[side][i]);
+        add_piece(&pieces, table->pieces[i].piece, table->pieces[i].fraction, exact->b[side][i]);
     }
-    struct own *self = pieces ? of_pieces(pieces, scheme->needs) : NULL;
-    free(pieces);
-    return self ? self : no_memory(making);
+    return of_pieces(making, &pieces, scheme->needs);
 }
 
 static struct own *adjoint_tableau(const struct making *making, const struct tableau *tableau)
@@ -517,8 +486,7 @@ static struct own *adjoint_tableau(const struct making *making, const struct tab
         }
         *entry(&adjoint, last + 1, i) = *entry(&right, last + 1, last - i);
     }
-    struct own *self = of_tableau(&adjoint);
-    return self ? self : no_memory(making);
+    return of_tableau(making, &adjoint);
 }
 
 /* As gm_coefficients_open_adjoint, in doubles. */
@@ -527,11 +495,8 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
 {
     const struct gm_nystrom_row *row = scheme->coefficients;
     const int stages = row->stages, last = stages - 1;
-    struct own *self = open_user(sizeof *row);
-    if (!self || !gm_coefficients_open_adjoint(&self->exact, exact)) {
-        close_user(self);
-        return no_memory(making);
-    }
+    struct own *self = open_user(making, sizeof *row);
+    opened(making, gm_coefficients_open_adjoint(&self->exact, exact));
     struct gm_nystrom_row *adjoint = self->coefficients;
     adjoint->stages = stages;
     for (int i = 0; i < stages; i++) {
@@ -551,88 +516,54 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
 
 static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
 
-static void keep_made(struct own **made, struct own *self)
-{
-    self->next = *made;
-    *made = self;
-}
-
-static void close_all(struct own *made)
-{
-    while (made) {
-        struct own *next = made->next;
-        close_user(made);
-        made = next;
-    }
-}
-
 /* The adjoints of the parts, in the opposite order. */
 static struct own *adjoint_composition(const struct making *making, const struct gm_scheme *scheme,
                                        size_t place)
 {
     const struct gm_substeps *substeps = scheme->coefficients;
     const size_t count = (size_t)substeps->count;
-    struct own *made = NULL;
-    struct own *self = open_user(sizeof(struct gm_substeps) + count * sizeof(struct gm_substep));
-    bool good = self != NULL;
-    struct gm_substeps *reversed = good ? self->coefficients : NULL;
-    for (size_t i = 0; good && i < count; i++) {
+    struct own *self = open_user(making, sizeof(struct gm_substeps) + count * sizeof(struct gm_substep));
+    struct gm_substeps *reversed = self->coefficients;
+    for (size_t i = 0; i < count; i++) {
         const struct gm_substep *part = &substeps->at[count - 1 - i];
         size_t same = 0;
         while (substeps->at[count - 1 - same].scheme != part->scheme) {
             same++;
         }
-        struct own *adjoint = same == i ? adjoint_of(making, part->scheme, place) : NULL;
-        if (adjoint) {
+        reversed->at[i] = (struct gm_substep){reversed->at[same].scheme, part->fraction};
+        if (same == i) {
+            struct own *adjoint = adjoint_of(making, part->scheme, place);
             adjoint->row.name = part->scheme->name;
-            keep_made(&made, adjoint);
+            reversed->at[i].scheme = &adjoint->row;
         }
-        good = same < i || adjoint;
-        reversed->at[i] =
-            (struct gm_substep){same < i ? reversed->at[same].scheme : &adjoint->row, part->fraction};
     }
-    if (good) {
-        reversed->count = substeps->count;
-        self->row.family = scheme->family;
-        self->row.needs = scheme->needs;
-        self->made = made;
-        if (!scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact)) {
-            return self;
-        }
-        close_user(self);
-        return no_memory(making);
-    }
-    const bool begun = self != NULL;
-    close_all(made);
-    close_user(self);
-    return begun ? NULL : no_memory(making);
+    reversed->count = substeps->count;
+    self->row.family = scheme->family;
+    self->row.needs = scheme->needs;
+    opened(making, !scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact));
+    return self;
 }
 
 /* The adjoint of what is made of coefficients alone. */
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
-    struct gm_coefficients exact;
     if (!scheme->exact && !scheme->family->coefficients_open) {
-        return fail(making, place,
-                    "the adjoint of %.60s is not known: it is no Runge-Kutta method and no splitting",
-                    scheme->name);
+        fail(making, place, "the adjoint of %.60s is not known: it is no Runge-Kutta method and no splitting",
+             scheme->name);
     }
-    if (!gm_scheme_coefficients_open(scheme, &exact)) {
-        return no_memory(making);
-    }
+    struct gm_coefficients *exact = take_coefficients(making, 1);
     struct tableau tableau;
-    struct own *self = NULL;
+    opened(making, gm_scheme_coefficients_open(scheme, exact));
     if (scheme->family == &gm_family_splitting) {
-        self = adjoint_splitting(making, scheme, &exact);
-    } else if (scheme->family == &gm_family_nystrom) {
-        self = adjoint_nystrom(making, scheme, &exact);
-    } else if (tableau_of(scheme, &exact, &tableau)) {
-        self = adjoint_tableau(making, &tableau);
-    } else {
+        return adjoint_splitting(making, scheme, exact);
+    }
+    if (scheme->family == &gm_family_nystrom) {
+        return adjoint_nystrom(making, scheme, exact);
+    }
+    if (!tableau_of(scheme, exact, &tableau)) {
         fail(making, place, "the adjoint of %.60s is not known", scheme->name);
     }
-    gm_coefficients_close(&exact);
-    return self;
+    return adjoint_tableau(making, &tableau);
 }
 
 /* The adjoint of a scheme, which outlives it. */
@@ -643,9 +574,7 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
     struct own *self = scheme->claims & GM_SYMMETRIC ? same(making, scheme)
                        : composed                    ? adjoint_composition(making, scheme, place)
                                                      : adjoint_single(making, scheme, place);
-    if (self) {
-        self->row.exact = self->exact.stages > 0 ? &self->exact : NULL;
-    }
+    self->row.exact = self->exact.stages > 0 ? &self->exact : NULL;
     return self;
 }
 
@@ -655,84 +584,53 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
 static struct own *make(const struct making *making, struct gm_span span, const char *name,
                         const char *title);
 
-/* The scheme that a line names, which is put among those that were made if it is a word. */
-static const struct gm_scheme *scheme_of(const struct making *making, const struct gm_written_line *line,
-                                         struct own **made)
+/* The scheme that a line names. */
+static const struct gm_scheme *scheme_of(const struct making *making, const struct gm_written_line *line)
 {
     const struct gm_span span = line->value;
     const char *text = making->source->text;
-    char *name = gm_span_words(text, span);
-    if (!name) {
-        return no_memory(making);
-    }
-    const struct gm_scheme *scheme = NULL;
+    const char *name = keep_text(making, gm_span_words(text, span));
     char sentence[GM_FAULT_SENTENCE] = "";
     if (gm_written_is_word(text + span.begin, span.end - span.begin)) {
-        struct own *self = make(making, span, name, NULL);
-        if (self) {
-            keep_made(made, self);
-            scheme = &self->row;
-        }
-    } else if (gm_word_ends(name, ".scheme")) {
-        scheme = making->source->bring(making->source->data, name, sentence);
-        if (!scheme) {
-            sentence[0] ? fail(making, span.begin, "%s", sentence) : no_memory(making);
-        }
-    } else {
-        scheme = gm_scheme_find(name);
-        if (!scheme || scheme->family->kind != &gm_kind_ode) {
-            const char *near = scheme ? gm_scheme_known_as(name) : gm_scheme_near(name);
-            fail(making, span.begin,
-                 scheme ? "%.40s is no scheme for ordinary differential equations%s%s"
-                        : "there is no scheme \"%.40s\"%s%s",
-                 name, near ? "; did you mean " : "", near ? near : "");
-            scheme = NULL;
-        }
+        return &make(making, span, name, NULL)->row;
     }
-    free(name);
+    if (gm_word_ends(name, ".scheme")) {
+        const struct gm_scheme *scheme = making->source->bring(making->source->data, name, sentence);
+        if (!scheme && sentence[0]) {
+            fail(making, span.begin, "%s", sentence);
+        }
+        opened(making, scheme);
+        return scheme;
+    }
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    if (!scheme || scheme->family->kind != &gm_kind_ode) {
+        const char *near = scheme ? gm_scheme_known_as(name) : gm_scheme_near(name);
+        fail(making, span.begin,
+             scheme ? "%.40s is no scheme for ordinary differential equations%s%s"
+                    : "there is no scheme \"%.40s\"%s%s",
+             name, near ? "; did you mean " : "", near ? near : "");
+    }
     return scheme;
-}
-
-/* Faults of what has no place of its own are those of the line. */
-static struct own *at_line(const struct making *making, struct own *self, const struct gm_written_line *line)
-{
-    if (!self && making->fault->sentence[0] && making->fault->offset == 0) {
-        making->fault->offset = line->value.begin;
-    }
-    return self;
 }
 
 static struct own *make_composition(const struct making *making, const struct gm_written_scheme *written,
                                     const struct gm_scheme *base)
 {
     const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
-    struct substeps *substeps = calloc(1, sizeof *substeps);
-    if (!substeps) {
-        return no_memory(making);
-    }
+    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
     for (int i = 0; i < steps->columns; i++) {
         substeps->at[i].scheme = base;
         substeps->at[i].fraction = steps->numbers[i];
     }
     substeps->count = steps->columns;
-    struct own *self = compose(making, substeps);
-    free(substeps);
-    return at_line(making, self, &written->lines[GM_SCHEME_WORD_BASE]);
+    return compose(making, substeps, written->lines[GM_SCHEME_WORD_BASE].value.begin);
 }
 
 static struct own *make_processed(const struct making *making, const struct gm_written_scheme *written,
-                                  const struct gm_scheme *kernel, const struct gm_scheme *processor,
-                                  struct own **made)
+                                  const struct gm_scheme *kernel, const struct gm_scheme *processor)
 {
     struct own *adjoint = adjoint_of(making, processor, written->lines[GM_SCHEME_WORD_PROCESSOR].value.begin);
-    struct substeps *substeps = adjoint ? calloc(1, sizeof *substeps) : NULL;
-    if (!adjoint) {
-        return NULL;
-    }
-    keep_made(made, adjoint);
-    if (!substeps) {
-        return no_memory(making);
-    }
+    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
     const struct gm_scheme *const parts[] = {&adjoint->row, kernel, processor};
     adjoint->row.name = processor->name;
     for (int i = 0; i < 3; i++) {
@@ -742,43 +640,20 @@ static struct own *make_processed(const struct making *making, const struct gm_w
             (struct gm_written_number){.value = fraction, .ball = gm_ball_of(fraction)};
     }
     substeps->count = 3;
-    struct own *self = compose(making, substeps);
-    free(substeps);
-    return at_line(making, self, &written->lines[GM_SCHEME_WORD_KERNEL]);
+    return compose(making, substeps, written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
 }
 
 /* -- what the row says
    ---------------------------------------------------------------------------------------- */
 
-/* Words of claims, one after the other. */
-static bool read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
+static void read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
 {
-    const char *text = making->source->text;
-    struct gm_span rest = line->value;
-    const bool none = rest.end - rest.begin == 4 && memcmp(text + rest.begin, "none", 4) == 0;
-    for (*claims = 0; rest.begin < rest.end && !none;) {
-        unsigned found = GM_CLAIM_COUNT;
-        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const char *word = gm_claim_word(bit);
-            const size_t length = strlen(word), left = rest.end - rest.begin;
-            if (length <= left && memcmp(text + rest.begin, word, length) == 0 &&
-                (length == left || strchr(" \t\n,", text[rest.begin + length]))) {
-                found = bit;
-            }
-        }
-        if (found == GM_CLAIM_COUNT) {
-            fail(making, rest.begin,
-                 "a claim was expected: symplectic, symmetric, reversible, keeps energy, keeps quadratic "
-                 "invariants, keeps bilinear invariants, keeps linear invariants, keeps volume; or none");
-            return false;
-        }
-        *claims |= 1u << found;
-        rest.begin += strlen(gm_claim_word(found));
-        while (rest.begin < rest.end && strchr(" \t\n\r,", text[rest.begin])) {
-            rest.begin++;
-        }
+    size_t wrong;
+    if (!gm_claims_read(making->source->text, line->value, claims, &wrong)) {
+        fail(making, wrong,
+             "a claim was expected: symplectic, symmetric, reversible, keeps energy, keeps quadratic "
+             "invariants, keeps bilinear invariants, keeps linear invariants, keeps volume; or none");
     }
-    return true;
 }
 
 /* The first numbers of a line, for a title. */
@@ -821,7 +696,7 @@ static char *title_of(const struct gm_written_scheme *written,
 }
 
 /* Each side's weights sum to 1, but for a part of another scheme. */
-static bool check_weights(const struct making *making, const struct gm_written_scheme *written,
+static void check_weights(const struct making *making, const struct gm_written_scheme *written,
                           const struct gm_coefficients *exact)
 {
     static const enum gm_scheme_word weights[][GM_SIDES] = {
@@ -841,41 +716,34 @@ static bool check_weights(const struct making *making, const struct gm_written_s
             const struct gm_written_line *line = &written->lines[word];
             const char *what =
                 written->kind == GM_WRITTEN_SPLITTING ? side == GM_SIDE_Q ? "drifts" : "kicks" : "weights";
-            return fail(making, line->said ? line->value.begin : 0, "the %s sum to %.15g, not to 1", what,
-                        sum);
+            fail(making, line->said ? line->value.begin : 0, "the %s sum to %.15g, not to 1", what, sum);
         }
     }
-    return true;
 }
 
 /* The row's texts, its word among them. */
-static bool tell(const struct making *making, const struct gm_written_scheme *written, struct own *self,
+static void tell(const struct making *making, const struct gm_written_scheme *written, struct own *self,
                  const char *name, const char *title, const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
 {
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_line *own_title = &written->lines[GM_SCHEME_WORD_TITLE],
+                                 *reference = &written->lines[GM_SCHEME_WORD_REFERENCE];
+    struct gm_scheme *row = &self->row;
     const char *words[GM_SCHEME_WORDS] = {NULL};
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         words[word] = schemes[word] ? gm_scheme_word(schemes[word]) : NULL;
     }
-    self->texts[0] = strdup(name);
-    self->texts[1] = lines[GM_SCHEME_WORD_TITLE].said
-                         ? gm_span_words(written->text, lines[GM_SCHEME_WORD_TITLE].value)
-                     : title ? strdup(title)
-                             : title_of(written, schemes);
-    self->texts[2] = self->texts[1] ? gm_written_word(written, self->texts[1], words) : NULL;
-    self->texts[3] = lines[GM_SCHEME_WORD_REFERENCE].said
-                         ? gm_span_words(written->text, lines[GM_SCHEME_WORD_REFERENCE].value)
-                         : strdup("brought along");
-    self->row.name = self->texts[0];
-    self->row.title = self->texts[1];
-    self->row.formula = self->row.word = self->texts[2];
-    self->row.reference = self->texts[3];
-    return (self->row.name && self->row.title && self->row.word && self->row.reference) || no_memory(making);
+    row->name = keep_text(making, strdup(name));
+    row->title = keep_text(making, own_title->said ? gm_span_words(written->text, own_title->value)
+                                   : title         ? strdup(title)
+                                                   : title_of(written, schemes));
+    row->formula = row->word = keep_text(making, gm_written_word(written, row->title, words));
+    row->reference = keep_text(making, reference->said ? gm_span_words(written->text, reference->value)
+                                                       : strdup("brought along"));
 }
 
 /* What is not said is what theory says; without theory the order is that of what it is made of. Of a scheme
    that was brought along before, and says the same, it is known. */
-static bool finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
+static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
                    const char *name, const char *title,
                    const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
 {
@@ -889,33 +757,29 @@ static bool finish(const struct making *making, const struct gm_written_scheme *
         self->exact.moved_count = making->moved->count;
         *making->moved = (struct moved){0};
     }
-    if (making->depth == 1 && !making->source->part && !tried && row->exact &&
-        !check_weights(making, written, row->exact)) {
-        return false;
+    if (making->depth == 1 && !making->source->part && !tried && row->exact) {
+        check_weights(making, written, row->exact);
     }
-    if (!tell(making, written, self, name, title, schemes)) {
-        return false;
-    }
+    tell(making, written, self, name, title, schemes);
     const struct gm_scheme *known = gm_scheme_find(name);
     if (known && known->word && strcmp(known->word, row->word) == 0) {
         row->order = known->order;
         row->claims = known->claims;
-        return true;
+        return;
     }
     struct gm_theory theory = {.known = false};
     if (row->exact && !tried && (written->order == 0 || !lines[GM_SCHEME_WORD_CLAIMS].said)) {
         theory = gm_theory_of(row->exact);
-        if (!theory.known) {
-            return no_memory(making);
-        }
+        opened(making, theory.known);
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known; word++) {
         theory.order = schemes[word] && theory.order == 0 ? schemes[word]->order : theory.order;
     }
     row->order = written->order > 0 ? written->order : theory.order > 0 ? theory.order : 1;
     row->claims = (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
-    return !lines[GM_SCHEME_WORD_CLAIMS].said ||
-           read_claims(making, &lines[GM_SCHEME_WORD_CLAIMS], &row->claims);
+    if (lines[GM_SCHEME_WORD_CLAIMS].said) {
+        read_claims(making, &lines[GM_SCHEME_WORD_CLAIMS], &row->claims);
+    }
 }
 
 static struct own *make_written(const struct making *making, const struct gm_written_scheme *written,
@@ -924,15 +788,13 @@ static struct own *make_written(const struct making *making, const struct gm_wri
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
     const struct gm_scheme *schemes[GM_SCHEME_WORDS] = {NULL};
-    struct own *made = NULL, *own = NULL;
-    bool good = true;
-    for (size_t i = 0; good && i < GM_COUNT(of_schemes); i++) {
+    struct own *own = NULL;
+    for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
         const struct gm_written_line *line = &written->lines[of_schemes[i]];
-        schemes[of_schemes[i]] = line->said ? scheme_of(making, line, &made) : NULL;
-        good = !line->said || schemes[of_schemes[i]];
+        schemes[of_schemes[i]] = line->said ? scheme_of(making, line) : NULL;
     }
     const struct gm_scheme *base = schemes[GM_SCHEME_WORD_BASE];
-    switch (good ? written->kind : GM_WRITTEN_KINDS) {
+    switch (written->kind) {
     case GM_WRITTEN_RUNGE_KUTTA:
     case GM_WRITTEN_EXPLICIT:
         own = make_runge_kutta(making, written);
@@ -951,7 +813,7 @@ static struct own *make_written(const struct making *making, const struct gm_wri
         break;
     case GM_WRITTEN_PROCESSED:
         own = make_processed(making, written, schemes[GM_SCHEME_WORD_KERNEL],
-                             schemes[GM_SCHEME_WORD_PROCESSOR], &made);
+                             schemes[GM_SCHEME_WORD_PROCESSOR]);
         break;
     case GM_WRITTEN_ADJOINT:
         own = adjoint_of(making, base, written->lines[GM_SCHEME_WORD_BASE].value.begin);
@@ -959,49 +821,43 @@ static struct own *make_written(const struct making *making, const struct gm_wri
     case GM_WRITTEN_KINDS:
         break;
     }
-    if (!own) {
-        close_all(made);
-        return NULL;
-    }
-    struct own **end = &own->made;
-    while (*end) {
-        end = &(*end)->next;
-    }
-    *end = made;
-    if (!finish(making, written, own, name, title, schemes)) {
-        close_user(own);
-        own = NULL;
-    }
+    finish(making, written, own, name, title, schemes);
     return own;
 }
 
 static struct own *make(const struct making *making, struct gm_span span, const char *name, const char *title)
 {
+    const struct gm_user_scheme_source *source = making->source;
     struct making inner = *making;
-    struct own *self = NULL;
     if (++inner.depth > DEEPEST) {
-        return fail(making, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
+        fail(making, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
     }
-    struct gm_written_scheme *written = malloc(sizeof *written);
-    if (!written) {
-        return no_memory(making);
-    }
-    if (gm_written_open(written, making->source->text, span.begin, span.end, making->source->decimals,
-                        making->fault)) {
-        self = make_written(&inner, written, name, title);
-    }
-    gm_written_close(written);
-    free(written);
-    return self;
+    struct gm_written_scheme *written = gm_arena_take(making->arena, 1, sizeof *written);
+    gm_arena_keep(making->arena, written, close_written);
+    opened(making,
+           gm_written_open(written, source->text, span.begin, span.end, source->decimals, making->fault));
+    return make_written(&inner, written, name, title);
+}
+
+static void make_whole(struct gm_arena *arena, void *data)
+{
+    struct making *making = data;
+    const struct gm_user_scheme_source *source = making->source;
+    making->made = make(making, (struct gm_span){0, source->length}, source->name, source->title);
+    making->made->arena = arena;
 }
 
 /* `moved` may be NULL. */
 static struct own *open_source(const struct gm_user_scheme_source *source, struct moved *moved,
                                struct gm_fault *fault)
 {
-    const struct making making = {.source = source, .fault = fault, .moved = moved};
+    struct making making = {.source = source, .fault = fault, .arena = gm_arena_open(), .moved = moved};
     *fault = (struct gm_fault){0};
-    return make(&making, (struct gm_span){0, source->length}, source->name, source->title);
+    if (gm_arena_run(making.arena, make_whole, &making)) {
+        return making.made;
+    }
+    gm_arena_close(making.arena);
+    return NULL;
 }
 
 /* The coefficients of the scheme with each of its decimals moved by half a unit of its last digit; of a

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scheme of one's own: what was written becomes a row like those of the families. */
-#ifndef GM_CORE_ODE_OWN_SCHEME_H
-#define GM_CORE_ODE_OWN_SCHEME_H
+#ifndef GM_CORE_ODE_USER_SCHEME_H
+#define GM_CORE_ODE_USER_SCHEME_H
 
 #include "core/scheme.h"
 #include "core/theory/written_scheme.h"

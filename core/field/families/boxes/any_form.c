@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes: Gauss-Legendre collocation
-   in space and time (collocation.c),
+/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes, and for waves, whose state
+   is u at two levels: Gauss-Legendre collocation in space and time (collocation.c),
        r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
    S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The memory is s
    at the stages of the cells, and the stages of three steps, of which the next step's are guessed. What the form
@@ -20,7 +20,7 @@
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
-const struct gm_collocation_tableau gm_collocation_midpoint = {1, {{0.5}}, {1}, {0.5}};
+static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
 
 #define ROOT3 1.7320508075688772935
 const struct gm_collocation_tableau gm_collocation_gauss4 = {
@@ -49,7 +49,7 @@ static size_t of_level(const struct gm_collocation *work)
     return work->d * work->r * work->points;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+size_t gm_any_form_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const size_t r = ((const struct gm_collocation_tableau *)scheme->coefficients)->r,
                  d = gm_field_of(problem)->form->dimension;
@@ -101,7 +101,7 @@ static void integrate_potentials(struct gm_collocation *work)
     const struct gm_collocation_tableau *tableau = work->tableau;
     const size_t points = work->points, r = work->r, d = work->d;
     const double dx = work->problem->line.dx;
-    form->gradients(work->problem->parameters, work->low, work->gradient, r * points);
+    gm_collocation_gradients(work, work->low, work->gradient, r * points);
     for (size_t p = 0; p < form->potential_count; p++) {
         const size_t component = form->potentials[p].component, row = form->potentials[p].row;
         const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
@@ -198,8 +198,57 @@ static void settle(struct gm_collocation *work, double dt)
     memcpy(work->low, sum, of_level(work) * sizeof *sum);
 }
 
+/* The mean over the ring of both stages of v: where they differ, no slope of w moves them. */
+static void share_mean(double *stages, size_t points)
+{
+    double means[2] = {0};
+    for (size_t at = 0; at < 2 * points; at++) {
+        means[at / points] += stages[at] / (double)points;
+    }
+    for (size_t at = 0; at < 2 * points; at++) {
+        stages[at] += (means[0] + means[1]) / 2 - means[at / points];
+    }
+}
+
+/* u and v of a wave at two stages, from the two levels of its state: by the first terms of Taylor's series,
+       v = [u(t + g) - u(t)]/g - g [2 u''(t) + u''(t + g)]/6 + O(g^3),
+   then corrected so that a step leads to the other level as well as to the order of the scheme. */
+static void start_wave(struct gm_collocation *work, const double *levels)
+{
+    enum { TIMES = 2 };
+    const struct gm_problem *problem = work->problem;
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    const size_t points = work->points, count = work->r * points;
+    const double gap = levels[2 * points], *other_level = levels + points;
+    /* there are no steps before */
+    double *u = work->low, *v = u + count, *other = work->past_z[1], *second = other + count,
+           *force = second + count;
+    memset(v, 0, 2 * count * sizeof *v);
+    for (size_t k = 0; k < 2; k++) {
+        const double weight = k == 0 ? 2 : 1;
+        gm_collocation_to_stages(work, k == 0 ? levels : other_level, false, other);
+        gm_collocation_to_stages(work, k == 0 ? levels : other_level, true, second);
+        wave->slopes(problem, other, force, count);
+        for (size_t at = 0; at < count; at++) {
+            v[at] += (k == 0 ? -1 : 1) * other[at] / gap - gap * weight * (second[at] - force[at]) / 6;
+            u[at] = k == 0 ? other[at] : u[at];
+        }
+    }
+    share_mean(v, points);
+    for (int k = 0; k < TIMES; k++) {
+        struct gm_progress uncounted = {.status = GM_OK};
+        guess(work, 1);
+        if (gm_collocation_step(work, gap, &uncounted) != GM_OK) {
+            return;
+        }
+        for (size_t at = 0; at < count; at++) {
+            v[at] += (other[at] - work->high[at]) / gap;
+        }
+    }
+}
+
 /* s at the stages, once; for another dt the steps before are forgotten. */
-static enum gm_status start(const struct gm_task *task)
+enum gm_status gm_any_form_start(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     if (task->memory_out[KNOWN] > 0) {
@@ -208,10 +257,15 @@ static enum gm_status start(const struct gm_task *task)
         return GM_OK;
     }
     work->needs_newton = false;
-    gm_collocation_to_stages(work, task->y, work->low);
     gm_collocation_guess_sides(work, task->y);
-    integrate_potentials(work);
     memcpy(work->past_y[0], work->y, work->sides * work->points * sizeof(double));
+    if (gm_field_of(work->problem)->wave) {
+        start_wave(work, task->y);
+        remember(work, 1, task->memory_out);
+        return GM_OK;
+    }
+    gm_collocation_to_stages(work, task->y, false, work->low);
+    integrate_potentials(work);
     if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
         settle(work, task->dt);
     }
@@ -235,7 +289,17 @@ static void shift(double **now, double **past)
     *now = oldest;
 }
 
-static struct gm_progress advance(const struct gm_task *task)
+/* The state at the nodes; of a wave u at the level before as well, which `work->high` holds. */
+static void find_state(struct gm_collocation *work, double dt, double *state)
+{
+    gm_collocation_to_nodes(work, work->low, state);
+    if (gm_field_of(work->problem)->wave) {
+        gm_collocation_to_nodes(work, work->high, state + work->points);
+        state[2 * work->points] = -dt;
+    }
+}
+
+struct gm_progress gm_any_form_advance(const struct gm_task *task)
 {
     struct gm_collocation *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
@@ -243,7 +307,8 @@ static struct gm_progress advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         guess(work, known);
         progress.status = gm_collocation_step(work, task->dt, &progress);
-        if (progress.status == GM_OK && !gm_field_within(work->high, of_level(work), task->limit)) {
+        if (progress.status == GM_OK &&
+            !gm_field_within(work->high, work->state * work->r * work->points, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
         if (progress.status != GM_OK) {
@@ -258,131 +323,104 @@ static struct gm_progress advance(const struct gm_task *task)
         progress.done++;
     }
     remember(work, known, task->memory_out);
-    gm_collocation_to_nodes(work, work->low, task->out);
+    find_state(work, task->dt, task->out);
     return progress;
+}
+
+double gm_any_form_integral(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            const double *remembered,
+                            double (*density)(const struct gm_problem *problem, const double *s,
+                                              const double *slope))
+{
+    struct gm_collocation *work = remembered ? gm_collocation_open(problem, scheme) : NULL;
+    if (!work) {
+        return NAN;
+    }
+    const size_t count = work->r * work->points;
+    const double *stages = gm_any_form_stages(remembered);
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    gm_collocation_slopes(work, stages, work->high);
+    for (size_t at = 0; at < count; at++) {
+        for (size_t c = 0; c < work->d; c++) {
+            s[c] = stages[c * count + at];
+            slope[c] = work->high[c * count + at];
+        }
+        sum += work->tableau->b[at / work->points] * density(problem, s, slope);
+    }
+    gm_collocation_close(work);
+    return problem->line.dx * sum;
 }
 
 /* ---- the discrete multisymplectic law ---- */
 
+/* Memories before and after a step, and a state that is not looked at. */
 struct base {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    double dt;
-    struct gm_collocation *work;
-    const double *y;
-    const double *memory;
+    const struct gm_law *law;
+    double *given, *made, *state;
 };
 
 /* gm_map: s at the stages to s at those behind a step. */
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t n = base->problem->n, size = memory(base->problem, base->scheme), low = of_level(base->work);
-    double *scratch = malloc((n + 2 * size) * sizeof *scratch);
-    if (!scratch) {
+    const size_t size = of_level(base->law->work) * sizeof *to;
+    memcpy(base->given + ARRAYS, from, size);
+    if (!gm_law_step(base->law, 1, base->law->y, base->given, base->state, base->made)) {
         return false;
     }
-    double *given = scratch + n, *made = given + size;
-    memcpy(given, base->memory, size * sizeof *given);
-    memcpy(given + ARRAYS, from, low * sizeof *given);
-    const struct gm_task task = {
-        .problem = base->problem,
-        .scheme = base->scheme,
-        .dt = base->dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = base->y,
-        .out = scratch,
-        .memory = given,
-        .memory_out = made,
-        .workspace = base->work,
-    };
-    const bool good = base->scheme->family->loop(&task).status == GM_OK;
-    memcpy(to, made + ARRAYS, low * sizeof *to);
-    free(scratch);
-    return good;
-}
-
-/* From [component][stage][cell] to faces. */
-static void to_face(const struct gm_collocation *work, const double *stages, double *face)
-{
-    const size_t r = work->r, d = work->d, points = work->points;
-    for (size_t i = 0; i < points; i++) {
-        for (size_t m = 0; m < r; m++) {
-            for (size_t c = 0; c < d; c++) {
-                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
-            }
-        }
-    }
-}
-
-/* Advances a tangent from s at the stages and finds its faces. */
-static bool advance_tangent(const struct base *base, bool by_differences, const double *tangent, double *next,
-                            struct gm_faces *faces)
-{
-    struct gm_collocation *work = base->work;
-    const size_t low = of_level(work), points = work->points, d = work->d, r = work->r;
-    const bool good =
-        !by_differences || gm_differentiate(one_step, base, low, base->memory + ARRAYS, tangent, low, next);
-    struct gm_progress uncounted = {.status = GM_OK};
-    guess(work, recall(work, base->memory));
-    if (!good || gm_collocation_step(work, base->dt, &uncounted) != GM_OK ||
-        !gm_collocation_linearise(work, base->dt)) {
-        return false;
-    }
-    memcpy(work->low, tangent, low * sizeof *tangent);
-    gm_collocation_tangent(work, base->dt);
-    to_face(work, tangent, faces->lower);
-    to_face(work, by_differences ? next : work->high, faces->upper);
-    for (size_t i = 0; i <= points; i++) {
-        for (size_t j = 0; j < r; j++) {
-            double *side = faces->sides + (i * r + j) * d;
-            for (size_t c = 0; c < d; c++) {
-                side[c] = 0;
-                for (size_t a = 0; a < work->rank; a++) {
-                    side[c] +=
-                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
-                }
-            }
-        }
-    }
+    memcpy(to, base->made + ARRAYS, size);
     return true;
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *remembered, bool by_differences)
+static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
-    const struct gm_form *field = gm_field_of(problem)->form;
-    const struct gm_collocation_tableau *tableau = scheme->coefficients;
-    const size_t points = problem->line.points, r = tableau->r, d = field->dimension;
-    const struct gm_lattice cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
-    struct gm_collocation *work = gm_collocation_open(problem, scheme);
-    struct gm_faces faces[2] = {{0}};
-    double *tangent = malloc(2 * d * r * points * sizeof *tangent), residual = NAN;
-    bool good = work && tangent;
-    for (size_t t = 0; t < 2 && good; t++) {
-        good = gm_faces_open(&faces[t], field, &cells);
+    const size_t low = of_level(law->work), size = gm_any_form_memory(law->problem, law->scheme);
+    double *given = gm_arena_take(law->arena, 2 * size + law->problem->n, sizeof *given);
+    const struct base base = {law, given, given + size, given + 2 * size};
+    memcpy(given, law->memory, size * sizeof *given);
+    if (!gm_differentiate(one_step, &base, low, law->memory + ARRAYS, tangent, low, next)) {
+        gm_arena_leave(law->arena);
     }
-    const struct base base = {problem, scheme, dt, work, y, remembered};
-    for (size_t t = 0; t < 2 && good; t++) {
-        const double waves = 2 + (double)t;
-        for (size_t at = 0; at < d * r; at++) {
-            gm_tangent_start(tangent + at * points, points, waves,
-                             0.3 + 0.4 * (double)t + (double)(at / r) +
-                                 2 * M_PI * waves * tableau->c[at % r] / (double)points);
+}
+
+/* Advances tangents from s at the stages. */
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
+{
+    struct gm_collocation *work = law->work;
+    const size_t low = of_level(work), points = work->points, r = work->r;
+    double *tangents = gm_arena_take(law->arena, 4 * low, sizeof *tangents), *next = tangents + 2 * low;
+    for (size_t at = 0; at < 2 * work->d * r; at++) {
+        const size_t k = at / (work->d * r), row = at % (work->d * r);
+        const double waves = 2 + (double)k;
+        gm_tangent_start(tangents + at * points, points, waves,
+                         0.3 + 0.4 * (double)k + (double)(row / r) +
+                             2 * M_PI * waves * work->tableau->c[row % r] / (double)points);
+    }
+    for (size_t k = 0; k < 2 && law->by_differences; k++) {
+        differentiate(law, tangents + k * low, next + k * low);
+    }
+    struct gm_progress uncounted = {.status = GM_OK};
+    guess(work, recall(work, law->memory));
+    if (gm_collocation_step(work, law->dt, &uncounted) != GM_OK || !gm_collocation_linearise(work, law->dt)) {
+        gm_arena_leave(law->arena);
+    }
+    for (size_t k = 0; k < 2; k++) {
+        memcpy(work->low, tangents + k * low, low * sizeof *tangents);
+        gm_collocation_tangent(work, law->dt);
+        if (law->by_differences) {
+            memcpy(work->high, next + k * low, low * sizeof *next);
         }
-        good = advance_tangent(&base, by_differences, tangent, tangent + d * r * points, &faces[t]);
+        gm_collocation_faces(work, &faces[k]);
     }
-    if (good) {
-        residual = gm_lattice_law(field, &cells, &faces[0], &faces[1]);
-    }
-    gm_faces_close(&faces[0]);
-    gm_faces_close(&faces[1]);
-    free(tangent);
-    if (work) {
-        gm_collocation_close(work);
-    }
-    return residual;
+}
+
+double gm_any_form_law(const struct gm_law *law)
+{
+    const struct gm_collocation *work = law->work;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
+                                     law->problem->line.dx, law->dt};
+    return gm_lattice_law(law, &cells, advance_tangents);
 }
 
 #define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
@@ -395,9 +433,7 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
 static const struct gm_scheme schemes[] = {
     BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        &gm_collocation_midpoint, 2),
-    BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &gm_collocation_midpoint, 2),
+        &midpoint, 2),
     BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
         3),
@@ -410,10 +446,10 @@ const struct gm_family gm_family_any_form = {
     .title = "multisymplectic boxes of all components",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
-    .memory = memory,
-    .start = start,
+    .loop = gm_any_form_advance,
+    .memory = gm_any_form_memory,
+    .start = gm_any_form_start,
     .workspace_open = gm_collocation_open,
     .workspace_close = gm_collocation_close,
-    .form = form,
+    .form = gm_any_form_law,
 };

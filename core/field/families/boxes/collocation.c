@@ -16,7 +16,6 @@
 
 #include <complex.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -24,15 +23,10 @@
 
 /* ---- the workspace ---- */
 
-static void close_factors(struct gm_collocation_factors *factors)
+/* NULL: memory is short; while a workspace is opened, that leaves the body. */
+static double *take(const struct gm_collocation *work, size_t count)
 {
-    if (factors->opened) {
-        gm_ring_band_close(&factors->sides);
-    }
-    free(factors->cells);
-    free(factors->pivots);
-    free(factors->scales);
-    *factors = (struct gm_collocation_factors){0};
+    return gm_arena_take(work->arena, count, sizeof(double));
 }
 
 static bool open_factors(const struct gm_collocation *work, struct gm_collocation_factors *factors,
@@ -40,19 +34,13 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 {
     const size_t rows = work->stages + work->sides, columns = rows + work->sides;
     const size_t cells = shared ? 1 : work->points;
-    if (factors->opened) {
-        return true;
-    }
-    *factors = (struct gm_collocation_factors){
-        .cells = malloc(cells * rows * columns * sizeof(double)),
-        .pivots = malloc(cells * work->stages * sizeof(size_t)),
-        .scales = malloc(cells * work->sides * sizeof(double)),
-        .shared = shared,
-    };
-    factors->opened = factors->cells && factors->pivots && factors->scales &&
-                      gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
     if (!factors->opened) {
-        close_factors(factors);
+        factors->shared = shared;
+        factors->cells = take(work, cells * rows * columns);
+        factors->pivots = gm_arena_take(work->arena, cells * work->stages, sizeof *factors->pivots);
+        factors->scales = take(work, cells * work->sides);
+        factors->opened = factors->cells && factors->pivots && factors->scales &&
+                          gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
     }
     return factors->opened;
 }
@@ -60,14 +48,13 @@ static bool open_factors(const struct gm_collocation *work, struct gm_collocatio
 void gm_collocation_close(void *workspace)
 {
     struct gm_collocation *work = workspace;
-    if (work->fourier) {
-        gm_fourier_close(work->fourier);
+    struct gm_collocation_factors *const factors[] = {&work->constant, &work->newton};
+    for (size_t i = 0; i < GM_COUNT(factors); i++) {
+        if (factors[i]->opened) {
+            gm_ring_band_close(&factors[i]->sides);
+        }
     }
-    close_factors(&work->constant);
-    close_factors(&work->newton);
-    free(work->waves);
-    free(work->memory);
-    free(work);
+    gm_arena_close(work->arena);
 }
 
 /* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come first, each by itself. */
@@ -160,65 +147,103 @@ static void invert(struct gm_collocation *work)
     work->rest = round(work->rest);
 }
 
+static void close_fourier(void *fourier)
+{
+    gm_fourier_close(fourier);
+}
+
+static void open_arrays(struct gm_arena *arena, void *data)
+{
+    struct gm_collocation *work = data;
+    const size_t points = work->points, level = work->d * work->r * points;
+    const size_t stages = work->stages * points, sides = work->sides * points;
+    work->low = take(work, level);
+    work->high = take(work, level);
+    work->z = take(work, stages);
+    work->first_z = take(work, stages);
+    work->y = take(work, sides);
+    work->first_y = take(work, sides);
+    for (size_t k = 0; k < GM_COLLOCATION_PAST; k++) {
+        work->past_z[k] = take(work, stages);
+        work->past_y[k] = take(work, sides);
+    }
+    work->gradient = take(work, stages);
+    work->hessian = take(work, work->d * stages);
+    work->right = take(work, stages + sides);
+    work->scratch = take(work, sides + 2 * points);
+    work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
+    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
+    /* these a run does not do without, whose numbers would else depend on memory; those of Newton's method are many */
+    if (gm_field_of(work->problem)->form->potential_count == 0 &&
+        !open_factors(work, &work->constant, true)) {
+        gm_arena_leave(arena);
+    }
+}
+
 void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_form *form = gm_field_of(problem)->form;
-    struct gm_collocation *work = calloc(1, sizeof *work);
+    const struct gm_field *field = gm_field_of(problem);
+    const struct gm_form *form = field->form;
+    struct gm_arena *arena = gm_arena_open();
+    struct gm_collocation *work = arena ? gm_arena_take(arena, 1, sizeof *work) : NULL;
     if (!work) {
+        gm_arena_close(arena);
         return NULL;
     }
-    const size_t d = form->dimension, points = problem->line.points;
+    work->arena = arena;
     work->problem = problem;
     work->tableau = scheme->coefficients;
-    work->points = points;
-    work->d = d;
+    work->points = problem->line.points;
+    work->d = form->dimension;
+    work->state = field->wave ? 1 : work->d;
     work->r = work->tableau->r;
+    work->jump[0] = problem->line.jump;
+    for (size_t c = 0; form->jump && c < work->d; c++) {
+        work->jump[c] = form->jump[c];
+    }
     find_range(work, form);
     invert(work);
-    const size_t q = work->r * work->r;
-    work->stages = d * q;
+    work->stages = work->d * work->r * work->r;
     work->sides = work->r * work->rank;
-    struct {
-        double **array;
-        size_t numbers;
-    } arrays[] = {
-        {&work->low, d * work->r},
-        {&work->high, d * work->r},
-        {&work->z, work->stages},
-        {&work->past_z[0], work->stages},
-        {&work->past_z[1], work->stages},
-        {&work->past_z[2], work->stages},
-        {&work->first_z, work->stages},
-        {&work->gradient, work->stages},
-        {&work->hessian, d * work->stages},
-        {&work->right, work->stages + work->sides},
-        {&work->y, work->sides},
-        {&work->past_y[0], work->sides},
-        {&work->past_y[1], work->sides},
-        {&work->past_y[2], work->sides},
-        {&work->first_y, work->sides},
-        {&work->scratch, work->sides + 2},
-    };
-    size_t numbers = 0;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        numbers += arrays[i].numbers;
-    }
-    work->memory = calloc(numbers * points, sizeof(double));
-    work->waves = malloc(work->r * points * sizeof *work->waves);
-    work->fourier = gm_fourier_open(points);
-    if (!work->memory || !work->waves || !work->fourier) {
-        gm_collocation_close(work);
+    if (!gm_arena_run(arena, open_arrays, work)) {
+        gm_arena_close(arena);
         return NULL;
-    }
-    numbers = 0;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        *arrays[i].array = work->memory + numbers * points;
-        numbers += arrays[i].numbers;
     }
     return work;
 }
 
 /* ---- the equations ---- */
+
+/* grad S of s = (u, v, w) is (V', v, -w) for a wave, whose form does not state it at many points. */
+void gm_collocation_gradients(const struct gm_collocation *work, const double *s, double *gradient,
+                              size_t count)
+{
+    const struct gm_field *field = gm_field_of(work->problem);
+    if (!field->wave) {
+        field->form->gradients(work->problem->parameters, s, gradient, count);
+        return;
+    }
+    field->wave->slopes(work->problem, s, gradient, count);
+    memcpy(gradient + count, s + count, count * sizeof *s);
+    for (size_t i = 2 * count; i < 3 * count; i++) {
+        gradient[i] = -s[i];
+    }
+}
+
+static void find_hessians(const struct gm_collocation *work, const double *s, double *hessian, size_t count)
+{
+    const struct gm_field *field = gm_field_of(work->problem);
+    if (!field->wave) {
+        field->form->hessians(work->problem->parameters, s, hessian, count);
+        return;
+    }
+    memset(hessian, 0, 9 * count * sizeof *hessian);
+    for (size_t i = 0; i < count; i++) {
+        hessian[i] = field->wave->curvature(work->problem, s[i]);
+        hessian[4 * count + i] = 1;
+        hessian[8 * count + i] = -1;
+    }
+}
 
 /* to += factor from */
 GM_CLONES static void add(double *restrict to, const double *restrict from, double factor, size_t count)
@@ -255,10 +280,9 @@ static double weight_of_sides(const struct gm_collocation *work)
 
 static double jump_of(const struct gm_collocation *work, size_t a)
 {
-    const double *jump = gm_field_of(work->problem)->form->jump;
     double sum = 0;
-    for (size_t c = 0; jump && c < work->d; c++) {
-        sum += work->basis[c][a] * jump[c];
+    for (size_t c = 0; c < work->d; c++) {
+        sum += work->basis[c][a] * work->jump[c];
     }
     return sum;
 }
@@ -312,9 +336,8 @@ static void find_right(struct gm_collocation *work, double dt, bool tangent)
     }
 }
 
-/* The matrix of a cell's equations, rows as those of `right`, columns its stages, the left y, the right y. */
-static void cell_matrix(const struct gm_collocation *work, double dt, const double *hessian, size_t apart,
-                        double *matrix)
+/* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the right y. */
+static void cell_matrix(const struct gm_collocation *work, double dt, double *matrix)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t d = work->d, r = work->r, q = r * r, rank = work->rank, stages = work->stages;
@@ -330,7 +353,6 @@ static void cell_matrix(const struct gm_collocation *work, double dt, const doub
                     row[e * q + k * r + m] += form->m[c * d + e] * work->inverse[j][k] / dt;
                     row[e * q + j * r + k] += form->k[c * d + e] * work->inverse[m][k] / dx;
                 }
-                row[e * q + at] -= hessian[((c * d + e) * q + at) * apart];
             }
             for (size_t a = 0; a < rank; a++) {
                 row[stages + j * rank + a] = -work->slopes[c][a] * work->sums[m] / dx;
@@ -347,6 +369,17 @@ static void cell_matrix(const struct gm_collocation *work, double dt, const doub
                     row[c * q + j * r + l] = -weight * work->weights[l] * work->basis[c][a];
                 }
             }
+        }
+    }
+}
+
+static void subtract_hessian(const struct gm_collocation *work, const double *hessian, double *matrix)
+{
+    const size_t d = work->d, q = work->r * work->r, columns = work->stages + 2 * work->sides;
+    for (size_t row = 0; row < work->stages; row++) {
+        for (size_t e = 0; e < d; e++) {
+            matrix[row * columns + e * q + row % q] -=
+                hessian[((row / q * d + e) * q + row % q) * work->points];
         }
     }
 }
@@ -446,13 +479,19 @@ static bool factor(struct gm_collocation *work, struct gm_collocation_factors *f
     if (!open_factors(work, factors, shared)) {
         return false;
     }
+    /* what all cells have stands in the last one until it is that one's turn */
+    double *const last = factors->cells + (shared ? 0 : work->points - 1) * rows * columns;
+    cell_matrix(work, dt, last);
     gm_ring_band_clear(&factors->sides);
     factors->good = true;
     for (size_t i = 0; i < work->points && factors->good; i++) {
         const size_t place = shared ? 0 : i;
         double *matrix = factors->cells + place * rows * columns;
         if (!shared || i == 0) {
-            cell_matrix(work, dt, work->hessian + place, work->points, matrix);
+            if (matrix != last) {
+                memcpy(matrix, last, rows * columns * sizeof *last);
+            }
+            subtract_hessian(work, work->hessian + place, matrix);
             if (!shared && i + 1 == work->points) {
                 hold_potentials(work, matrix);
             }
@@ -608,7 +647,7 @@ static bool make_constant(struct gm_collocation *work, double dt)
         work->constant_dt = dt;
         /* the last cell of a potential is not as the others */
         work->constant.good = form->potential_count == 0;
-        form->hessians(work->problem->parameters, zero, hessian, 1);
+        find_hessians(work, zero, hessian, 1);
         for (size_t i = 0; i < d * d; i++) {
             work->constant.good &= isfinite(hessian[i]);
             for (size_t at = 0; at < q; at++) {
@@ -620,14 +659,18 @@ static bool make_constant(struct gm_collocation *work, double dt)
     return work->constant.good;
 }
 
+static void add_changes(struct gm_collocation *work)
+{
+    add(work->z, work->right, 1, work->stages * work->points);
+    add(work->y, work->right + work->stages * work->points, 1, work->sides * work->points);
+}
+
 /* One iteration; the largest change of a stage, NAN where one is not finite. */
 static double iterate(struct gm_collocation *work, double dt, bool newton, bool anew, double *left,
                       struct gm_progress *progress)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t points = work->points, q = work->r * work->r;
-    const void *parameters = work->problem->parameters;
-    form->gradients(parameters, work->z, work->gradient, q * points);
+    gm_collocation_gradients(work, work->z, work->gradient, q * points);
     find_right(work, dt, false);
     progress->evaluations++;
     progress->iterations++;
@@ -637,7 +680,7 @@ static double iterate(struct gm_collocation *work, double dt, bool newton, bool 
     }
     if (newton) {
         if (anew) {
-            form->hessians(parameters, work->z, work->hessian, q * points);
+            find_hessians(work, work->z, work->hessian, q * points);
             if (!factor(work, &work->newton, false, dt)) {
                 return NAN;
             }
@@ -646,8 +689,7 @@ static double iterate(struct gm_collocation *work, double dt, bool newton, bool 
     } else {
         solve_shared(work, &work->constant);
     }
-    add(work->z, work->right, 1, work->stages * points);
-    add(work->y, work->right + work->stages * points, 1, work->sides * points);
+    add_changes(work);
     return largest(work->right, work->stages * points);
 }
 
@@ -683,10 +725,24 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
     return GM_NO_CONVERGENCE;
 }
 
+/* s behind the step, from that before and the stages */
+static void find_high(struct gm_collocation *work)
+{
+    const size_t points = work->points, r = work->r;
+    for (size_t at = 0; at < work->d * r; at++) {
+        double *high = work->high + at * points;
+        memset(high, 0, points * sizeof *high);
+        add(high, work->low + at * points, work->rest, points);
+        for (size_t k = 0; k < r; k++) {
+            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
+        }
+    }
+}
+
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress)
 {
-    const size_t points = work->points, r = work->r, z_size = work->stages * points * sizeof(double),
-                 y_size = work->sides * points * sizeof(double);
+    const size_t z_size = work->stages * work->points * sizeof(double),
+                 y_size = work->sides * work->points * sizeof(double);
     enum gm_status status = GM_NO_CONVERGENCE;
     if (!work->needs_newton && make_constant(work, dt)) {
         memcpy(work->first_z, work->z, z_size);
@@ -701,31 +757,22 @@ enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struc
         work->needs_newton = true;
         status = solve(work, dt, true, progress);
     }
-    for (size_t at = 0; at < work->d * r && status == GM_OK; at++) {
-        const double *low = work->low + at * points;
-        double *high = work->high + at * points;
-        memset(high, 0, points * sizeof *high);
-        add(high, low, work->rest, points);
-        for (size_t k = 0; k < r; k++) {
-            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
-        }
-    }
+    find_high(work);
     return status;
 }
 
 bool gm_collocation_linearise(struct gm_collocation *work, double dt)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    form->hessians(work->problem->parameters, work->z, work->hessian, work->r * work->r * work->points);
+    find_hessians(work, work->z, work->hessian, work->r * work->r * work->points);
     return factor(work, &work->newton, false, dt);
 }
 
 void gm_collocation_tangent(struct gm_collocation *work, double dt)
 {
-    const size_t points = work->points, r = work->r, q = r * r, d = work->d, count = q * points;
-    memset(work->z, 0, work->stages * points * sizeof(double));
-    memset(work->y, 0, work->sides * points * sizeof(double));
-    for (int again = 0; again < 3; again++) {
+    const size_t d = work->d, count = work->r * work->r * work->points;
+    memset(work->z, 0, work->stages * work->points * sizeof(double));
+    memset(work->y, 0, work->sides * work->points * sizeof(double));
+    for (int again = 0; again < 2; again++) {
         /* solved again for what rounding leaves */
         for (size_t c = 0; c < d; c++) {
             double *gradient = work->gradient + c * count;
@@ -739,31 +786,48 @@ void gm_collocation_tangent(struct gm_collocation *work, double dt)
         }
         find_right(work, dt, true);
         solve_each(work, &work->newton);
-        add(work->z, work->right, 1, work->stages * points);
-        add(work->y, work->right + work->stages * points, 1, work->sides * points);
+        add_changes(work);
     }
-    for (size_t at = 0; at < d * r; at++) {
-        double *high = work->high + at * points;
-        memset(high, 0, points * sizeof *high);
-        add(high, work->low + at * points, work->rest, points);
-        for (size_t k = 0; k < r; k++) {
-            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
+    find_high(work);
+}
+
+/* From [component][stage][cell] to a face. */
+static void to_face(const struct gm_collocation *work, const double *stages, double *face)
+{
+    const size_t r = work->r, d = work->d, points = work->points;
+    for (size_t i = 0; i < points; i++) {
+        for (size_t m = 0; m < r; m++) {
+            for (size_t c = 0; c < d; c++) {
+                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
+            }
+        }
+    }
+}
+
+void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces)
+{
+    const size_t points = work->points, d = work->d, r = work->r;
+    to_face(work, work->low, faces->lower);
+    to_face(work, work->high, faces->upper);
+    for (size_t i = 0; i <= points; i++) {
+        for (size_t j = 0; j < r; j++) {
+            double *side = faces->sides + (i * r + j) * d;
+            for (size_t c = 0; c < d; c++) {
+                for (size_t a = 0; a < work->rank; a++) {
+                    side[c] +=
+                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
+                }
+            }
         }
     }
 }
 
 /* ---- nodes and stages ---- */
 
-static double jump_at(const struct gm_collocation *work, size_t c)
-{
-    const double *jump = gm_field_of(work->problem)->form->jump;
-    return jump ? jump[c] : 0;
-}
-
 /* s - jump x / length is periodic; that of a place `part` of a cell behind node i. */
 static double slant(const struct gm_collocation *work, size_t c, size_t i, double part)
 {
-    return jump_at(work, c) * ((double)i + part) / (double)work->points;
+    return work->jump[c] * ((double)i + part) / (double)work->points;
 }
 
 static double angle_of(size_t mode, size_t points)
@@ -776,7 +840,7 @@ void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes
 {
     memset(work->y, 0, work->sides * work->points * sizeof(double));
     for (size_t at = 0; at < work->sides; at++) {
-        for (size_t c = 0; c < work->d; c++) {
+        for (size_t c = 0; c < work->state; c++) {
             add(work->y + at * work->points, nodes + c * work->points, work->basis[c][at % work->rank],
                 work->points);
         }
@@ -784,32 +848,31 @@ void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes
 }
 
 /* One stage is the mean of both ends of a cell; of several the wave through the nodes has its values. */
-void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages)
+void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, bool second, double *stages)
 {
     const size_t points = work->points, r = work->r;
-    for (size_t c = 0; c < work->d; c++) {
-        const double *from = nodes + c * points;
-        double *to = stages + c * r * points;
+    for (size_t at = 0; at < work->state * r; at++) {
+        const size_t c = at / r;
+        const double *from = nodes + c * points, part = work->tableau->c[at % r];
+        double *to = stages + at * points;
         if (r == 1) {
             for (size_t i = 0; i < points; i++) {
-                to[i] = (from[i] + (i + 1 < points ? from[i + 1] : from[0] + jump_at(work, c))) / 2;
+                to[i] = (from[i] + (i + 1 < points ? from[i + 1] : from[0] + work->jump[c])) / 2;
             }
             continue;
         }
-        for (size_t m = 0; m < r; m++) {
-            const double part = work->tableau->c[m];
-            for (size_t i = 0; i < points; i++) {
-                work->waves[i] = from[i] - slant(work, c, i, 0);
-            }
-            gm_fourier_forward(work->fourier, work->waves);
-            for (size_t mode = 0; mode < points; mode++) {
-                work->waves[mode] *=
-                    2 * mode == points ? cos(M_PI * part) : cexp(I * angle_of(mode, points) * part);
-            }
-            gm_fourier_inverse(work->fourier, work->waves);
-            for (size_t i = 0; i < points; i++) {
-                to[m * points + i] = creal(work->waves[i]) + slant(work, c, i, part);
-            }
+        for (size_t i = 0; i < points; i++) {
+            work->waves[i] = from[i] - slant(work, c, i, 0);
+        }
+        gm_fourier_forward(work->fourier, work->waves);
+        for (size_t mode = 0; mode < points; mode++) {
+            const double angle = angle_of(mode, points), slope = angle / work->problem->line.dx;
+            work->waves[mode] *= 2 * mode == points ? cos(M_PI * part) : cexp(I * angle * part);
+            work->waves[mode] *= second ? -slope * slope : 1;
+        }
+        gm_fourier_inverse(work->fourier, work->waves);
+        for (size_t i = 0; i < points; i++) {
+            to[i] = creal(work->waves[i]) + (second ? 0 : slant(work, c, i, part));
         }
     }
 }
@@ -877,7 +940,7 @@ static void combine(struct gm_collocation *work, const double *stages, double *v
                     void (*weigh)(const struct gm_collocation *work, size_t mode, double complex *weights))
 {
     const size_t points = work->points, r = work->r;
-    for (size_t c = 0; c < work->d; c++) {
+    for (size_t c = 0; c < work->state; c++) {
         const double *from = stages + c * r * points;
         for (size_t m = 0; m < r; m++) {
             double complex *waves = work->waves + m * points;
@@ -912,7 +975,7 @@ void gm_collocation_slopes(struct gm_collocation *work, const double *stages, do
     const double over = 1 / work->problem->line.dx;
     double *sides = work->gradient;
     combine(work, stages, sides, side_weights);
-    for (size_t at = 0; at < work->d * r; at++) {
+    for (size_t at = 0; at < work->state * r; at++) {
         double *slope = slopes + at * points;
         memset(slope, 0, points * sizeof *slope);
         add(slope, sides + at / r * points, -over * work->sums[at % r], points);

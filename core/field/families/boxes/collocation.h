@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of Gauss-Legendre collocation in space and time for any M s_t + K s_x = grad S(s) whose state is s. */
+/* A step of Gauss-Legendre collocation in space and time for any M s_t + K s_x = grad S(s) whose state is s, or u of a
+   wave's s = (u, v, w). */
 #ifndef GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 #define GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 
-#include "core/field/field.h"
+#include "core/arena.h"
+#include "core/field/multisymplectic.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
 #include "core/linear/ring_blocks.h"
@@ -15,8 +17,6 @@ struct gm_collocation_tableau {
     double a[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES], b[GM_COLLOCATION_STAGES],
         c[GM_COLLOCATION_STAGES];
 };
-
-extern const struct gm_collocation_tableau gm_collocation_midpoint, gm_collocation_gauss4; /* any_form.c */
 
 /* Where the equations of a step are linear: the equations of a cell solved for its stages, as factors, and
    those between the sides of cells. The cells have the same where the coefficients are constant. */
@@ -35,8 +35,10 @@ struct gm_collocation_factors {
 struct gm_collocation {
     const struct gm_problem *problem;
     const struct gm_collocation_tableau *tableau;
-    size_t points, d, r, rank; /* of K */
-    size_t stages, sides;      /* numbers of a cell: d r r and r rank */
+    size_t points, d, r, rank;    /* of K */
+    size_t state;                 /* components that the state has at the nodes: all, or u of a wave */
+    size_t stages, sides;         /* numbers of a cell: d r r and r rank */
+    double jump[GM_MOST_OF_FORM]; /* s(x + the ring) - s(x) */
     double basis[GM_MOST_OF_FORM]
                 [GM_MOST_OF_FORM]; /* [component][k], k < rank: of the range of K, orthonormal */
     double slopes[GM_MOST_OF_FORM][GM_MOST_OF_FORM]; /* K basis */
@@ -55,9 +57,9 @@ struct gm_collocation {
     struct gm_fourier *fourier;
     struct gm_collocation_factors constant, newton; /* S'' at s = 0; at z */
     double constant_dt;                             /* 0: `constant` is not made */
-    bool needs_newton; /* `constant` did not serve a step; for steps of their own memory */
-    double *scratch;   /* [side], and two more */
-    double *memory;
+    bool needs_newton;      /* `constant` did not serve a step; for steps of their own memory */
+    double *scratch;        /* [side], and two more */
+    struct gm_arena *arena; /* of all of it */
 };
 
 /* As the family's workspace; NULL when memory is short. */
@@ -67,13 +69,20 @@ void gm_collocation_close(void *workspace);
 /* One step from `low` to `high`, with the guess in z and y, which become the solution. GM_NO_CONVERGENCE. */
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress);
 
-/* Makes the equations of a tangent at z; then from `low` of a tangent to `high`, z and y of it. False where
-   they are singular, or memory is short. */
+/* Linearises the equations at z, for steps of tangents from `low` to `high`, z and y. False where they are
+   singular, or memory is short. */
 bool gm_collocation_linearise(struct gm_collocation *work, double dt);
 void gm_collocation_tangent(struct gm_collocation *work, double dt);
+/* Fills in the faces of such a step. */
+void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *faces);
 
-/* Values at the nodes, [component * points + node], to those at the stages of cells, and back. */
-void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages);
+/* grad S at `count` points, [component * count + point]. */
+void gm_collocation_gradients(const struct gm_collocation *work, const double *s, double *gradient,
+                              size_t count);
+
+/* The components of the state. Values at the nodes, [component * points + node], to those at the stages of cells, or
+   to their second derivatives there, where a cell has several; and back. */
+void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, bool second, double *stages);
 void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes);
 /* The slopes of values at the stages, there. */
 void gm_collocation_slopes(struct gm_collocation *work, const double *stages, double *slopes);

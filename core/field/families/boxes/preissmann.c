@@ -16,6 +16,7 @@
    is that of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least one, maybe several,
    beyond. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -187,22 +188,21 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     }
     struct gm_two_step_work *work = gm_two_step_open(problem, scheme);
     if (work && !gm_ring_newton_open(&work->newton, work->points, 1, 1)) {
-        gm_two_step_close(work);
+        free(work);
         return NULL;
     }
     return work;
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences)
+static double form(const struct gm_law *law)
 {
-    return is_wave(problem) ? gm_wave_form(problem, scheme, dt, y, memory, by_differences)
-                            : gm_dispersive_form(problem, scheme, dt, y, by_differences);
+    return is_wave(law->problem) ? gm_wave_form(law) : gm_dispersive_form(law);
 }
 
 static const struct gm_scheme schemes[] = {
     {
         .name = "box",
+        .alias = {"gauss-box2", "gauss-box"},
         .title = "box",
         .formula = "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         .reference = "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "

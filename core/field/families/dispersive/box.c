@@ -18,10 +18,10 @@
 #include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
-/* Arrays of real parts, each followed by its imaginary parts; the first member is the one that closes. */
+/* Arrays of real parts, each followed by its imaginary parts, behind the work. */
 static double *array(const struct gm_two_step_work *work, size_t which)
 {
-    return work->memory + 2 * which * work->points;
+    return (double *)(void *)(work + 1) + 2 * which * work->points;
 }
 
 enum { NOW, NEXT, RIGHT, MEAN, FORCE, GUESS, SLOPES, ARRAYS = SLOPES + 2 };
@@ -33,22 +33,17 @@ static size_t parts_of(const struct gm_dispersive *equation)
 
 void *gm_dispersive_open(const struct gm_problem *problem)
 {
-    struct gm_two_step_work *work = calloc(1, sizeof *work);
-    double *memory = calloc(2 * ARRAYS * problem->line.points, sizeof *memory);
-    if (!work || !memory) {
-        free(work);
-        free(memory);
-        return NULL;
-    }
-    work->points = problem->line.points;
-    work->memory = memory;
+    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
+    const size_t points = problem->line.points;
+    struct gm_two_step_work *work = calloc(1, sizeof *work + 2 * ARRAYS * points * sizeof(double));
     /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
        on both sides, or one point more on the right. */
-    if (!gm_ring_newton_open(&work->newton, work->points, parts_of(gm_field_of(problem)->dispersive),
-                             (size_t)gm_field_of(problem)->dispersive->power - 1)) {
-        gm_two_step_close(work);
+    if (!work ||
+        !gm_ring_newton_open(&work->newton, points, parts_of(equation), (size_t)equation->power - 1)) {
+        free(work);
         return NULL;
     }
+    work->points = points;
     return work;
 }
 

@@ -2,16 +2,13 @@
 #ifndef GM_CORE_FIELD_FAMILIES_DISPERSIVE_FORM_H
 #define GM_CORE_FIELD_FAMILIES_DISPERSIVE_FORM_H
 
-#include "core/field/field.h"
 #include "core/field/multisymplectic.h"
 
 /* gm_family.form of the box for equations of first order in time. */
-double gm_dispersive_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                          const double *y, bool by_differences);
+double gm_dispersive_form(const struct gm_law *law);
 
 /* gm_family.form of the schemes of nodes. */
-double gm_nodes_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const double *y, const double *memory, bool by_differences);
+double gm_nodes_form(const struct gm_law *law);
 
 /* What the next step of the box leaves of a local law in every cell,
        energy     [V(b) - V(a) - (b - a) V'((a + b)/2)] / dt    from a = A_x f^n to b = A_x f^{n+1}

@@ -11,7 +11,6 @@
    Nonlinear Schroedinger: schroedinger_nodes.c has its Euler box, and here is the law of both.
    B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -129,13 +128,11 @@ static const struct gm_two_step_row kdv_rows[] = {
    with centred differences for the midpoint scheme. phi of every level is free up to a constant, which its
    differences do not see; the tangents have no mean, so that it is periodic. */
 
+/* A solution, u or Schroedinger's p^{n-1} and q^n, and the states of a step aside. */
 struct base {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    double dt;
-    bool centred;
-    void *work;
-    const double *past, *now; /* of Schroedinger's equation p^{n-1} and q^n */
+    const struct gm_law *law; /* ahead in time */
+    bool kdv, centred;
+    double *past, *now, *before, *after;
 };
 
 /* A tangent at three levels: u and phi, or of Schroedinger's equation p, p, - and -, q, q. */
@@ -148,42 +145,31 @@ struct tangent {
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t points = base->problem->line.points, size = gm_wave_size(points);
-    double *y = malloc(2 * size * sizeof *y);
-    if (!y) {
-        return false;
-    }
-    memcpy(y, from, 2 * points * sizeof *y);
-    y[2 * points] = -base->dt;
-    const struct gm_task task = {
-        .problem = base->problem,
-        .scheme = base->scheme,
-        .dt = base->dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = y,
-        .out = y + size,
-        .workspace = base->work,
-    };
-    const bool good = base->scheme->family->loop(&task).status == GM_OK;
-    memcpy(to, task.out,
-           (gm_field_of(base->problem)->equation == GM_NEEDS_KDV ? 1 : 2) * points * sizeof *to);
-    free(y);
+    const size_t points = base->law->problem->line.points;
+    memcpy(base->before, from, 2 * points * sizeof *to);
+    base->before[2 * points] = -base->law->dt;
+    const bool good = gm_law_step(base->law, 1, base->before, NULL, base->after, NULL);
+    memcpy(to, base->after, (base->kdv ? 1 : 2) * points * sizeof *to);
     return good;
 }
 
-/* `direction` and `slope` have two arrays each, as one_step has. */
-static bool by_own_steps(const struct base *base, const double *from, const double *direction, double *slope)
+/* What a step makes of the two arrays of `direction`, as one_step has them. */
+static void by_own_steps(const struct base *base, const double *first, const double *second,
+                         const double *direction, double *slope)
 {
-    const size_t points = base->problem->line.points;
-    return gm_differentiate(one_step, base, 2 * points, from, direction,
-                            (gm_field_of(base->problem)->equation == GM_NEEDS_KDV ? 1 : 2) * points, slope);
+    const size_t points = base->law->problem->line.points;
+    double *from = gm_arena_take(base->law->arena, 2 * points, sizeof *from);
+    memcpy(from, first, points * sizeof *from);
+    memcpy(from + points, second, points * sizeof *from);
+    if (!gm_differentiate(one_step, base, 2 * points, from, direction, (base->kdv ? 1 : 2) * points, slope)) {
+        gm_arena_leave(base->law->arena);
+    }
 }
 
 /* phi from D u = ..., around the ring, or both rings of every other node. */
 static void integrate(const struct base *base, const double *u, double *phi)
 {
-    const struct gm_grid1 *grid = &base->problem->line;
+    const struct gm_grid1 *grid = &base->law->problem->line;
     const size_t points = grid->points, stride = base->centred ? 2 : 1;
     const size_t rings = base->centred && points % 2 == 0 ? 2 : 1;
     for (size_t ring = 0; ring < rings; ring++) {
@@ -197,44 +183,34 @@ static void integrate(const struct base *base, const double *u, double *phi)
     }
 }
 
-static bool advance_kdv(const struct base *base, bool by_differences, double phase, double waves,
-                        const struct tangent *a)
+static void advance_kdv(const struct base *base, double phase, double waves, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points, size = points * sizeof(double);
+    const size_t points = base->law->problem->line.points;
     double *const *u = a->first, *const *phi = a->second;
-    bool good = true;
     gm_tangent_start(u[0], points, waves, phase);
     gm_tangent_start(u[1], points, waves, 2 * phase - M_PI / 2);
-    if (by_differences) {
-        double *from = malloc(4 * size);
-        good = from != NULL;
-        if (good) {
-            double *direction = from + 2 * points;
-            memcpy(from, base->now, size);
-            memcpy(from + points, base->past, size);
-            memcpy(direction, u[1], size);
-            memcpy(direction + points, u[0], size);
-            good = by_own_steps(base, from, direction, u[2]);
-        }
-        free(from);
+    if (base->law->by_differences) {
+        double *direction = gm_arena_take(base->law->arena, 2 * points, sizeof *direction);
+        memcpy(direction, u[1], points * sizeof *direction);
+        memcpy(direction + points, u[0], points * sizeof *direction);
+        by_own_steps(base, base->now, base->past, direction, u[2]);
     } else {
-        kdv_nodes_step(base->problem, base->centred, base->dt, base->now, u[0], u[1], u[2], phi[0]);
+        kdv_nodes_step(base->law->problem, base->centred, base->law->dt, base->now, u[0], u[1], u[2], phi[0]);
     }
     for (size_t n = 0; n < 3; n++) {
         integrate(base, u[n], phi[n]);
     }
-    return good;
 }
 
 static void complete_kdv(const void *tangent, size_t node, double *levels)
 {
     enum { PHI, U, V, W, DIMENSION };
     const struct tangent *a = tangent;
-    const struct gm_problem *problem = a->base->problem;
+    const struct gm_problem *problem = a->base->law->problem;
     const struct gm_kdv *kdv = gm_kdv_of(problem);
     const bool centred = a->base->centred;
     const size_t points = problem->line.points, r = (node + 1) % points, l = (node + points - 1) % points;
-    const double dx = problem->line.dx, dt = a->base->dt;
+    const double dx = problem->line.dx, dt = a->base->law->dt;
     const double *u = a->first[1];
     for (size_t n = 0; n < 3; n++) {
         levels[n * DIMENSION + PHI] = a->second[n][node];
@@ -250,40 +226,35 @@ static void complete_kdv(const void *tangent, size_t node, double *levels)
         rise / ((centred ? 4 : 2) * dt) + kdv->mu * bend + kdv->eta * a->base->now[node] * u[node];
 }
 
-static bool advance_nls(const struct base *base, bool by_differences, double phase, double waves,
-                        const struct tangent *a)
+static void advance_nls(const struct base *base, double phase, double waves, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points, size = points * sizeof(double);
-    double *memory = malloc(6 * size);
-    if (!memory) {
-        return false;
-    }
-    double *from = memory, *direction = memory + 2 * points, *made = memory + 4 * points;
+    const size_t points = base->law->problem->line.points, size = points * sizeof(double);
+    double *direction = gm_arena_take(base->law->arena, 6 * points, sizeof *direction);
+    double *from = direction + 2 * points, *made = direction + 4 * points;
     memcpy(from, base->past, size);
     memcpy(from + points, base->now, size);
     gm_tangent_start(direction, points, waves, phase);
     gm_tangent_start(direction + points, points, waves, phase + 1);
     memcpy(a->first[0], direction, size);
     memcpy(a->second[1], direction + points, size);
-    bool good = one_step(base, from, made); /* p^n comes first */
-    if (good && by_differences) {
-        good = by_own_steps(base, from, direction, made);
+    if (base->law->by_differences) {
+        by_own_steps(base, base->past, base->now, direction, made);
         memcpy(direction, made, 2 * size);
-    } else if (good) {
-        nls_nodes_tangent(base->problem, base->dt, made, base->now, direction, direction + points);
+    } else if (one_step(base, from, made)) { /* p^n comes first */
+        nls_nodes_tangent(base->law->problem, base->law->dt, made, base->now, direction, direction + points);
+    } else {
+        gm_arena_leave(base->law->arena);
     }
     memcpy(a->first[1], direction, size);
     memcpy(a->second[2], direction + points, size);
-    free(memory);
-    return good;
 }
 
 static void complete_nls(const void *tangent, size_t node, double *levels)
 {
     enum { P, Q, V, W, DIMENSION };
     const struct tangent *a = tangent;
-    const size_t points = a->base->problem->line.points, l = (node + points - 1) % points;
-    const double dx = a->base->problem->line.dx, *p = a->first[1], *q = a->second[1];
+    const size_t points = a->base->law->problem->line.points, l = (node + points - 1) % points;
+    const double dx = a->base->law->problem->line.dx, *p = a->first[1], *q = a->second[1];
     memset(levels, 0, 3 * DIMENSION * sizeof *levels);
     levels[P] = a->first[0][node];
     levels[DIMENSION + P] = p[node];
@@ -303,58 +274,44 @@ static void mirror(double *u, size_t points)
     }
 }
 
-double gm_nodes_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const double *y, const double *memory, bool by_differences)
+double gm_nodes_form(const struct gm_law *law)
 {
-    (void)memory;
-    enum { ARRAYS = 14 };
-    const size_t points = problem->line.points, size = points * sizeof *y;
+    const struct gm_problem *problem = law->problem;
+    const size_t points = problem->line.points, size = points * sizeof(double);
     const bool kdv = gm_field_of(problem)->equation == GM_NEEDS_KDV;
-    const struct gm_two_step_row *row = scheme->coefficients;
-    if (kdv && fabs(y[2 * points]) != fabs(dt)) {
+    const bool has_past = kdv && law->y[2 * points] == -law->dt;
+    const struct gm_two_step_row *row = law->scheme->coefficients;
+    if (kdv && fabs(law->y[2 * points]) != fabs(law->dt)) {
         return NAN; /* no level of the scheme lies before or after */
     }
-    double *arrays = calloc(ARRAYS, size), residual = NAN;
-    struct base base = {
-        .problem = problem,
-        .scheme = scheme,
-        .dt = kdv ? fabs(dt) : dt,
+    struct gm_law ahead = *law;
+    ahead.dt = kdv ? fabs(law->dt) : law->dt;
+    double *past = gm_arena_take(law->arena, 14 * points + 2 * gm_wave_size(points), sizeof *past);
+    double *now = past + points, *levels = past + 2 * points, *before = past + 14 * points;
+    const struct base base = {
+        .law = &ahead,
+        .kdv = kdv,
         .centred = kdv && row->law == GM_LAW_CENTRED,
-        .work = scheme->family->workspace_open(problem, scheme),
+        .past = past,
+        .now = now,
+        .before = before,
+        .after = before + gm_wave_size(points),
     };
-    if (arrays && base.work) {
-        struct tangent tangents[2] = {{.base = &base}, {.base = &base}};
-        for (size_t t = 0; t < 2; t++) {
-            for (size_t k = 0; k < 3; k++) {
-                tangents[t].first[k] = arrays + (2 + 2 * k + t) * points;
-                tangents[t].second[k] = arrays + (8 + 2 * k + t) * points;
-            }
-        }
-        double *past = arrays, *now = arrays + points;
-        const bool ahead = kdv && y[2 * points] == -dt;
-        memcpy(past, ahead ? y + points : y, size);
-        memcpy(now, ahead ? y : y + points, size);
-        if (kdv && dt < 0) {
-            mirror(past, points);
-            mirror(now, points);
-        }
-        base.past = past;
-        base.now = now;
-        bool good = true;
-        for (size_t t = 0; good && t < 2; t++) {
-            const double waves = 2 + (double)t, phase = 0.3 + 0.4 * (double)t;
-            good = (kdv ? advance_kdv : advance_nls)(&base, by_differences, phase, waves, &tangents[t]);
-        }
-        if (good) {
-            residual = gm_nodes_law(gm_field_of(problem)->form, base.centred, points, problem->line.dx,
-                                    base.dt, kdv ? complete_kdv : complete_nls, &tangents[0], &tangents[1]);
-        }
+    memcpy(past, has_past ? law->y + points : law->y, size);
+    memcpy(now, has_past ? law->y : law->y + points, size);
+    if (kdv && law->dt < 0) {
+        mirror(past, points);
+        mirror(now, points);
     }
-    if (base.work) {
-        scheme->family->workspace_close(base.work);
+    struct tangent tangents[2] = {{.base = &base}, {.base = &base}};
+    for (size_t t = 0; t < 2; t++) {
+        for (size_t k = 0; k < 3; k++) {
+            tangents[t].first[k] = levels + (2 * k + t) * points;
+            tangents[t].second[k] = levels + (6 + 2 * k + t) * points;
+        }
+        (kdv ? advance_kdv : advance_nls)(&base, 0.3 + 0.4 * (double)t, 2 + (double)t, &tangents[t]);
     }
-    free(arrays);
-    return residual;
+    return gm_nodes_law(&ahead, base.centred, kdv ? complete_kdv : complete_nls, &tangents[0], &tangents[1]);
 }
 
 static const struct gm_scheme schemes[] = {

@@ -27,15 +27,12 @@ struct work {
     double complex *modes, *turn, *square, *stage, *rate[4];
     double *number; /* k; 0 of the mode that alternates */
     double *level[2];
-    void *memory;
 };
 
 static void workspace_close(void *workspace)
 {
-    struct work *work = workspace;
-    gm_fourier_close(work->fourier);
-    free(work->memory);
-    free(work);
+    gm_fourier_close(((struct work *)workspace)->fourier);
+    free(workspace);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -43,23 +40,21 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     (void)scheme;
     enum { COMPLEX = 8, REAL = 3 };
     const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
+    struct work *work =
+        calloc(1, sizeof *work + points * (COMPLEX * sizeof(double complex) + REAL * sizeof(double)));
+    struct gm_fourier *fourier = work ? gm_fourier_open(points) : NULL;
+    if (!fourier) {
+        free(work);
         return NULL;
     }
-    work->points = points;
-    work->memory = calloc(points, COMPLEX * sizeof(double complex) + REAL * sizeof(double));
-    work->fourier = gm_fourier_open(points);
-    if (!work->memory || !work->fourier) {
-        workspace_close(work);
-        return NULL;
-    }
-    double complex *next = work->memory;
+    double complex *next = (double complex *)(void *)(work + 1);
     double complex **const arrays[] = {&work->modes,   &work->turn,    &work->square,  &work->stage,
                                        &work->rate[0], &work->rate[1], &work->rate[2], &work->rate[3]};
     for (size_t i = 0; i < COMPLEX; i++, next += points) {
         *arrays[i] = next;
     }
+    work->points = points;
+    work->fourier = fourier;
     work->number = (double *)next;
     work->level[0] = work->number + points;
     work->level[1] = work->level[0] + points;

@@ -23,27 +23,22 @@ struct work {
 
 static void workspace_close(void *workspace)
 {
-    struct work *work = workspace;
-    gm_fourier_close(work->fourier);
-    free(work->psi);
-    free(work);
+    gm_fourier_close(((struct work *)workspace)->fourier);
+    free(workspace);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
+    const size_t points = problem->line.points;
+    struct work *work = calloc(1, sizeof *work + 4 * points * sizeof(double));
+    struct gm_fourier *fourier = work ? gm_fourier_open(points) : NULL;
+    if (!fourier) {
+        free(work);
         return NULL;
     }
-    work->points = problem->line.points;
-    work->psi = calloc(4 * work->points, sizeof *work->psi);
-    work->turns = work->psi + 2 * work->points;
-    work->fourier = gm_fourier_open(work->points);
-    if (!work->psi || !work->fourier) {
-        workspace_close(work);
-        return NULL;
-    }
+    *work = (struct work){.points = points, .fourier = fourier, .psi = (double *)(work + 1)};
+    work->turns = work->psi + 2 * points;
     return work;
 }
 

@@ -45,30 +45,6 @@ static double product(const double *matrix, size_t d, const double *a, const dou
     return sum;
 }
 
-/* The integral of a density of s and its slope, by Gauss's rule at the stages of the cells. */
-static double integral(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory,
-                       double (*density)(const struct gm_problem *problem, const double *s,
-                                         const double *slope))
-{
-    struct gm_collocation *work = memory ? gm_collocation_open(problem, scheme) : NULL;
-    if (!work) {
-        return NAN;
-    }
-    const size_t points = work->points, r = work->r;
-    const double *stages = gm_any_form_stages(memory);
-    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-    gm_collocation_slopes(work, stages, work->high);
-    for (size_t at = 0; at < r * points; at++) {
-        for (size_t c = 0; c < work->d; c++) {
-            s[c] = stages[c * r * points + at];
-            slope[c] = work->high[c * r * points + at];
-        }
-        sum += work->tableau->b[at / points] * density(problem, s, slope);
-    }
-    gm_collocation_close(work);
-    return problem->line.dx * sum;
-}
-
 static double energy_density(const struct gm_problem *problem, const double *s, const double *slope)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
@@ -83,13 +59,13 @@ static double momentum_density(const struct gm_problem *problem, const double *s
 
 double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory)
 {
-    return integral(problem, scheme, memory, energy_density);
+    return gm_any_form_integral(problem, scheme, memory, energy_density);
 }
 
 double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
                         const double *memory)
 {
-    return integral(problem, scheme, memory, momentum_density);
+    return gm_any_form_integral(problem, scheme, memory, momentum_density);
 }
 
 /* The level after a step; NULL: memory is short, or it fails. */
@@ -130,7 +106,7 @@ bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *sche
         for (size_t c = 0; c < d; c++) {
             middle[c] = (a[c] + b[c]) / 2;
         }
-        form->gradient(problem->parameters, middle, slope);
+        form->gradients(problem->parameters, middle, slope, 1);
         residual[i] = form->function(problem->parameters, b) - form->function(problem->parameters, a);
         for (size_t c = 0; c < d; c++) {
             residual[i] -= (b[c] - a[c]) * slope[c];

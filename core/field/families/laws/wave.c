@@ -7,23 +7,12 @@
 
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/waves/levels.h"
-
-/* Node i + by of a level, around the ring. */
-static double at(const struct gm_grid1 *grid, const double *level, size_t i, int by)
-{
-    if (by > 0 && i + 1 == grid->points) {
-        return level[0] + grid->jump;
-    }
-    if (by < 0 && i == 0) {
-        return level[grid->points - 1] - grid->jump;
-    }
-    return by > 0 ? level[i + 1] : by < 0 ? level[i - 1] : level[i];
-}
+#include "core/field/families/waves/form.h"
 
 static double d2(const struct gm_grid1 *grid, const double *level, size_t i)
 {
-    return (at(grid, level, i, 1) - 2 * level[i] + at(grid, level, i, -1)) / (grid->dx * grid->dx);
+    return (gm_grid1_value(grid, level, i, 1) - 2 * level[i] + gm_grid1_value(grid, level, i, -1)) /
+           (grid->dx * grid->dx);
 }
 
 /* Adds a term to a sum and keeps what rounding would lose (Neumaier 1974): invariants are looked at to the
@@ -46,7 +35,8 @@ double gm_wave_energy(const struct gm_problem *problem, const double *y)
     struct exact_sum total = {0};
     for (size_t i = 0; i < grid->points; i++) {
         const double rate = (u[i] - o[i]) / gap;
-        const double slope = (at(grid, u, i, 1) - u[i]) * (at(grid, o, i, 1) - o[i]) / (grid->dx * grid->dx);
+        const double slope = (gm_grid1_value(grid, u, i, 1) - u[i]) * (gm_grid1_value(grid, o, i, 1) - o[i]) /
+                             (grid->dx * grid->dx);
         add(&total, (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) +
                                                  gm_field_of(problem)->wave->potential(problem, o[i])) /
                                                     2);
@@ -60,7 +50,7 @@ double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
     const double *u = y, *o = y + grid->points, gap = y[2 * grid->points];
     double sum = 0;
     for (size_t i = 0; i < grid->points; i++) {
-        const double u_next = at(grid, u, i, 1), o_next = at(grid, o, i, 1);
+        const double u_next = gm_grid1_value(grid, u, i, 1), o_next = gm_grid1_value(grid, o, i, 1);
         const double rate = (u[i] + u_next - o[i] - o_next) / (2 * gap);
         const double slope = (u_next - u[i] + o_next - o[i]) / (2 * grid->dx);
         sum += (rate * rate + slope * slope) / 2 +
@@ -96,7 +86,9 @@ double gm_wave_momentum(const struct gm_problem *problem, const double *y)
     for (size_t i = 0; i < grid->points; i++) {
         /* gap is the other time minus the present one */
         sum += (o[i] - u[i]) / gap *
-               (at(grid, u, i, 1) - at(grid, u, i, -1) + at(grid, o, i, 1) - at(grid, o, i, -1)) / 4;
+               (gm_grid1_value(grid, u, i, 1) - gm_grid1_value(grid, u, i, -1) +
+                gm_grid1_value(grid, o, i, 1) - gm_grid1_value(grid, o, i, -1)) /
+               4;
     }
     return -sum;
 }
@@ -109,10 +101,19 @@ static double node_law(const struct gm_problem *problem, const struct gm_levels 
            d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
 }
 
+/* Which law of the nodes is measured, and what it leaves at each. */
+struct node_laws {
+    enum gm_local_law law;
+    double *residual;
+};
+
 static double cell_law(const struct gm_problem *problem, double a, double b, double step)
 {
     const struct gm_wave *wave = gm_field_of(problem)->wave;
-    return (b - a) / step * (wave->quotient(problem, a, b) - wave->slope(problem, (a + b) / 2));
+    const double middle = (a + b) / 2;
+    double slope;
+    wave->slopes(problem, &middle, &slope, 1);
+    return (b - a) / step * (wave->quotient(problem, a, b) - slope);
 }
 
 static void cell_laws(const struct gm_problem *problem, double dt, const double *y, enum gm_local_law law,
@@ -122,11 +123,31 @@ static void cell_laws(const struct gm_problem *problem, double dt, const double 
     const double *u = y, *o = y + grid->points;
     for (size_t i = 0; i < grid->points; i++) {
         if (law == GM_LAW_OF_ENERGY) {
-            const double a = (o[i] + at(grid, o, i, 1)) / 2, b = (u[i] + at(grid, u, i, 1)) / 2;
+            const double a = (o[i] + gm_grid1_value(grid, o, i, 1)) / 2,
+                         b = (u[i] + gm_grid1_value(grid, u, i, 1)) / 2;
             residual[i] = cell_law(problem, a, b, dt);
         } else {
-            const double a = (o[i] + u[i]) / 2, b = (at(grid, o, i, 1) + at(grid, u, i, 1)) / 2;
+            const double a = (o[i] + u[i]) / 2,
+                         b = (gm_grid1_value(grid, o, i, 1) + gm_grid1_value(grid, u, i, 1)) / 2;
             residual[i] = cell_law(problem, a, b, grid->dx);
+        }
+    }
+}
+
+static void node_laws(const struct gm_law *of, void *data)
+{
+    const struct gm_problem *problem = of->problem;
+    const struct gm_grid1 *grid = &problem->line;
+    const struct gm_levels levels = gm_levels_of(of);
+    const struct node_laws *laws = data;
+    for (size_t i = 0; i < grid->points; i++) {
+        if (laws->law == GM_LAW_OF_ENERGY) {
+            const double rate = (levels.next[i] - levels.past[i]) / (2 * of->dt);
+            laws->residual[i] = rate * node_law(problem, &levels, of->dt, i, levels.next[i], levels.past[i]);
+        } else {
+            const double a = gm_grid1_value(grid, levels.now, i, 1),
+                         b = gm_grid1_value(grid, levels.now, i, -1);
+            laws->residual[i] = (a - b) / (2 * grid->dx) * node_law(problem, &levels, of->dt, i, a, b);
         }
     }
 }
@@ -135,24 +156,10 @@ bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *sche
                   const double *y, enum gm_local_law law, double *residual)
 {
     const enum gm_wave_law kind = law_of(scheme);
-    const struct gm_grid1 *grid = &problem->line;
-    struct gm_levels levels;
+    struct gm_law of = {problem, scheme, dt, y, NULL, .by_differences = false};
+    struct node_laws nodes = {law, residual};
     if (kind == GM_LAW_CELLS) {
         cell_laws(problem, dt, y, law, residual);
-        return true;
     }
-    if (kind != GM_LAW_NODES || !gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
-        return false;
-    }
-    for (size_t i = 0; i < grid->points; i++) {
-        if (law == GM_LAW_OF_ENERGY) {
-            const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
-            residual[i] = rate * node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
-        } else {
-            const double a = at(grid, levels.now, i, 1), b = at(grid, levels.now, i, -1);
-            residual[i] = (a - b) / (2 * grid->dx) * node_law(problem, &levels, dt, i, a, b);
-        }
-    }
-    gm_levels_close(&levels);
-    return true;
+    return kind == GM_LAW_CELLS || (kind == GM_LAW_NODES && gm_law_measure(&of, node_laws, &nodes));
 }

@@ -10,14 +10,31 @@
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/field/families/two_step.h"
-#include "core/field/families/waves/levels.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 #include "core/linear/ring.h"
+
+/* Where the state holds two levels, a step is made aside. */
+struct gm_levels gm_levels_of(const struct gm_law *law)
+{
+    const struct gm_two_step_row *row = law->scheme->coefficients;
+    const size_t points = law->problem->line.points, size = gm_wave_size(points);
+    const bool at_start = law->y[2 * points] != -law->dt, centred = row->law == GM_LAW_CENTRED;
+    double *out = gm_arena_take(law->arena, size + 2 * points, sizeof *out), *v = out + size;
+    if (!gm_law_step(law, at_start ? 2 : 1, law->y, centred ? law->memory : NULL, out, centred ? v : NULL)) {
+        gm_arena_leave(law->arena);
+    }
+    struct gm_levels levels = {.past = at_start ? law->y : law->y + points, .now = out + points, .next = out};
+    if (centred) {
+        levels.v_past = at_start ? law->memory : law->memory + points;
+        levels.v_now = v + points;
+        levels.v_next = v;
+    }
+    return levels;
+}
 
 enum { U, V, W, DIMENSION };
 
@@ -26,36 +43,12 @@ struct tangent {
     double *past, *now, *next, *v_past, *v_now, *v_next;
 };
 
-enum { ARRAYS = 6 };
-
-static struct tangent tangent_at(double *memory, size_t points)
-{
-    return (struct tangent){memory,
-                            memory + points,
-                            memory + 2 * points,
-                            memory + 3 * points,
-                            memory + 4 * points,
-                            memory + 5 * points};
-}
-
-static void tangent_start(const struct tangent *tangent, bool centred, size_t points, double waves,
-                          double phase)
-{
-    gm_tangent_start(tangent->past, points, waves, phase);
-    gm_tangent_start(tangent->now, points, waves, 2 * phase - M_PI / 2);
-    if (centred) {
-        gm_tangent_start(tangent->v_past, points, waves, 3 * phase);
-        gm_tangent_start(tangent->v_now, points, waves, 5 * phase);
-    }
-}
-
+/* A solution, and arrays of a step aside. */
 struct base {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    double dt;
+    const struct gm_law *law;
     struct gm_levels levels;
     double *earlier, *later; /* V'' in the cells of both rows */
-    void *work;
+    double *y, *memory_out;
 };
 
 static size_t left_of(size_t i, size_t points)
@@ -70,35 +63,36 @@ static size_t right_of(size_t i, size_t points)
 
 static void linearised_nodes(const struct base *base, const struct tangent *a)
 {
-    const struct gm_wave *wave = gm_field_of(base->problem)->wave;
-    const struct gm_two_step_row *row = base->scheme->coefficients;
+    const struct gm_wave *wave = gm_field_of(base->law->problem)->wave;
+    const struct gm_two_step_row *row = base->law->scheme->coefficients;
     const struct gm_levels *levels = &base->levels;
-    const size_t points = base->problem->line.points;
-    const double dt = base->dt, ratio = dt / base->problem->line.dx;
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, ratio = dt / base->law->problem->line.dx;
     for (size_t i = 0; i < points; i++) {
         const double change = a->now[right_of(i, points)] - 2 * a->now[i] + a->now[left_of(i, points)];
         const double free_motion = 2 * a->now[i] + ratio * ratio * change;
         if (row->average) {
-            const double in_next = wave->quotient_slope(base->problem, levels->next[i], levels->past[i]);
-            const double in_past = wave->quotient_slope(base->problem, levels->past[i], levels->next[i]);
+            const double in_next = wave->quotient_slope(base->law->problem, levels->next[i], levels->past[i]);
+            const double in_past = wave->quotient_slope(base->law->problem, levels->past[i], levels->next[i]);
             a->next[i] = (free_motion - (1 + dt * dt * in_past) * a->past[i]) / (1 + dt * dt * in_next);
         } else {
             a->next[i] = free_motion - a->past[i] -
-                         dt * dt * wave->curvature(base->problem, levels->now[i]) * a->now[i];
+                         dt * dt * wave->curvature(base->law->problem, levels->now[i]) * a->now[i];
         }
     }
 }
 
 static void linearised_centred(const struct base *base, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points;
-    const double dt = base->dt, dx = base->problem->line.dx;
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
     for (size_t i = 0; i < points; i++) {
         const size_t right = right_of(right_of(i, points), points),
                      left = left_of(left_of(i, points), points);
         const double second = (a->now[right] - 2 * a->now[i] + a->now[left]) / (4 * dx * dx);
         const double force =
-            gm_field_of(base->problem)->wave->curvature(base->problem, base->levels.now[i]) * a->now[i];
+            gm_field_of(base->law->problem)->wave->curvature(base->law->problem, base->levels.now[i]) *
+            a->now[i];
         a->next[i] = a->past[i] + 2 * dt * a->v_now[i];
         a->v_next[i] = a->v_past[i] + 2 * dt * (second - force);
     }
@@ -108,8 +102,8 @@ static void linearised_centred(const struct base *base, const struct tangent *a)
    cells. */
 static double nine_points(const struct base *base, const struct tangent *a, size_t i)
 {
-    const size_t points = base->problem->line.points, l = left_of(i, points), r = right_of(i, points);
-    const double dt = base->dt, dx = base->problem->line.dx;
+    const size_t points = base->law->problem->line.points, l = left_of(i, points), r = right_of(i, points);
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
     const double *p = a->past, *n = a->now, *f = a->next;
     const double in_time = f[r] + 2 * f[i] + f[l] - 2 * (n[r] + 2 * n[i] + n[l]) + p[r] + 2 * p[i] + p[l];
     const double in_space = f[r] - 2 * f[i] + f[l] + 2 * (n[r] - 2 * n[i] + n[l]) + p[r] - 2 * p[i] + p[l];
@@ -120,33 +114,38 @@ static double nine_points(const struct base *base, const struct tangent *a, size
 }
 
 /* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
-static bool linearised_box(const struct base *base, const struct tangent *a)
+static bool solve_box(const struct base *base, const struct tangent *a, struct gm_ring_band *band)
 {
-    const size_t points = base->problem->line.points;
-    const double dx = base->problem->line.dx;
-    const double in_time = 1 / (4 * base->dt * base->dt), in_space = 1 / (4 * dx * dx);
-    struct gm_ring_band band;
-    if (!gm_ring_band_open(&band, points, 1, 1)) {
-        return false;
-    }
-    memset(a->next, 0, points * sizeof *a->next);
+    const size_t points = base->law->problem->line.points;
+    const double dt = base->law->dt, dx = base->law->problem->line.dx;
+    const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);
     double *right = a->v_next; /* no scheme of cells keeps u_t */
     for (size_t i = 0; i < points; i++) {
         const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
-        gm_ring_band_add(&band, i, 0, -1, 0, in_time - in_space + before);
-        gm_ring_band_add(&band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
-        gm_ring_band_add(&band, i, 0, 1, 0, in_time - in_space + after);
+        gm_ring_band_add(band, i, 0, -1, 0, in_time - in_space + before);
+        gm_ring_band_add(band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
+        gm_ring_band_add(band, i, 0, 1, 0, in_time - in_space + after);
     }
-    const bool good = gm_ring_band_factor(&band);
+    const bool good = gm_ring_band_factor(band);
     for (int k = 0; good && k < 3; k++) {
         for (size_t i = 0; i < points; i++) {
             right[i] = -nine_points(base, a, i);
         }
-        gm_ring_band_solve(&band, right);
+        gm_ring_band_solve(band, right);
         for (size_t i = 0; i < points; i++) {
             a->next[i] += right[i];
         }
     }
+    return good;
+}
+
+static bool linearised_box(const struct base *base, const struct tangent *a)
+{
+    struct gm_ring_band band;
+    if (!gm_ring_band_open(&band, base->law->problem->line.points, 1, 1)) {
+        return false;
+    }
+    const bool good = solve_box(base, a, &band);
     gm_ring_band_close(&band);
     return good;
 }
@@ -155,61 +154,35 @@ static bool linearised_box(const struct base *base, const struct tangent *a)
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct base *base = context;
-    const size_t points = base->problem->line.points, size = gm_wave_size(points);
-    double *y = malloc((2 * size + 2 * points) * sizeof *y);
-    if (!y) {
-        return false;
-    }
-    double *out = y + size, *memory_out = out + size;
-    memcpy(y, from, 2 * points * sizeof *y);
-    y[2 * points] = -base->dt;
+    const size_t points = base->law->problem->line.points, size = points * sizeof *to;
     const bool keeps = base->levels.v_now != NULL;
-    const struct gm_task task = {
-        .problem = base->problem,
-        .scheme = base->scheme,
-        .dt = base->dt,
-        .steps = 1,
-        .limit = INFINITY,
-        .y = y,
-        .out = out,
-        .memory = keeps ? from + 2 * points : NULL,
-        .memory_out = keeps ? memory_out : NULL,
-        .workspace = base->work,
-    };
-    const bool good = base->scheme->family->loop(&task).status == GM_OK;
-    memcpy(to, out, points * sizeof *to);
-    memcpy(to + points, memory_out, keeps ? points * sizeof *to : 0);
-    free(y);
+    double *out = base->y + gm_wave_size(points);
+    memcpy(base->y, from, 2 * size);
+    base->y[2 * points] = -base->law->dt;
+    const bool good = gm_law_step(base->law, 1, base->y, keeps ? from + 2 * points : NULL, out,
+                                  keeps ? base->memory_out : NULL);
+    memcpy(to, out, size);
+    memcpy(to + points, base->memory_out, keeps ? size : 0);
     return good;
 }
 
 static bool by_own_steps(const struct base *base, const struct tangent *a)
 {
-    const size_t points = base->problem->line.points, size = points * sizeof(double);
-    const bool keeps = base->levels.v_now != NULL;
-    const size_t levels = keeps ? 4 : 2;
-    double *from = malloc((2 * levels + 2) * size);
-    if (!from) {
-        return false;
-    }
+    const struct gm_levels *of = &base->levels;
+    const size_t points = base->law->problem->line.points, size = points * sizeof(double);
+    const size_t levels = of->v_now ? 4 : 2;
+    const double *const from_levels[] = {of->now, of->past, of->v_now, of->v_past};
+    const double *const directions[] = {a->now, a->past, a->v_now, a->v_past};
+    double *from = gm_arena_take(base->law->arena, (2 * levels + 2) * points, sizeof *from);
     double *direction = from + levels * points, *slope = direction + levels * points;
-    memcpy(from, base->levels.now, size);
-    memcpy(from + points, base->levels.past, size);
-    memcpy(direction, a->now, size);
-    memcpy(direction + points, a->past, size);
-    if (keeps) {
-        memcpy(from + 2 * points, base->levels.v_now, size);
-        memcpy(from + 3 * points, base->levels.v_past, size);
-        memcpy(direction + 2 * points, a->v_now, size);
-        memcpy(direction + 3 * points, a->v_past, size);
+    for (size_t k = 0; k < levels; k++) {
+        memcpy(from + k * points, from_levels[k], size);
+        memcpy(direction + k * points, directions[k], size);
     }
     const bool good =
-        gm_differentiate(one_step, base, levels * points, from, direction, (keeps ? 2 : 1) * points, slope);
-    if (good) {
-        memcpy(a->next, slope, size);
-        memcpy(a->v_next, slope + points, keeps ? size : 0);
-    }
-    free(from);
+        gm_differentiate(one_step, base, levels * points, from, direction, levels / 2 * points, slope);
+    memcpy(a->next, slope, size);
+    memcpy(a->v_next, slope + points, levels == 4 ? size : 0);
     return good;
 }
 
@@ -235,15 +208,6 @@ static void complete_node(const void *tangent, size_t node, double *levels)
         s[W] =
             nodes->centred ? (right - left) / (2 * nodes->line->dx) : (u[n][node] - left) / nodes->line->dx;
     }
-}
-
-static double law_of_nodes(const struct base *base, bool centred, const struct tangent *a,
-                           const struct tangent *b)
-{
-    const struct gm_grid1 *grid = &base->problem->line;
-    const struct nodes of_a = {grid, base->dt, centred, a}, of_b = {grid, base->dt, centred, b};
-    return gm_nodes_law(gm_field_of(base->problem)->form, centred, grid->points, grid->dx, base->dt,
-                        complete_node, &of_a, &of_b);
 }
 
 /* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
@@ -274,15 +238,12 @@ static double acceleration(const struct gm_grid1 *grid, const double *before, co
     return (w[r] - w[i]) / grid->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
 }
 
-static bool complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
+static void complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
 {
-    const struct gm_grid1 *grid = &base->problem->line;
+    const struct gm_grid1 *grid = &base->law->problem->line;
     const size_t points = grid->points;
-    double *w = malloc(2 * points * sizeof *w);
-    if (!w) {
-        return false;
-    }
-    double *w_later = w + points;
+    const double dt = base->law->dt;
+    double *w = a->v_past, *w_later = a->v_now; /* no scheme of cells keeps u_t */
     side_slopes(grid, a->past, a->now, base->earlier, w);
     side_slopes(grid, a->now, a->next, base->later, w_later);
     for (size_t i = 0; i < points; i++) {
@@ -290,9 +251,9 @@ static bool complete_cells(const struct base *base, const struct tangent *a, str
         double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
         lower[U] = (a->now[i] + a->now[r]) / 2;
         upper[U] = (a->next[i] + a->next[r]) / 2;
-        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / base->dt +
-                   base->dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
-        upper[V] = lower[V] + base->dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
+        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / dt +
+                   dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
+        upper[V] = lower[V] + dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
     }
     for (size_t i = 0; i <= points; i++) {
         const size_t at = i < points ? i : 0;
@@ -300,27 +261,6 @@ static bool complete_cells(const struct base *base, const struct tangent *a, str
         side[U] = (a->now[at] + a->next[at]) / 2;
         side[W] = w_later[at];
     }
-    free(w);
-    return true;
-}
-
-static double law_of_cells(const struct base *base, const struct tangent *a, const struct tangent *b)
-{
-    static const double one = 1;
-    const struct gm_grid1 *grid = &base->problem->line;
-    const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, base->dt};
-    struct gm_faces of_a, of_b;
-    double law = NAN;
-    if (gm_faces_open(&of_a, gm_field_of(base->problem)->form, &cells)) {
-        if (gm_faces_open(&of_b, gm_field_of(base->problem)->form, &cells)) {
-            if (complete_cells(base, a, &of_a) && complete_cells(base, b, &of_b)) {
-                law = gm_lattice_law(gm_field_of(base->problem)->form, &cells, &of_a, &of_b);
-            }
-            gm_faces_close(&of_b);
-        }
-        gm_faces_close(&of_a);
-    }
-    return law;
 }
 
 /* V'' in the cells between two levels. */
@@ -336,54 +276,77 @@ static void cell_curvatures(const struct gm_problem *problem, const double *p, c
     }
 }
 
-static bool advance_tangent(const struct base *base, enum gm_wave_law law, bool by_differences,
-                            const struct tangent *a)
+static enum gm_wave_law law_of(const struct gm_law *law)
 {
-    if (by_differences) {
-        return by_own_steps(base, a);
-    }
-    if (law == GM_LAW_CELLS) {
-        return linearised_box(base, a);
-    }
-    if (law == GM_LAW_CENTRED) {
-        linearised_centred(base, a);
-    } else {
-        linearised_nodes(base, a);
-    }
-    return true;
+    return ((const struct gm_two_step_row *)law->scheme->coefficients)->law;
 }
 
-double gm_wave_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                    const double *y, const double *memory, bool by_differences)
+static struct base base_of(const struct gm_law *law)
 {
+    const struct gm_problem *problem = law->problem;
     const size_t points = problem->line.points;
-    const enum gm_wave_law law = ((const struct gm_two_step_row *)scheme->coefficients)->law;
-    struct base base = {.problem = problem, .scheme = scheme, .dt = dt};
-    double residual = NAN;
-    double *arrays = calloc((2 * ARRAYS + 2) * points, sizeof *arrays);
-    if (law == GM_LAW_NONE || !arrays || !gm_levels_open(&base.levels, problem, scheme, dt, y, memory)) {
-        free(arrays);
-        return NAN;
-    }
-    const struct tangent a = tangent_at(arrays, points), b = tangent_at(arrays + ARRAYS * points, points);
-    base.earlier = arrays + 2 * ARRAYS * points;
+    struct base base = {.law = law, .levels = gm_levels_of(law)};
+    base.earlier = gm_arena_take(law->arena, 4 * points + 2 * gm_wave_size(points), sizeof *base.earlier);
     base.later = base.earlier + points;
-    base.work = scheme->family->workspace_open(problem, scheme);
-    tangent_start(&a, law == GM_LAW_CENTRED, points, 2, 0.3);
-    tangent_start(&b, law == GM_LAW_CENTRED, points, 3, 0.7);
-    if (law == GM_LAW_CELLS) {
+    base.memory_out = base.later + points;
+    base.y = base.memory_out + 2 * points;
+    if (law_of(law) == GM_LAW_CELLS) {
         cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
         cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
     }
-    if (base.work && advance_tangent(&base, law, by_differences, &a) &&
-        advance_tangent(&base, law, by_differences, &b)) {
-        residual = law == GM_LAW_CELLS ? law_of_cells(&base, &a, &b)
-                                       : law_of_nodes(&base, law == GM_LAW_CENTRED, &a, &b);
+    return base;
+}
+
+/* Tangent 0 or 1, a step ahead. */
+static struct tangent tangent_of(const struct base *base, size_t which)
+{
+    const enum gm_wave_law kind = law_of(base->law);
+    const size_t points = base->law->problem->line.points;
+    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
+    double *u = gm_arena_take(base->law->arena, 6 * points, sizeof *u), *v = u + 3 * points;
+    const struct tangent a = {u, u + points, u + 2 * points, v, v + points, v + 2 * points};
+    gm_tangent_start(a.past, points, waves, phase);
+    gm_tangent_start(a.now, points, waves, 2 * phase - M_PI / 2);
+    if (kind == GM_LAW_CENTRED) {
+        gm_tangent_start(a.v_past, points, waves, 3 * phase);
+        gm_tangent_start(a.v_now, points, waves, 5 * phase);
     }
-    if (base.work) {
-        scheme->family->workspace_close(base.work);
+    bool good = true;
+    if (base->law->by_differences) {
+        good = by_own_steps(base, &a);
+    } else if (kind == GM_LAW_CELLS) {
+        good = linearised_box(base, &a);
+    } else if (kind == GM_LAW_CENTRED) {
+        linearised_centred(base, &a);
+    } else {
+        linearised_nodes(base, &a);
     }
-    gm_levels_close(&base.levels);
-    free(arrays);
-    return residual;
+    if (!good) {
+        gm_arena_leave(base->law->arena);
+    }
+    return a;
+}
+
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
+{
+    const struct base base = base_of(law);
+    for (size_t k = 0; k < 2; k++) {
+        const struct tangent a = tangent_of(&base, k);
+        complete_cells(&base, &a, &faces[k]);
+    }
+}
+
+double gm_wave_form(const struct gm_law *law)
+{
+    static const double one = 1;
+    const struct gm_grid1 *grid = &law->problem->line;
+    if (law_of(law) == GM_LAW_CELLS) {
+        const struct gm_lattice cells = {grid->points, 1, 1, &one, &one, grid->dx, law->dt};
+        return gm_lattice_law(law, &cells, advance_tangents);
+    }
+    const bool centred = law_of(law) == GM_LAW_CENTRED;
+    const struct base base = base_of(law);
+    const struct tangent a = tangent_of(&base, 0), b = tangent_of(&base, 1);
+    const struct nodes of_a = {grid, law->dt, centred, &a}, of_b = {grid, law->dt, centred, &b};
+    return gm_nodes_law(law, centred, complete_node, &of_a, &of_b);
 }

@@ -131,16 +131,9 @@ static const struct gm_two_step_row rows[] = {
     {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
 };
 
-/* 4/dt^2 >= 4/dx^2 + V'' wherever u is */
 static double longest_explicit(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_grid1 *grid = &problem->line;
-    const struct gm_wave *wave = gm_field_of(problem)->wave;
-    double most = 0;
-    for (size_t i = 0; i < grid->points; i++) {
-        most = fmax(most, wave->curvature(problem, y[i]));
-    }
-    return 2 / sqrt(4 / (grid->dx * grid->dx) + most);
+    return gm_wave_longest(problem, y, 4, 4);
 }
 
 static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};

@@ -26,6 +26,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 #include "core/linear/settled.h"
@@ -39,30 +40,19 @@ struct work {
     double *stage[GM_LOBATTO_KICKS]; /* u at the kicks of the last step */
     double *last;                    /* what an iteration changes */
     bool fresh;
-    double *memory;
 };
-
-static void workspace_close(void *workspace)
-{
-    struct work *work = workspace;
-    free(work->memory);
-    free(work);
-}
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
     const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work);
-    double *memory = calloc((5 + GM_LOBATTO_KICKS) * points, sizeof *memory);
-    if (!work || !memory) {
-        free(work);
-        free(memory);
+    struct work *work = calloc(1, sizeof *work + (5 + GM_LOBATTO_KICKS) * points * sizeof(double));
+    if (!work) {
         return NULL;
     }
-    work->points = points;
-    work->memory = memory;
+    double *memory = (double *)(work + 1);
     double **const arrays[] = {&work->u, &work->v, &work->force, &work->before, &work->last};
+    work->points = points;
     for (size_t i = 0; i < GM_COUNT(arrays); i++) {
         *arrays[i] = memory + i * points;
     }
@@ -287,24 +277,17 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 
 /* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
-struct base {
-    const struct gm_problem *problem;
-    const struct gm_lobatto_row *row;
-    double dt;
-    struct work *work;
-};
-
 /* gm_map: u and v to the same a step later. */
 static bool one_step(const void *context, const double *from, double *to)
 {
-    const struct base *base = context;
-    struct work *work = base->work;
+    const struct gm_law *law = context;
+    struct work *work = law->work;
     const size_t points = work->points, size = points * sizeof *to;
     struct gm_progress uncounted = {.status = GM_OK};
     memcpy(work->u, from, size);
     memcpy(work->v, from + points, size);
     work->fresh = false;
-    if (make_step(work, base->row, base->problem, base->dt, NULL, &uncounted) != GM_OK) {
+    if (make_step(work, law->scheme->coefficients, law->problem, law->dt, NULL, &uncounted) != GM_OK) {
         return false;
     }
     memcpy(to, work->u, size);
@@ -312,25 +295,29 @@ static bool one_step(const void *context, const double *from, double *to)
     return true;
 }
 
-/* Advances the tangent `start` (u, then v) to `end`, and finds its faces. */
-static bool advance_tangent(const struct base *base, const double *state, const double *curvature,
-                            bool by_differences, const double *start, double *end, struct gm_faces *faces)
+/* Advances tangent 0 or 1, u and then v, with V'' at the kicks, and finds its faces. */
+static void advance_tangent(const struct gm_law *law, const double *curvature, size_t which,
+                            struct gm_faces *faces)
 {
     enum { U, V, W, DIMENSION };
-    struct work *work = base->work;
-    const size_t points = work->points, size = points * sizeof *end, kicks = base->row->kicks;
-    const double length = 2 * base->problem->line.dx;
+    const struct gm_lobatto_row *row = law->scheme->coefficients;
+    struct work *work = law->work;
+    const size_t points = work->points, size = points * sizeof(double), kicks = row->kicks;
+    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
+    const double length = 2 * law->problem->line.dx;
     struct gm_progress uncounted = {.status = GM_OK};
-    if (by_differences && !gm_differentiate(one_step, base, 2 * points, state, start, 2 * points, end)) {
-        return false;
-    }
+    double *start = gm_arena_take(law->arena, 4 * points, sizeof *start), *end = start + 2 * points;
+    gm_tangent_start(start, points, waves, phase);
+    gm_tangent_start(start + points, points, waves, phase + 1);
+    const bool good = !law->by_differences ||
+                      gm_differentiate(one_step, law, 2 * points, law->memory, start, 2 * points, end);
     memcpy(work->u, start, size);
     memcpy(work->v, start + points, size);
     work->fresh = false;
-    if (make_step(work, base->row, base->problem, base->dt, curvature, &uncounted) != GM_OK) {
-        return false;
+    if (!good || make_step(work, row, law->problem, law->dt, curvature, &uncounted) != GM_OK) {
+        gm_arena_leave(law->arena);
     }
-    if (!by_differences) {
+    if (!law->by_differences) {
         memcpy(end, work->u, size);
         memcpy(end + points, work->v, size);
     }
@@ -346,7 +333,7 @@ static bool advance_tangent(const struct base *base, const double *state, const 
     for (size_t k = 0; k < kicks; k++) {
         const double *u = work->stage[k];
         double *second = work->last;
-        bend(&base->problem->line, 0, u, second);
+        bend(&law->problem->line, 0, u, second);
         for (size_t i = 0; i <= points; i += 2) {
             const size_t at = i % points, end_at = (i + 2) % points;
             double *side = faces->sides + (i / 2 * kicks + k) * DIMENSION;
@@ -354,49 +341,33 @@ static bool advance_tangent(const struct base *base, const double *state, const 
             side[W] = (u[end_at] - u[at]) / length - length * (second[at] / 6 + second[at + 1] / 3);
         }
     }
-    return true;
 }
 
-static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                   const double *y, const double *memory, bool by_differences)
+static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
-    (void)y;
+    struct work *work = law->work;
+    const size_t points = work->points,
+                 kicks = ((const struct gm_lobatto_row *)law->scheme->coefficients)->kicks;
+    double *curvature = gm_arena_take(law->arena, (kicks + 2) * points, sizeof *curvature);
+    if (!one_step(law, law->memory, curvature + kicks * points)) {
+        gm_arena_leave(law->arena);
+    }
+    for (size_t at = 0; at < kicks * points; at++) {
+        curvature[at] =
+            gm_field_of(law->problem)->wave->curvature(law->problem, work->stage[at / points][at % points]);
+    }
+    advance_tangent(law, curvature, 0, &faces[0]);
+    advance_tangent(law, curvature, 1, &faces[1]);
+}
+
+static double form(const struct gm_law *law)
+{
     static const double space[STAGES] = {1. / 6, 4. / 6, 1. / 6};
-    const struct gm_lobatto_row *row = scheme->coefficients;
-    const size_t points = problem->line.points;
-    const struct gm_lattice elements = {points / 2,           STAGES, row->kicks, space, row->kick,
-                                        2 * problem->line.dx, dt};
-    struct work *work = workspace_open(problem, scheme);
-    struct gm_faces faces[2] = {{0}};
-    double *arrays = malloc((row->kicks + 4) * points * sizeof *arrays), residual = NAN;
-    const struct base base = {problem, row, dt, work};
-    bool good = work && arrays;
-    for (size_t k = 0; k < 2; k++) {
-        good &= gm_faces_open(&faces[k], gm_field_of(problem)->form, &elements);
-    }
-    if (good) {
-        double *curvature = arrays, *tangent = arrays + row->kicks * points, *end = tangent + 2 * points;
-        good = one_step(&base, memory, end);
-        for (size_t at = 0; at < row->kicks * points; at++) {
-            curvature[at] =
-                gm_field_of(problem)->wave->curvature(problem, work->stage[at / points][at % points]);
-        }
-        for (size_t k = 0; good && k < 2; k++) {
-            gm_tangent_start(tangent, points, 2 + (double)k, 0.3 + 0.4 * (double)k);
-            gm_tangent_start(tangent + points, points, 2 + (double)k, 1.3 + 0.4 * (double)k);
-            good = advance_tangent(&base, memory, curvature, by_differences, tangent, end, &faces[k]);
-        }
-        if (good) {
-            residual = gm_lattice_law(gm_field_of(problem)->form, &elements, &faces[0], &faces[1]);
-        }
-    }
-    gm_faces_close(&faces[0]);
-    gm_faces_close(&faces[1]);
-    free(arrays);
-    if (work) {
-        workspace_close(work);
-    }
-    return residual;
+    const struct gm_lobatto_row *row = law->scheme->coefficients;
+    const struct gm_grid1 *grid = &law->problem->line;
+    const struct gm_lattice elements = {grid->points / 2, STAGES,       row->kicks, space,
+                                        row->kick,        2 * grid->dx, law->dt};
+    return gm_lattice_law(law, &elements, advance_tangents);
 }
 
 #define OUTER 0.41449077179437573714 /* 1/(4 - 4^(1/3)) */
@@ -410,34 +381,26 @@ static const struct gm_lobatto_row rows[] = {
      .drift = {OUTER, OUTER, INNER, OUTER, OUTER}},
 };
 
-/* The longest step, (w dt)^2 = square, with w^2 = 6/dx^2 + V'' wherever u is */
-static double longest(const struct gm_problem *problem, const double *y, double square)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    double most = 0;
-    for (size_t i = 0; i < grid->points; i++) {
-        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
-    }
-    return sqrt(square / (6 / (grid->dx * grid->dx) + most));
-}
 static double longest_of_verlet(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 4);
+    return gm_wave_longest(problem, y, 4, 6);
 }
 static double longest_of_three(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 8);
+    return gm_wave_longest(problem, y, 8, 6);
 }
 /* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
 static double longest_of_suzuki(const struct gm_problem *problem, const double *y)
 {
-    return longest(problem, y, 7.403702439);
+    return gm_wave_longest(problem, y, 7.403702439, 6);
 }
 static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", longest_of_suzuki};
 static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", longest_of_verlet};
 static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longest_of_three};
 
-#define IN_SPACE "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in turn, D = 2Δx\n"
+#define IN_SPACE                                                                                                                   \
+    "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in " \
+    "turn, D = 2Δx\n"
 #define LOBATTO                                                                                              \
     .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS,                                   \
     .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC
@@ -488,7 +451,7 @@ const struct gm_family gm_family_lobatto = {
     .memory = memory,
     .start = start,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = free,
     .form = form,
     .wave_energy = wave_energy,
 };

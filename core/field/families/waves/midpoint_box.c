@@ -46,21 +46,15 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
     return 2 * problem->line.points;
 }
 
-/* A node that may lie beyond an end. */
-static double at(const struct gm_grid1 *grid, const double *u, size_t i, long by)
-{
-    const long n = (long)grid->points, place = (long)i + by;
-    const long turns = place >= n ? 1 : place < 0 ? -1 : 0;
-    return u[place - turns * n] + (double)turns * grid->jump;
-}
-
 /* u_tt: by centred differences twice over, or the usual ones */
 static double acceleration(const struct gm_problem *problem, const double *u, size_t i, long reach,
                            double slope)
 {
     const struct gm_grid1 *grid = &problem->line;
     const double step = (double)reach * grid->dx;
-    return (at(grid, u, i, reach) - 2 * u[i] + at(grid, u, i, -reach)) / (step * step) - slope;
+    return (gm_grid1_value(grid, u, i, reach) - 2 * u[i] + gm_grid1_value(grid, u, i, -reach)) /
+               (step * step) -
+           slope;
 }
 
 /* v at both levels of the state, to second order, from their difference and the accelerations there. */
@@ -69,15 +63,13 @@ static enum gm_status start(const struct gm_task *task)
     const struct gm_problem *problem = task->problem;
     const size_t points = problem->line.points;
     const double *u = task->y, *other = task->y + points, gap = task->y[2 * points];
+    double *v = task->memory_out, *v_other = v + points;
+    gm_field_of(problem)->wave->slopes(problem, u, v, points);
+    gm_field_of(problem)->wave->slopes(problem, other, v_other, points);
     for (size_t i = 0; i < points; i++) {
         const double quotient = (other[i] - u[i]) / gap;
-        task->memory_out[i] =
-            quotient -
-            gap / 2 * acceleration(problem, u, i, 1, gm_field_of(problem)->wave->slope(problem, u[i]));
-        task->memory_out[points + i] =
-            quotient +
-            gap / 2 *
-                acceleration(problem, other, i, 1, gm_field_of(problem)->wave->slope(problem, other[i]));
+        v[i] = quotient - gap / 2 * acceleration(problem, u, i, 1, v[i]);
+        v_other[i] = quotient + gap / 2 * acceleration(problem, other, i, 1, v_other[i]);
     }
     return GM_OK;
 }
@@ -163,8 +155,10 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
     const double *u = y, *o = y + points, *v_u = memory, *v_o = memory + points;
     double sum = 0;
     for (size_t i = 0; i < points; i++) {
-        const double slope = (at(grid, u, i, 1) - at(grid, u, i, -1)) / (2 * grid->dx),
-                     other = (at(grid, o, i, 1) - at(grid, o, i, -1)) / (2 * grid->dx);
+        const double slope =
+                         (gm_grid1_value(grid, u, i, 1) - gm_grid1_value(grid, u, i, -1)) / (2 * grid->dx),
+                     other =
+                         (gm_grid1_value(grid, o, i, 1) - gm_grid1_value(grid, o, i, -1)) / (2 * grid->dx);
         sum += (v_u[i] * v_o[i] + slope * other + wave->potential(problem, u[i]) +
                 wave->potential(problem, o[i])) /
                2;

@@ -286,63 +286,24 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 #define CONTROLLED .family = &gm_family_controlled_steps
-#define BY_MONITOR(name)                                                                                     \
-    .coefficients = &(const struct row){.base = name}, CONTROLLED,                                           \
-    .formula = "ρ_{n+½} = ρ_n + ds/2 G(y_n),  y_{n+1} = Φ_h(y_n),  h = ds/ρ_{n+½},\n"                  \
-               "ρ_{n+1} = ρ_{n+½} + ds/2 G(y_{n+1}),  G = ∇Q·f/Q,  Φ is " name ";  dt is ds",                \
-    .reference = "E. Hairer & G. Söderlind, SIAM J. Sci. Comput. 26 (2005) 1838"
-#define REVERSIBLE (GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR)
-#define SEPARABLE GM_NEEDS_SPLIT | GM_NEEDS_MONITOR
+#define BY_MONITOR(phi, number, words, degree, needed, kept)                                                 \
+    {                                                                                                        \
+        .name = "controlled-" phi number, .title = words ", controlled steps",                               \
+        .coefficients = &(const struct row){.base = phi}, CONTROLLED,                                        \
+        .formula = "ρ_{n+½} = ρ_n + ds/2 G(y_n),  y_{n+1} = Φ_h(y_n),  h = ds/ρ_{n+½},\n"              \
+                   "ρ_{n+1} = ρ_{n+½} + ds/2 G(y_{n+1}),  G = ∇Q·f/Q,  Φ is " phi ";  dt is ds",             \
+        .reference = "E. Hairer & G. Söderlind, SIAM J. Sci. Comput. 26 (2005) 1838", .order = degree,       \
+        .needs = GM_NEEDS_MONITOR | needed,                                                                  \
+        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR | kept                  \
+    }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "controlled-verlet2",
-        .title = "Verlet, controlled steps",
-        BY_MONITOR("verlet"),
-        .order = 2,
-        .needs = SEPARABLE,
-        .claims = REVERSIBLE,
-    },
-    {
-        .name = "controlled-blanes-moan4",
-        .title = "Blanes-Moan 4, controlled steps",
-        BY_MONITOR("blanes-moan4"),
-        .order = 4,
-        .needs = SEPARABLE,
-        .claims = REVERSIBLE,
-    },
-    {
-        .name = "controlled-blanes-moan-nystrom6",
-        .title = "Blanes-Moan Nyström 6, controlled steps",
-        BY_MONITOR("blanes-moan-nystrom6"),
-        .order = 6,
-        .needs = SEPARABLE | GM_NEEDS_NYSTROM,
-        .claims = REVERSIBLE,
-    },
-    {
-        .name = "controlled-kahan-li8",
-        .title = "Kahan-Li 8, controlled steps",
-        BY_MONITOR("kahan-li8"),
-        .order = 8,
-        .needs = SEPARABLE,
-        .claims = REVERSIBLE,
-    },
-    {
-        .name = "controlled-gauss4",
-        .title = "Gauss 4, controlled steps",
-        BY_MONITOR("gauss4"),
-        .order = 4,
-        .needs = GM_NEEDS_MONITOR,
-        .claims = REVERSIBLE | GM_KEEPS_QUADRATIC,
-    },
-    {
-        .name = "controlled-gauss8",
-        .title = "Gauss 8, controlled steps",
-        BY_MONITOR("gauss8"),
-        .order = 8,
-        .needs = GM_NEEDS_MONITOR,
-        .claims = REVERSIBLE | GM_KEEPS_QUADRATIC,
-    },
+    BY_MONITOR("verlet", "2", "Verlet", 2, GM_NEEDS_SPLIT, 0),
+    BY_MONITOR("blanes-moan4", "", "Blanes-Moan 4", 4, GM_NEEDS_SPLIT, 0),
+    BY_MONITOR("blanes-moan-nystrom6", "", "Blanes-Moan Nyström 6", 6, GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM, 0),
+    BY_MONITOR("kahan-li8", "", "Kahan-Li 8", 8, GM_NEEDS_SPLIT, 0),
+    BY_MONITOR("gauss4", "", "Gauss 4", 4, 0, GM_KEEPS_QUADRATIC),
+    BY_MONITOR("gauss8", "", "Gauss 8", 8, 0, GM_KEEPS_QUADRATIC),
     {
         .name = "error-controlled-verlet",
         .title = "Verlet, error control",

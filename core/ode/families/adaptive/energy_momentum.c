@@ -29,8 +29,9 @@ struct storage {
     double *middle, *field, *jacobian, *right, *scratch;
 };
 
-static size_t room_of(const struct gm_problem *problem)
+static size_t room_of(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
+    (void)scheme;
     return 3 * problem->n + problem->n * problem->n + gm_newton_scratch(problem->n);
 }
 
@@ -158,17 +159,6 @@ static enum gm_status midpoint_step(const struct gm_task *task, struct gm_member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, midpoint_step);
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return REMEMBERED * problem->m;
-}
-
 /* A run that turns round keeps its energy, and so comes back; the step of a new run is still zero. */
 static enum gm_status start(const struct gm_task *task)
 {
@@ -190,12 +180,6 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, REMEMBERED, room_of(problem));
-}
-
 static const struct gm_scheme schemes[] = {
     {
         .name = "symplectic-energy-momentum2",
@@ -213,15 +197,9 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_energy_momentum = {
-    .kind = &gm_kind_ode,
     .title = "symplectic-energy-momentum",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_MEMBERS_WITH_MEMORY(.step = midpoint_step, .remembered = REMEMBERED, .room = room_of),
     .parameters = gm_settings_of_variational_time,
-    .loop = loop,
-    .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .adaptive = true,
 };

@@ -73,29 +73,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
     double *binding = task->memory_out;
     *binding = *binding != 0 ? *binding : -gm_energy(task->problem, task->y);
     return GM_OK;
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 1, 0);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -115,14 +98,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_fictitious_time = {
-    .kind = &gm_kind_ode,
     .title = "fictitious time",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .memory = memory,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = 1),
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .adaptive = true,
 };

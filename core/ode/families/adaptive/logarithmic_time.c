@@ -108,17 +108,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return REMEMBERED * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
@@ -129,18 +118,17 @@ static enum gm_status start(const struct gm_task *task)
     return gm_energy(task->problem, members->scratch) < 0 ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, REMEMBERED, 2 * problem->n); /* zeros, as momenta at rest are */
-}
-
 #define LOGARITHMIC                                                                                          \
     .family = &gm_family_logarithmic_time,                                                                   \
     .reference = "S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; "                      \
                  "M. Preto & S. Tremaine, Astron. J. 118 (1999) 2532",                                       \
     .needs = GM_NEEDS_ATTRACTION, .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR
-#define COMPOSED(count) count " steps of logh2 of lengths γ₁ds, …, γ_s ds,  γ_{s+1−i} = γᵢ;  dt is ds"
+#define COMPOSED(composition, key, words, count, degree)                                                     \
+    {                                                                                                        \
+        .name = "logh-" key, .title = "logarithmic Hamiltonian, " words,                                     \
+        .formula = count " steps of logh2 of lengths γ₁ds, …, γ_s ds,  γ_{s+1−i} = γᵢ;  dt is ds",           \
+        .coefficients = &gm_composition_##composition, .order = degree, LOGARITHMIC                          \
+    }
 
 static const struct gm_scheme schemes[] = {
     {
@@ -152,49 +140,15 @@ static const struct gm_scheme schemes[] = {
         .coefficients = &gm_composition_none,
         .order = 2,
     },
-    {
-        .name = "logh-suzuki4",
-        .title = "logarithmic Hamiltonian, Suzuki 4",
-        .formula = COMPOSED("five"),
-        LOGARITHMIC,
-        .coefficients = &gm_composition_suzuki4,
-        .order = 4,
-    },
-    {
-        .name = "logh-kahan-li6",
-        .title = "logarithmic Hamiltonian, Kahan-Li 6",
-        .formula = COMPOSED("nine"),
-        LOGARITHMIC,
-        .coefficients = &gm_composition_kahan_li6,
-        .order = 6,
-    },
-    {
-        .name = "logh-kahan-li8",
-        .title = "logarithmic Hamiltonian, Kahan-Li 8",
-        .formula = COMPOSED("seventeen"),
-        LOGARITHMIC,
-        .coefficients = &gm_composition_kahan_li8,
-        .order = 8,
-    },
-    {
-        .name = "logh-sofroniou-spaletta10",
-        .title = "logarithmic Hamiltonian, Sofroniou-Spaletta 10",
-        .formula = COMPOSED("thirty-five"),
-        LOGARITHMIC,
-        .coefficients = &gm_composition_sofroniou_spaletta10,
-        .order = 10,
-    },
+    COMPOSED(suzuki4, "suzuki4", "Suzuki 4", "five", 4),
+    COMPOSED(kahan_li6, "kahan-li6", "Kahan-Li 6", "nine", 6),
+    COMPOSED(kahan_li8, "kahan-li8", "Kahan-Li 8", "seventeen", 8),
+    COMPOSED(sofroniou_spaletta10, "sofroniou-spaletta10", "Sofroniou-Spaletta 10", "thirty-five", 10),
 };
 
 const struct gm_family gm_family_logarithmic_time = {
-    .kind = &gm_kind_ode,
     .title = "logarithmic Hamiltonian",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .memory = memory,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED, .vectors = 2),
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .adaptive = true,
 };

@@ -112,17 +112,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return REMEMBERED * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     /* a run that turns round keeps its E, and so comes back; that of a new run is still zero */
@@ -132,55 +121,31 @@ static enum gm_status start(const struct gm_task *task)
     return density > 0 && isfinite(density) ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_implicit_row *row = scheme->coefficients;
-    return gm_members_open(problem, REMEMBERED, (2 + 2 * (size_t)row->stages) * problem->n);
+    return (2 + 2 * (size_t)((const struct gm_implicit_row *)scheme->coefficients)->stages) * problem->n;
 }
 
-#define IN_POINCARES_TIME(row, name)                                                                         \
-    .family = &gm_family_transformed_time, .coefficients = &(row),                                           \
-    .formula = "Gauss' method " name " for y′ = f/Q − (H − E) J∇Q/Q²,  t′ = 1/Q;  dt is ds = Q dt",          \
-    .reference = "E. Hairer, Appl. Numer. Math. 25 (1997) 219; S. Reich, SIAM J. Numer. Anal. 36 (1999) "    \
-                 "1549",                                                                                     \
-    .needs = GM_NEEDS_ENERGY | GM_NEEDS_MONITOR, .claims = GM_SYMMETRIC | GM_REVERSIBLE
+#define IN_POINCARES_TIME(method, number, words, degree)                                                     \
+    {                                                                                                        \
+        .name = "poincare-" #method number, .title = words ", Poincaré's time", .order = degree,             \
+        .family = &gm_family_transformed_time, .coefficients = &gm_implicit_##method,                        \
+        .formula = "Gauss' method " #method " for y′ = f/Q − (H − E) J∇Q/Q²,  t′ = 1/Q;  dt is ds = Q dt",   \
+        .reference = "E. Hairer, Appl. Numer. Math. 25 (1997) 219; S. Reich, SIAM J. Numer. Anal. 36 "       \
+                     "(1999) 1549",                                                                          \
+        .needs = GM_NEEDS_ENERGY | GM_NEEDS_MONITOR, .claims = GM_SYMMETRIC | GM_REVERSIBLE                  \
+    }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "poincare-midpoint2",
-        .title = "midpoint, Poincaré's time",
-        IN_POINCARES_TIME(gm_implicit_midpoint, "midpoint"),
-        .order = 2,
-    },
-    {
-        .name = "poincare-gauss4",
-        .title = "Gauss 4, Poincaré's time",
-        IN_POINCARES_TIME(gm_implicit_gauss4, "gauss4"),
-        .order = 4,
-    },
-    {
-        .name = "poincare-gauss6",
-        .title = "Gauss 6, Poincaré's time",
-        IN_POINCARES_TIME(gm_implicit_gauss6, "gauss6"),
-        .order = 6,
-    },
-    {
-        .name = "poincare-gauss8",
-        .title = "Gauss 8, Poincaré's time",
-        IN_POINCARES_TIME(gm_implicit_gauss8, "gauss8"),
-        .order = 8,
-    },
+    IN_POINCARES_TIME(midpoint, "2", "midpoint", 2),
+    IN_POINCARES_TIME(gauss4, "", "Gauss 4", 4),
+    IN_POINCARES_TIME(gauss6, "", "Gauss 6", 6),
+    IN_POINCARES_TIME(gauss8, "", "Gauss 8", 8),
 };
 
 const struct gm_family gm_family_transformed_time = {
-    .kind = &gm_kind_ode,
     .title = "transformed time",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .memory = memory,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED, .room = room),
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .adaptive = true,
 };

@@ -183,17 +183,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
                             : rectangle_step(task, members, progress);
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return REMEMBERED * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
@@ -223,12 +212,6 @@ static enum gm_status start(const struct gm_task *task)
     gm_ode_of(problem)->lagrangian->potential(problem, task->y[0], potential);
     task->memory_out[ENERGY] = task->y[1] * task->y[1] / 2 + potential[0];
     return GM_OK;
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, REMEMBERED, 0);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -271,15 +254,9 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_variational_time = {
-    .kind = &gm_kind_ode,
     .title = "variational, with variable time step",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED),
     .parameters = gm_settings_of_variational_time,
-    .loop = loop,
-    .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .adaptive = true,
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_ODE_FAMILIES_OWN_TIME_VARIATIONAL_TIME_H
-#define GM_CORE_ODE_FAMILIES_OWN_TIME_VARIATIONAL_TIME_H
+#ifndef GM_CORE_ODE_FAMILIES_ADAPTIVE_VARIATIONAL_TIME_H
+#define GM_CORE_ODE_FAMILIES_ADAPTIVE_VARIATIONAL_TIME_H
 
 /* What the schemes with variational time remember: the step that comes next, the energy they hold to, and,
    those of one degree of freedom, how often they started anew. */

@@ -37,17 +37,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 0, 0);
-}
-
 #define SPLITTING(composition)                                                                               \
     .family = &gm_family_bracket_splitting, .coefficients = &(composition), .needs = GM_NEEDS_PIECES,        \
     .claims = GM_SYMMETRIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP
@@ -83,11 +72,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_bracket_splitting = {
-    .kind = &gm_kind_ode,
     .title = "bracket splitting",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step),
 };

@@ -112,16 +112,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    const size_t n = problem->n;
     (void)scheme;
-    return gm_members_open(problem, 0, (3 * MOST + 2) * n + n * n);
+    return (3 * MOST + 2 + problem->n) * problem->n;
 }
 
 #define COLLOCATION(row, degree)                                                                             \
@@ -146,11 +140,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_energy_collocation = {
-    .kind = &gm_kind_ode,
     .title = "energy-preserving collocation",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step, .room = room),
 };

@@ -154,17 +154,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 0, VECTORS * problem->n);
-}
-
 static const struct crouch_grossman none = {0};
 static const struct crouch_grossman three = {
     3, {{0}, {3. / 4}, {119. / 216, 17. / 108}}, {13. / 51, -2. / 3, 24. / 17}};
@@ -210,11 +199,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_lie_group = {
-    .kind = &gm_kind_ode,
     .title = "Lie groups",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step, .vectors = VECTORS),
 };

@@ -66,21 +66,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 0, 0);
-}
-
 static const struct gm_scheme schemes[] = {
     {
         .name = "discrete-moser-veselov2",
-        .alias = "discrete-moser-veselov",
+        .alias = {"discrete-moser-veselov"},
         .title = "discrete Moser-Veselov",
         .formula = "½sh(1 + |c|²) y₀ = I c + c × I c,  y₁ = y₀ − 4/(sh) c × I c/(1 + |c|²)",
         .reference =
@@ -94,11 +83,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_moser_veselov = {
-    .kind = &gm_kind_ode,
     .title = "discrete Moser-Veselov",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step),
 };

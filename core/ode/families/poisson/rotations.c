@@ -131,17 +131,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return (*row)(task->problem, task->dt, members, progress);
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 0, 4 * problem->n);
-}
-
 static one_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;
 
 static const struct gm_scheme schemes[] = {
@@ -173,11 +162,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_rotations = {
-    .kind = &gm_kind_ode,
     .title = "rotations",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS(.step = step, .vectors = 4),
 };

@@ -153,21 +153,14 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_nystrom_row *row = scheme->coefficients;
-    return gm_members_open(problem, 0, (2 * (size_t)row->stages + 1) * (problem->n / 2) + 2 * problem->n);
+    return (2 * (size_t)row->stages + 1) * (problem->n / 2) + 2 * problem->n;
 }
 
 const struct gm_family gm_family_nystrom = {
     .kind = &gm_kind_ode,
     .title = "Nyström",
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    GM_MEMBERS_OF_NO_ROWS(.step = step, .room = room),
 };

@@ -44,15 +44,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const size_t stages = ((const struct gm_partitioned_row *)scheme->coefficients)->stages;
-    return gm_members_open(problem, 0, problem->n + gm_stage_solver_room(problem, stages));
+    return problem->n + gm_stage_solver_room(problem, stages);
 }
 
 static const struct gm_partitioned_row symplectic_euler = {
@@ -136,12 +131,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
 }
 
 const struct gm_family gm_family_partitioned = {
-    .kind = &gm_kind_ode,
     .title = "partitioned Runge-Kutta",
+    GM_MEMBERS(.step = step, .room = room),
     .coefficients_open = coefficients_open,
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
 };

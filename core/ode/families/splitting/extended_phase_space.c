@@ -72,11 +72,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, step);
-}
-
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
@@ -87,12 +82,6 @@ static enum gm_status start(const struct gm_task *task)
 {
     memcpy(task->memory_out, task->y, task->problem->n * task->problem->m * sizeof(double));
     return GM_OK;
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, problem->n, 2 * problem->n);
 }
 
 #define TAO                                                                                                  \
@@ -124,15 +113,10 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_extended_phase_space = {
-    .kind = &gm_kind_ode,
     .title = "extended phase space",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_MEMBERS(.step = step, .vectors = 2),
     .parameters = gm_settings_of_tao,
-    .loop = loop,
     .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
     .doubled = true,
 };

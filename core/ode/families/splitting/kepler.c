@@ -119,32 +119,11 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
-{
-    struct gm_progress progress = gm_members_advance(task, step);
-    if (task->steps_before == 0) {
-        progress.evaluations += task->problem->m; /* of start */
-    }
-    return progress;
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return 2 * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
     gm_ode_of(problem)->kepler_split->perturbing_force(problem, task->y, task->memory_out, problem->m);
     return GM_OK;
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_members_open(problem, 2, 0);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -161,13 +140,7 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_kepler = {
-    .kind = &gm_kind_ode,
     .title = "Kepler splitting",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = loop,
-    .memory = memory,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = 2, .evaluated_at_start = true),
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
 };

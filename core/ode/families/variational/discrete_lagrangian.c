@@ -342,10 +342,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     return GM_OK;
 }
 
-struct gm_progress gm_variational_loop(const struct gm_task *task)
-{
-    return gm_members_advance(task, make_step);
-}
+const struct gm_member_family gm_variational_members = {.step = make_step};
 
 #define TRAPEZOIDAL .degree = 1, .points = 2, .control = {0, 1}, .b = {0.5, 0.5}, .c = {0, 1}
 #define MIDPOINT .degree = 1, .points = 1, .control = {0, 1}, .b = {1}, .c = {0.5}
@@ -524,7 +521,8 @@ const struct gm_family gm_family_discrete_lagrangian = {
     .schemes = schemes,
     .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_sums,
-    .loop = gm_variational_loop,
+    .loop = gm_members_loop,
+    .members = &gm_variational_members,
     .workspace_open = gm_variational_workspace,
     .workspace_close = free,
 };

@@ -4,7 +4,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_VARIATIONAL_DISCRETE_LAGRANGIAN_H
 #define GM_CORE_ODE_FAMILIES_VARIATIONAL_DISCRETE_LAGRANGIAN_H
 
-#include "core/scheme.h"
+#include "core/ode/kernel/members.h"
 
 enum { GM_VARIATIONAL_POINTS = 4 };
 
@@ -24,8 +24,8 @@ struct gm_variational_row {
     (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                    \
      GM_KEEPS_MOMENTUM_MAPS)
 
-/* The loop over such rows, and its workspace, which free closes. */
-struct gm_progress gm_variational_loop(const struct gm_task *task);
+/* The step of such rows, and its workspace, which free closes. */
+extern const struct gm_member_family gm_variational_members;
 void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
 
 #endif

@@ -54,7 +54,8 @@ const struct gm_family gm_family_newmark = {
     .schemes = schemes,
     .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_newmark,
-    .loop = gm_variational_loop,
+    .loop = gm_members_loop,
+    .members = &gm_variational_members,
     .workspace_open = gm_variational_workspace,
     .workspace_close = free,
 };

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the commands that measure have in common: their diagram and their table, as their options say, and of those that
+   are studies of the explorer too all but how they print. */
+#include "app/commands/measuring/measuring.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "app/base/interrupt.h"
+#include "app/base/pool.h"
+#include "app/commands/commands.h"
+#include "app/output/chart.h"
+#include "app/output/provenance.h"
+#include "app/output/say.h"
+#include "core/memory.h"
+
+/* "stability kepler dt=0.1": what `again` reads; malloc'ed, NULL when memory is short. */
+static char *command_line(const char *command, const struct gm_options *options)
+{
+    struct gm_arguments all = {0};
+    char *words = NULL, *text = NULL;
+    bool good = !options->on || (gm_arguments_add(&all, GM_ON) && gm_arguments_add(&all, options->on));
+    for (int i = 0; good && i < options->arguments.count; i++) {
+        good = gm_arguments_add(&all, options->arguments.words[i]);
+    }
+    words = good ? gm_arguments_join(command, &all) : NULL;
+    if (words && asprintf(&text, "%s%s%s%s%s%s%s", words, options->measure ? " --measure " : "",
+                          options->measure ? options->measure : "", options->region ? " --region " : "",
+                          options->region ? options->region : "", options->judge ? " --judge " : "",
+                          options->judge ? options->judge : "") < 0) {
+        text = NULL;
+    }
+    gm_arguments_close(&all);
+    free(words);
+    return text;
+}
+
+int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
+                     const void *data, void (*draw)(const void *data, struct gm_picture *picture),
+                     bool (*write)(const void *data, const char *path))
+{
+    char message[GM_MESSAGE] = "not enough memory";
+    char *words = command_line(command, options);
+    struct gm_chart chart = {.path = options->output,
+                             .folder = options->out,
+                             .name = options->name ? options->name : name,
+                             .command = words,
+                             .print = {.format = options->format, .look = options->look}};
+    const bool good = words && gm_chart_write(&chart, data, draw, write, message);
+    free(words);
+    if (!good) {
+        return gm_printer_fail(options->output, message);
+    }
+    gm_printer_report(&chart.print, write ? chart.csv : "");
+    return GM_EXIT_OK;
+}
+
+static void print_json(const struct gm_grid *grid, const struct gm_study_printer *printer)
+{
+    for (size_t i = 0; i < grid->begun; i++) {
+        struct gm_row row = gm_row_begin(stdout);
+        gm_row_text(&row, "scene", grid->request.scene->name);
+        gm_row_text(&row, "scheme", grid->lines[i].scheme->name);
+        if (grid->row->ordered) {
+            gm_row_count(&row, "order", grid->lines[i].scheme->order);
+        }
+        printer->put_front(&row, grid, &grid->lines[i]);
+        gm_grid_put_cells(grid, &grid->lines[i], printer->cells, &row);
+        if (printer->put_end) {
+            printer->put_end(&row, grid, &grid->lines[i]);
+        }
+        gm_row_close(&row);
+        putchar('\n');
+    }
+}
+
+int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
+                     const struct gm_study_printer *printer)
+{
+    char message[GM_MESSAGE], name[128];
+    const struct gm_study_row *study = gm_study_rows[kind];
+    struct gm_grid grid;
+    if (!gm_grid_open(&grid, kind, &options->arguments, options->judge ? options->judge : options->measure,
+                      message)) {
+        return gm_give_up(gm_request_refusal(&grid.request), "%s", message);
+    }
+    if (!gm_command_confirmed(options, &grid.request)) {
+        gm_grid_close(&grid);
+        return GM_EXIT_USAGE;
+    }
+    grid.jobs = options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
+    gm_catch_interrupts();
+    int status = GM_EXIT_OK;
+    const bool measured = gm_grid_measure(&grid, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (gm_memory_was_short()) {
+        status = gm_give_up(GM_EXIT_MEMORY, "not enough memory to measure what was asked for");
+    } else if (measured) {
+        if (options->json) {
+            print_json(&grid, printer);
+        } else if (!gm_options_take_stdout(options)) {
+            printer->print(&grid);
+        }
+        snprintf(name, sizeof name, "%s-%s", grid.request.scene->name, study->name);
+        status = gm_command_chart(options, study->name, name, &grid, gm_grid_draw, gm_grid_write);
+    } else if (!gm_interrupted) {
+        status = gm_give_up(study->refusal, "%s", message);
+    }
+    gm_grid_close(&grid);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_COMMANDS_MEASURING_MEASURING_H
+#define GM_APP_COMMANDS_MEASURING_MEASURING_H
+
+#include "app/commands/commands.h"
+#include "app/grid/grid.h"
+#include "render/picture/picture.h"
+
+/* Writes the PNG and the CSV of a command that measures, as its options say, and tells of it. They are called
+   `name` where the options have none. Returns the exit status. */
+int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
+                     const void *data, void (*draw)(const void *data, struct gm_picture *picture),
+                     bool (*write)(const void *data, const char *path));
+
+/* How a study prints: as text, and of a line as JSON the members before and behind its runs, which are called `cells`. */
+struct gm_study_printer {
+    void (*print)(const struct gm_grid *grid);
+    const char *cells;
+    void (*put_front)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
+    void (*put_end)(struct gm_row *row, const struct gm_grid *grid,
+                    const struct gm_grid_line *line); /* NULL */
+};
+
+/* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
+   exit status. */
+int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
+                     const struct gm_study_printer *printer);
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_COMMANDS_REFERENCE_REFERENCE_H
+#define GM_APP_COMMANDS_REFERENCE_REFERENCE_H
+
+#include "app/base/arguments.h"
+#include "app/base/files.h"
+#include "app/output/row.h"
+#include "core/theory/theory.h"
+#include "scenes/common/lane.h"
+
+/* What the tables say, in words: for `list`, the manual, the pages and completion, so that they agree. */
+
+/* What a parameter may be: "0 to 1", "light, dark", "a word". Returns text. */
+char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size);
+
+/* The letters of a scheme's claims, "S=R"; needs GM_CLAIM_COUNT + 1 bytes. */
+void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters);
+
+/* Schemes and scenes as the documentation has them, in Markdown, on standard output. */
+void gm_catalogue_schemes_markdown(void);
+void gm_catalogue_scenes_markdown(void);
+
+/* What theory says of a scheme, on standard output, as lines that begin with `indent`. */
+void gm_theory_print(const struct gm_theory *theory, const char *indent);
+
+enum gm_telling { GM_TELL_SHORT, GM_TELL_ALL, GM_TELL_LATEX, GM_TELL_JSON };
+
+/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
+   parameters other values; without a file they are all there is, "system H=... key=value ...". Returns the
+   exit status. */
+int gm_list_system(const struct gm_arguments *arguments, const struct gm_file *file, enum gm_telling telling);
+
+/* "file":"systems/toda.system","source":"..."; null both where there is no file. */
+void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
+
+/* --version: the program and the libraries. Returns the exit status. */
+int gm_version(void);
+
+#endif

@@ -1,0 +1,681 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the user does: the list of what there is, keys, and the mouse. */
+#include "app/explorer/events.h"
+
+#include <curses.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/base/files.h"
+#include "app/explorer/surface/surface.h"
+#include "app/explorer/view/view.h"
+#include "render/cells/text.h"
+#include "render/clock.h"
+
+/* ---- the list ---- */
+
+/* The choice in the list of scenes rests for this long before it is looked at. */
+enum { REST_MILLISECONDS = 150 };
+
+static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
+{
+    const struct gm_start *start = &explorer->list.start;
+    return start->choice < start->count ? &start->found[start->choice] : NULL;
+}
+
+/* ---- systems and rooms of files ---- */
+
+static bool is_listed(const struct gm_list *list, const char *name)
+{
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (strcmp(list->files[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Files of a kind, as they are taken into the list. */
+struct taking {
+    struct gm_list *list;
+    enum gm_start_group group;
+};
+
+/* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
+static void add_file(const struct gm_listed *listed, const void *data)
+{
+    const struct taking *taking = data;
+    struct gm_list *list = taking->list;
+    struct gm_start_entry *longer = NULL;
+    char *name = NULL, *title = NULL;
+    if (!is_listed(list, listed->name) && !gm_scene_find(listed->name) && gm_text_is_plain(listed->name)) {
+        longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
+        list->files = longer ? longer : list->files;
+        name = strdup(listed->name);
+        title = strdup(listed->title);
+    }
+    if (longer && name && title) {
+        list->files[list->file_count++] =
+            (struct gm_start_entry){.group = taking->group, .name = name, .title = gm_text_tame(title)};
+    } else {
+        free(name);
+        free(title);
+    }
+}
+
+static void close_files(struct gm_list *list)
+{
+    for (size_t i = 0; i < list->file_count; i++) {
+        free((char *)list->files[i].name);
+        free((char *)list->files[i].title);
+    }
+    free(list->files);
+    list->files = NULL;
+    list->file_count = list->start.count = 0;
+}
+
+void gm_explorer_close_list(struct gm_list *list)
+{
+    close_files(list);
+    gm_tours_close(list->tours, list->tour_count);
+}
+
+/* ---- what is chosen ---- */
+
+/* Whether the worker is that of this entry. */
+static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
+{
+    const struct gm_open *open = &explorer->open;
+    if (entry->tour) {
+        return open->touring && strcmp(entry->name, open->guide.tour->name) == 0;
+    }
+    if (gm_start_is_user(entry)) { /* or by a file that is in no list */
+        return !open->touring && open->scene && open->scene->text && !is_listed(&explorer->list, open->name);
+    }
+    return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
+}
+
+/* Whether it has a live look. */
+static bool can_be_looked_at(const struct gm_start_entry *entry)
+{
+    return entry && !entry->tour && !gm_start_is_user(entry);
+}
+
+bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
+{
+    const struct gm_start_entry *entry = chosen(explorer);
+    return can_be_looked_at(entry) && is_open(explorer, entry);
+}
+
+/* The chosen scene is looked at in a while, unless it is open already. */
+static void look_soon(struct gm_explorer *explorer)
+{
+    const struct gm_start_entry *entry = chosen(explorer);
+    bool due = can_be_looked_at(entry) && !is_open(explorer, entry);
+    explorer->list.look_due = due ? gm_clock_milliseconds() + REST_MILLISECONDS : -1;
+    explorer->dirty = true;
+}
+
+void gm_explorer_look(struct gm_explorer *explorer)
+{
+    explorer->list.look_due = -1;
+    explorer->list.kept = false;
+    if (!gm_open_named(&explorer->open, chosen(explorer)->name, true, explorer->message)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
+    }
+}
+
+/* Takes what is found into the list, from place `first` on: the best answer to what was typed comes first. */
+static void find(struct gm_start *start, size_t first, const struct gm_start_entry *entry, const char *more,
+                 const char *further)
+{
+    const char *texts[] = {entry->name, entry->title, more ? more : "", further ? further : "", NULL};
+    const int rank = gm_search_rank(start->typed, texts);
+    if (rank < 0 || start->count == GM_START_ENTRIES) {
+        return;
+    }
+    const size_t at = gm_search_place(start->ranks, first, start->count, rank);
+    memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof *entry);
+    start->found[at] = *entry;
+}
+
+static void find_scenes(struct gm_start *start)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        const struct gm_start_entry entry = {
+            .group = GM_START_SCENES, .name = scene->name, .title = scene->title, .scene = scene};
+        find(start, 0, &entry, scene->blurb, scene->watch);
+    }
+    const struct gm_start_entry start_entry = {
+        .group = GM_START_SCENES, .name = GM_START_OWN, .title = GM_START_OWN_TITLE};
+    find(start, 0, &start_entry, NULL, NULL);
+}
+
+static void find_tours(struct gm_start *start, const struct gm_list *list)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->tour_count; i++) {
+        const struct gm_tour *tour = &list->tours[i];
+        const struct gm_start_entry entry = {
+            .group = GM_START_TOURS, .name = tour->name, .title = tour->title, .tour = tour};
+        find(start, first, &entry, tour->about, "tour");
+    }
+}
+
+static void find_files(struct gm_start *start, const struct gm_list *list, enum gm_start_group group)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (list->files[i].group == group) {
+            find(start, first, &list->files[i], NULL, NULL);
+        }
+    }
+}
+
+/* What was chosen before stays so unless something else answers better. */
+static void choose(struct gm_start *start, const struct gm_start_entry *before)
+{
+    start->choice = 0;
+    for (size_t i = 1; i < start->count && before; i++) {
+        const struct gm_start_entry *entry = &start->found[i];
+        const bool same = entry->group == before->group && entry->name == before->name;
+        const int rank = start->ranks[i], best = start->ranks[start->choice];
+        start->choice = rank < best || (rank == best && same) ? i : start->choice;
+    }
+}
+
+static void find_all(struct gm_explorer *explorer)
+{
+    struct gm_start *start = &explorer->list.start;
+    const struct gm_start_entry *present = chosen(explorer);
+    const struct gm_start_entry before = present ? *present : (struct gm_start_entry){0};
+    start->count = 0;
+    find_scenes(start);
+    find_tours(start, &explorer->list);
+    find_files(start, &explorer->list, GM_START_SYSTEMS);
+    find_files(start, &explorer->list, GM_START_ROOMS);
+    choose(start, present ? &before : NULL);
+    look_soon(explorer);
+}
+
+void gm_explorer_show_start(struct gm_explorer *explorer)
+{
+    char message[GM_MESSAGE]; /* what cannot be read is for `geomint list` to tell */
+    if (!explorer->list.tours) {
+        explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
+    }
+    close_files(&explorer->list);
+    gm_files_each(GM_FILE_SYSTEM, add_file, &(const struct taking){&explorer->list, GM_START_SYSTEMS},
+                  message);
+    gm_files_each(GM_FILE_ROOM, add_file, &(const struct taking){&explorer->list, GM_START_ROOMS}, message);
+    explorer->list.shown = true;
+    explorer->editing = false;
+    explorer->list.start.typed[0] = '\0';
+    find_all(explorer);
+    for (size_t i = 0; i < explorer->list.start.count; i++) {
+        if (is_open(explorer, &explorer->list.start.found[i])) {
+            explorer->list.start.choice = i;
+        }
+    }
+    explorer->list.kept = explorer->open.scene != NULL;
+    look_soon(explorer);
+}
+
+/* A tour that was left goes on with the step where it was. */
+static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
+{
+    struct gm_guide *guide = &explorer->open.guide;
+    if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
+        *guide = gm_guide_open(tour);
+        explorer->face.guide = guide;
+    }
+    return gm_open_step(&explorer->open, explorer->message);
+}
+
+static bool enter_named(struct gm_explorer *explorer, const char *name)
+{
+    explorer->open.guide.tour = NULL;
+    explorer->face.guide = NULL;
+    return gm_open_named(&explorer->open, name, false, explorer->message);
+}
+
+/* Opens the chosen scene or tour, or goes back to it where it was left. */
+static void enter(struct gm_explorer *explorer)
+{
+    const struct gm_start_entry *entry = chosen(explorer);
+    if (!entry) {
+        return;
+    }
+    const bool goes_on = explorer->list.kept && is_open(explorer, entry);
+    if (!goes_on && gm_start_is_user(entry)) {
+        gm_explorer_ask_system(explorer);
+        return;
+    }
+    if (!goes_on) {
+        explorer->face.parameter = 0;
+        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_named(explorer, entry->name))) {
+            gm_explorer_leave(explorer, GM_EXIT_USAGE);
+        }
+    }
+    explorer->list.shown = false;
+    explorer->dirty = explorer->fresh = true;
+}
+
+static void press_in_list(struct gm_explorer *explorer, int key)
+{
+    struct gm_start *start = &explorer->list.start;
+    size_t count = start->count;
+    explorer->dirty = true;
+    if (explorer->face.page != GM_PAGE_SCENE) {
+        if (gm_pages_press(key, &explorer->face) == GM_KEY_LEAVE) {
+            gm_explorer_leave(explorer, GM_EXIT_OK);
+        }
+    } else if (key == '?') {
+        explorer->face.page = GM_PAGE_START;
+        explorer->face.scroll = 0;
+    } else if (gm_key_is_enter(key)) {
+        enter(explorer);
+    } else if (gm_key_is_escape(key)) {
+        start->typed[0] = '\0';
+        find_all(explorer);
+    } else if (key == 'q' && !start->typed[0]) {
+        gm_explorer_leave(explorer, GM_EXIT_OK);
+    } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
+        start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
+        look_soon(explorer);
+    } else if ((key == KEY_HOME || key == KEY_END) && count > 0) {
+        start->choice = key == KEY_HOME ? 0 : count - 1;
+        look_soon(explorer);
+    } else if (key == '\t' || key == KEY_BTAB) {
+        start->choice = gm_start_next_group(start);
+        look_soon(explorer);
+    } else if (key == '/' && !start->typed[0]) {
+        /* what is typed is looked for anyway */
+    } else if (gm_typed_key(start->typed, key)) {
+        find_all(explorer);
+    }
+}
+
+/* ---- keys ---- */
+
+void gm_explorer_resize(struct gm_explorer *explorer)
+{
+    int columns, rows;
+    gm_terminal_size(&columns, &rows);
+    if (!gm_screen_resize(&explorer->screen, columns, rows)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
+    }
+    gm_display_forget(&explorer->display);
+    gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
+    if (explorer->face.pixels) {
+        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
+    }
+    explorer->dirty = explorer->fresh = true;
+}
+
+/* In other colours, or none. */
+static void repaint(struct gm_explorer *explorer)
+{
+    struct gm_writer *writer = &explorer->display.writer;
+    writer->theme = explorer->face.theme;
+    writer->colours = explorer->face.monochrome ? GM_COLOURS_NONE : explorer->terminal.colours;
+    gm_display_forget(&explorer->display);
+    explorer->dirty = explorer->fresh = true;
+}
+
+static void next_graphics(struct gm_explorer *explorer)
+{
+    struct gm_face *face = &explorer->face;
+    struct gm_graphics graphics =
+        gm_graphics_next(&explorer->terminal, (struct gm_graphics){face->pixels, face->blocks});
+    face->pixels = graphics.pixels;
+    face->blocks = graphics.blocks;
+    explorer->dirty = true;
+}
+
+void gm_explorer_copy(struct gm_explorer *explorer)
+{
+    const char *command = explorer->open.shot->commands[explorer->face.command];
+    if (command) {
+        gm_writer_copy(&explorer->display.writer, command);
+    }
+}
+
+/* Another step of the tour, if there is one. */
+static void press_in_tour(struct gm_explorer *explorer, int key)
+{
+    struct gm_open *open = &explorer->open;
+    if (!open->guide.tour) {
+        return;
+    }
+    explorer->dirty = true;
+    switch (gm_guide_press(&open->guide, key)) {
+    case GM_GUIDE_OPEN:
+        explorer->face.parameter = 0;
+        if (!gm_open_step(open, explorer->message)) {
+            gm_explorer_leave(explorer, GM_EXIT_USAGE);
+        }
+        break;
+    case GM_GUIDE_RUN:
+        gm_open_study(open);
+        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_RUN});
+        break;
+    case GM_GUIDE_END:
+        break;
+    }
+}
+
+/* A key of an open scene: it belongs to what is open above it, or is one of the table. */
+static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
+{
+    struct gm_face *face = press->face;
+    const bool said = press->shot->message[0] && press->shot->message_number != face->read;
+    face->read = press->shot->message_number;
+    face->watch_until = 0;
+    if (press->key == GM_KEY_REDRAW) {
+        return GM_KEY_REPAINT;
+    }
+    if (press->shot->running_ahead && press->key != 'q') { /* any key stops it */
+        return gm_keystroke_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
+    }
+    if (face->page != GM_PAGE_SCENE) {
+        return gm_pages_press(press->key, face);
+    }
+    if (face->choosing != GM_CHOOSE_NOTHING) {
+        return gm_chooser_press(press);
+    }
+    if (face->prompt != GM_PROMPT_NONE) {
+        return gm_prompt_press(press);
+    }
+    if (gm_key_is_escape(press->key) && (said || face->explaining)) { /* first away with what is said */
+        face->explaining = false;
+        return GM_KEY_DONE;
+    }
+    return gm_key_press(press);
+}
+
+void gm_explorer_key(struct gm_explorer *explorer, int key)
+{
+    if (explorer->typed_prompt.kind != GM_TYPED_NONE && key != GM_KEY_REDRAW) {
+        gm_explorer_press_typed(explorer, key);
+        return;
+    }
+    if (explorer->list.shown) {
+        press_in_list(explorer, key);
+        return;
+    }
+    if (!explorer->open.shot) { /* before the first picture there is only leaving */
+        if (key == 'q') {
+            gm_explorer_leave(explorer, GM_EXIT_OK);
+        } else if (key == 'l' || gm_key_is_escape(key)) {
+            gm_explorer_show_start(explorer);
+        } else if (key == 'n' || key == 'N' || key == 'a') {
+            press_in_tour(explorer, key);
+        }
+        return;
+    }
+    const struct gm_face *face = &explorer->face;
+    const bool plain =
+        face->page == GM_PAGE_SCENE && face->choosing == GM_CHOOSE_NOTHING && face->prompt == GM_PROMPT_NONE;
+    if (plain && gm_studies_press(&explorer->open.studies, key, face->theme)) {
+        explorer->dirty = true;
+        return;
+    }
+    const struct gm_keystroke one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
+    switch (press_in_scene(&one)) {
+    case GM_KEY_LEAVE:
+        gm_explorer_leave(explorer, GM_EXIT_OK);
+        break;
+    case GM_KEY_BLOCKS:
+        next_graphics(explorer);
+        break;
+    case GM_KEY_REPAINT:
+        gm_explorer_resize(explorer);
+        break;
+    case GM_KEY_THEME:
+        repaint(explorer);
+        break;
+    case GM_KEY_SCENES:
+        explorer->open.studies.shown = GM_STUDY_NONE;
+        gm_explorer_show_start(explorer);
+        break;
+    case GM_KEY_STUDY:
+        gm_studies_begin(&explorer->open.studies, key, explorer->open.shot, explorer->wake);
+        explorer->dirty = true;
+        break;
+    case GM_KEY_MAP:
+        gm_explorer_ask_map(explorer);
+        break;
+    case GM_KEY_TYPED: {
+        const enum gm_choosing choosing = face->choosing;
+        explorer->face.choosing = GM_CHOOSE_NOTHING;
+        if (choosing == GM_CHOOSE_NOTHING) {
+            gm_explorer_ask_system(explorer);
+        } else {
+            gm_explorer_ask_scheme(explorer, choosing == GM_CHOOSE_FORK);
+        }
+        break;
+    }
+    case GM_KEY_TOUR:
+        press_in_tour(explorer, key);
+        break;
+    case GM_KEY_FILE:
+        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
+        explorer->dirty = true;
+        break;
+    case GM_KEY_COPY:
+        gm_explorer_copy(explorer);
+        explorer->dirty = true;
+        break;
+    case GM_KEY_DONE:
+        explorer->dirty = true;
+        break;
+    }
+}
+
+/* ---- the mouse ---- */
+
+/* The part of a hit's width that a column stands for, 0 to 1. */
+static double part_of(const struct gm_hit *hit, int column)
+{
+    double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
+    return part < 0 ? 0 : part > 1 ? 1 : part;
+}
+
+/* Sliders follow the button while it is down. */
+static void drag(struct gm_explorer *explorer, int column)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    struct gm_order order = {.value = part_of(&explorer->pointer.held, column)};
+    if (!shot) {
+        return;
+    }
+    if (explorer->pointer.held.kind == GM_HIT_PAST) {
+        order.kind = GM_ORDER_VISIT;
+        order.value *= shot->reach;
+    } else if (explorer->pointer.held.kind == GM_HIT_SLIDER &&
+               explorer->pointer.held.index < shot->parameter_count) {
+        order.kind = GM_ORDER_SLIDE;
+        order.row = shot->parameters[explorer->pointer.held.index].row;
+        order.of_scheme = shot->parameters[explorer->pointer.held.index].of_scheme;
+    } else {
+        return;
+    }
+    gm_worker_order(explorer->open.worker, order);
+}
+
+static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
+{
+    if (scheme == &gm_chooser_user) {
+        explorer->face.choice = scheme;
+        gm_explorer_key(explorer, '\n');
+        return;
+    }
+    const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    gm_worker_order(explorer->open.worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+    explorer->face.choosing = GM_CHOOSE_NOTHING;
+}
+
+/* A choice has no slider: a click takes the next one. */
+static void click_parameter(struct gm_explorer *explorer, size_t index)
+{
+    const struct gm_shot_parameter *parameter = &explorer->open.shot->parameters[index];
+    bool again = explorer->face.parameter == index;
+    explorer->face.parameter = index;
+    explorer->face.explaining = true;
+    if (again && parameter->position < 0) {
+        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_MOVE,
+                                                                 .amount = 1,
+                                                                 .row = parameter->row,
+                                                                 .of_scheme = parameter->of_scheme});
+    }
+}
+
+static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_order order = {.kind = GM_ORDER_POINT};
+    const struct gm_screen *screen = &explorer->screen;
+    if (!explorer->open.shot->scene->point) {
+        return;
+    }
+    struct gm_picture *picture = explorer->open.shot->picture;
+    const struct gm_panel *panel =
+        screen->pixels.columns > 0
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            : gm_cells_locate(&screen->picture.cells, picture, screen->picture.blocks,
+                              event->column - screen->picture_column, event->row - screen->picture_row,
+                              &order.x, &order.y);
+    if (panel) {
+        gm_worker_order(explorer->open.worker, order);
+    }
+}
+
+/* The run that a map has there takes the place of what is open; the map stays behind its key. */
+static void click_study(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_open *open = &explorer->open;
+    struct gm_typed_fault fault;
+    char *words = gm_studies_pick(&open->studies, explorer->face.blocks, event->column, event->row);
+    if (words && !gm_explorer_open_line(explorer, words, &fault)) {
+        snprintf(open->studies.notice, sizeof open->studies.notice, "%s", fault.sentence);
+    }
+    free(words);
+}
+
+/* Whether a picture lies there that can be gone around. */
+static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
+{
+    return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&
+           explorer->open.shot->in_space && explorer->face.page == GM_PAGE_SCENE &&
+           explorer->open.studies.shown == GM_STUDY_NONE;
+}
+
+/* What is seen follows the button: half a turn for the width of the screen. A row is as high as two columns are
+   wide. */
+static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_pointer *pointer = &explorer->pointer;
+    const double degrees = 180. / (explorer->screen.cells.columns > 0 ? explorer->screen.cells.columns : 1);
+    gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_LOOK,
+                                                             .x = degrees * (pointer->column - event->column),
+                                                             .y = 2 * degrees * (event->row - pointer->row),
+                                                             .value = 1});
+    pointer->column = event->column;
+    pointer->row = event->row;
+}
+
+/* The wheel: nearer and further over a picture in space, else through a list, or the speed. */
+static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
+{
+    const bool up = event->kind == GM_MOUSE_UP;
+    const bool space =
+        !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
+    gm_explorer_key(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
+}
+
+static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    explorer->pointer.holding = hit != NULL;
+    if (!hit) {
+        return;
+    }
+    explorer->pointer.held = *hit;
+    explorer->pointer.column = event->column;
+    explorer->pointer.row = event->row;
+    if (hit->kind == GM_HIT_KEY) {
+        gm_explorer_key(explorer, (int)hit->index);
+        return;
+    }
+    if (hit->kind == GM_HIT_SCENE) {
+        if (explorer->list.start.choice == hit->index) {
+            enter(explorer);
+        } else {
+            explorer->list.start.choice = hit->index;
+            look_soon(explorer);
+        }
+        return;
+    }
+    if (explorer->list.shown || !explorer->open.shot) {
+        return;
+    }
+    explorer->face.read = explorer->open.shot->message_number;
+    switch (hit->kind) {
+    case GM_HIT_LANE:
+        gm_worker_order(explorer->open.worker,
+                        (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
+        break;
+    case GM_HIT_SCHEME:
+        click_scheme(explorer, hit->scheme);
+        break;
+    case GM_HIT_SLIDER:
+        explorer->face.parameter = hit->index;
+        explorer->face.explaining = true;
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PARAMETER:
+        click_parameter(explorer, hit->index);
+        break;
+    case GM_HIT_PAST:
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PICTURE:
+        if (explorer->open.studies.shown != GM_STUDY_NONE) {
+            click_study(explorer, event);
+        } else {
+            click_picture(explorer, event);
+        }
+        break;
+    case GM_HIT_KEY:
+    case GM_HIT_SCENE:
+        break;
+    }
+}
+
+void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
+                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    explorer->dirty = true;
+    switch (event->kind) {
+    case GM_MOUSE_PRESS:
+        click(explorer, event);
+        break;
+    case GM_MOUSE_DRAG:
+        if (explorer->pointer.holding && is_in_space(explorer, &explorer->pointer.held)) {
+            drag_space(explorer, event);
+        } else if (explorer->pointer.holding && !explorer->list.shown) {
+            drag(explorer, event->column);
+        }
+        break;
+    case GM_MOUSE_RELEASE:
+        explorer->pointer.holding = false;
+        break;
+    case GM_MOUSE_UP:
+    case GM_MOUSE_DOWN:
+        turn_wheel(explorer, event, lists);
+        break;
+    }
+}

@@ -1,0 +1,635 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which accuracy costs how much: from the words of the command line to schemes, steps and a measure; error and cost
+   of every scheme with every step. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/grid/hooks.h"
+#include "app/grid/judge.h"
+#include "app/words/chosen.h"
+#include "core/arena.h"
+#include "core/basics.h"
+#include "core/certify.h"
+#include "core/expression/lines.h"
+#include "core/schemes.h"
+
+/* ---- layout ---- */
+
+static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
+
+static const char solution_error[] = "solution_error";
+
+static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
+{
+    (void)grid;
+    return scene->work ? scene->work->arguments : "";
+}
+
+static bool is_typed(const struct gm_grid *grid, const char *key)
+{
+    char word[64];
+    snprintf(word, sizeof word, "%s=", key);
+    return gm_arguments_have(grid->typed, word);
+}
+
+/* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
+   those. */
+static bool is_one_problem(const struct gm_grid *grid)
+{
+    const struct gm_request *request = &grid->request;
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 1; i < request->count; i++) {
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            const struct gm_parameter *row = &scene->parameters[k];
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == grid->parameter ||
+                                row == grid->ratio || !is_typed(grid, row->key);
+            const double first = gm_parameter_get(row, request->lanes[0].parameters);
+            const double other = gm_parameter_get(row, request->lanes[i].parameters);
+            const bool automatic = isnan(first) && isnan(other);
+            if (!varies && first != other && !automatic) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Whether the ladders or the lines of the diagram have the values of this word. */
+static bool is_varied(const struct gm_grid *grid, const char *word)
+{
+    const char *const keys[] = {"scheme", "dt", "until", grid->parameter ? grid->parameter->key : NULL,
+                                grid->ratio ? grid->ratio->key : NULL};
+    for (size_t i = 0; i < GM_COUNT(keys); i++) {
+        const size_t length = keys[i] ? strlen(keys[i]) : 0;
+        if (length > 0 && strncmp(word, keys[i], length) == 0 && word[length] == '=') {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Notes the words of the plan and of the user. */
+static void note_settings(struct gm_grid *grid, const struct gm_arguments *words)
+{
+    for (int i = 1; i < words->count; i++) {
+        const size_t used = strlen(grid->settings);
+        if (!is_varied(grid, words->words[i])) {
+            snprintf(grid->settings + used, sizeof grid->settings - used, "%s%s", used ? " " : "",
+                     words->words[i]);
+        }
+    }
+}
+
+/* Takes "best" out of the list of schemes, wherever it stands; false: it is not among them. */
+static bool take_best(struct gm_arguments *words)
+{
+    static const char key[] = "scheme=", best[] = "best";
+    for (int i = 1; i < words->count; i++) {
+        char *const list = words->words[i];
+        if (strncmp(list, key, sizeof key - 1) != 0) {
+            continue;
+        }
+        struct gm_span rest = {sizeof key - 1, strlen(list)}, name;
+        while (gm_span_take(list, &rest, ",", &name)) {
+            if (name.end - name.begin == sizeof best - 1 &&
+                memcmp(list + name.begin, best, sizeof best - 1) == 0) {
+                /* with the comma behind it, or else that before it, so that something is left to be alike */
+                const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
+                const size_t from = last && !alone ? name.begin - 1 : name.begin,
+                             to = last ? name.end : rest.begin;
+                memmove(list + from, list + to, strlen(list + to) + 1);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void edit(struct gm_grid *grid, struct gm_arguments *words)
+{
+    grid->best = take_best(words);
+    for (int i = 1; grid->best && i < words->count; i++) {
+        if (strcmp(words->words[i], "scheme=") == 0) {
+            gm_arena_refuse(grid->arena, "best are those to compare a scheme with: scheme=my.scheme,best");
+        }
+    }
+}
+
+/* A line for each scheme, however often it is named. */
+static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
+{
+    if (gm_grid_find(grid, scheme)) {
+        return;
+    }
+    struct gm_grid_line *line = gm_grid_add(grid, scheme, grid->values.count * grid->steps.count);
+    for (size_t r = 0; r < grid->values.count; r++) {
+        for (size_t k = 0; k < grid->steps.count; k++) {
+            const double value = grid->values.values[r];
+            line->cells[line->count++] =
+                (struct gm_grid_cell){.spec = &grid->request.lanes[0],
+                                      .value = value,
+                                      .step = grid->steps.values[k],
+                                      .error = NAN,
+                                      .resolution = grid->smaller_is_finer ? 1 / value : value};
+        }
+    }
+    for (size_t cost = 0; grid->parameter && cost < GM_COST_COUNT; cost++) {
+        line->front[cost] = gm_arena_take(grid->arena, line->count, sizeof *line->front[cost]);
+    }
+    line->credited = gm_arena_take(grid->arena, line->count, sizeof *line->credited);
+}
+
+/* The built-in schemes of the first one's family that promise the smallest error at equal cost: the smallest
+   error constant by theory, of its order before those of other orders. */
+static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
+{
+    enum { BEST = 3 };
+    const struct gm_scheme *like = grid->lines[0].scheme, *best[BEST] = {NULL};
+    double constants[BEST] = {0};
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (scheme->family != like->family || scheme == like || !gm_scheme_fits(scheme, &lane->problem)) {
+            continue;
+        }
+        const struct gm_theory theory = gm_scheme_theory(scheme);
+        double constant = theory.known ? theory.error_constant : INFINITY;
+        const struct gm_scheme *next = scheme;
+        for (int k = 0; k < BEST && next; k++) {
+            const int off = abs(next->order - like->order);
+            const int than = best[k] ? abs(best[k]->order - like->order) : 0;
+            if (!best[k] || off < than || (off == than && constant < constants[k])) {
+                const struct gm_scheme *moved = best[k];
+                const double its = constants[k];
+                best[k] = next;
+                constants[k] = constant;
+                next = moved;
+                constant = its;
+            }
+        }
+    }
+    if (!best[0]) {
+        gm_arena_refuse(grid->arena, "best: of the family of %s, %s, no other scheme fits", like->name,
+                        like->family->title);
+    }
+    for (int k = 0; k < BEST && best[k]; k++) {
+        add_scheme(grid, best[k]);
+    }
+}
+
+/* Whether a scheme is measured where none is named. */
+static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *scheme, const struct gm_lane *lane)
+{
+    const struct gm_work *work = grid->request.scene->work;
+    bool entrant = !work || !work->schemes;
+    for (size_t k = 0; !entrant && work->schemes[k]; k++) {
+        entrant = strcmp(work->schemes[k], scheme->name) == 0;
+    }
+    const bool exact = work && work->is_exact && strcmp(work->is_exact, scheme->name) == 0 && grid->observed;
+    return entrant && !exact && gm_scheme_fits(scheme, &lane->problem);
+}
+
+/* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
+static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named)
+{
+    const struct gm_request *request = &grid->request;
+    grid->lines = gm_arena_take(grid->arena, gm_scheme_count() + request->count, sizeof *grid->lines);
+    for (size_t i = 0; named && i < request->count; i++) {
+        add_scheme(grid, request->lanes[i].scheme);
+    }
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        if (is_entrant(grid, gm_scheme_at(i), lane)) {
+            add_scheme(grid, gm_scheme_at(i));
+        }
+    }
+    if (grid->best) {
+        add_best(grid, lane);
+    }
+}
+
+static int falling(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x < *y) - (*x > *y);
+}
+
+/* The different values that the lanes have of a parameter. */
+static void add_typed(struct gm_grid_axis *axis, const struct gm_request *request,
+                      const struct gm_parameter *row)
+{
+    for (size_t i = 0; i < request->count; i++) {
+        gm_axis_add(axis, gm_parameter_get(row, request->lanes[i].parameters));
+    }
+}
+
+static void choose_steps(struct gm_grid *grid)
+{
+    const bool typed = is_typed(grid, "dt") || grid->ratio;
+    enum { MOST_HALVINGS = 63 };
+    const struct gm_request *request = &grid->request;
+    const struct gm_work *work = request->scene->work;
+    const struct gm_timing *timing = gm_grid_timing(grid);
+    const double whole = timing->until - gm_scene_t0(request->scene, timing);
+    const double coarsest = work && work->coarsest > 0 ? work->coarsest : 4 * timing->dt;
+    const int halvings = work ? work->halvings : 7;
+    grid->steps.values =
+        gm_arena_take(grid->arena, typed ? request->count : MOST_HALVINGS + 1, sizeof *grid->steps.values);
+    if (typed) {
+        add_typed(&grid->steps, request,
+                  grid->ratio ? grid->ratio : gm_scene_parameter(request->scene, "dt"));
+        qsort(grid->steps.values, grid->steps.count, sizeof *grid->steps.values, falling);
+        return;
+    }
+    double steps = fmax(1, ceil(whole / coarsest - 1e-9));
+    for (int i = 0; i <= halvings; i++, steps *= 2) {
+        gm_axis_add(&grid->steps, whole / steps);
+    }
+}
+
+/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+static void choose_resolutions(struct gm_grid *grid)
+{
+    const struct gm_work *work = grid->request.scene->work;
+    const struct gm_parameter *row = grid->parameter;
+    grid->values.values = gm_arena_take(grid->arena, row ? grid->request.count + work->resolution_count : 1,
+                                        sizeof *grid->values.values);
+    grid->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
+    if (row && is_typed(grid, row->key)) {
+        add_typed(&grid->values, &grid->request, row);
+    }
+    for (size_t i = 0; row && !is_typed(grid, row->key) && i < work->resolution_count; i++) {
+        gm_axis_add(&grid->values, work->resolutions[i]);
+    }
+    if (grid->values.count < 2) {
+        grid->parameter = NULL;
+        grid->values.count = 1;
+    }
+}
+
+static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
+{
+    const char *requested = grid->requested;
+    char message[GM_MESSAGE];
+    const struct gm_scene *scene = grid->request.scene;
+    const struct gm_work *work = scene->work;
+    const bool planned = work && work->measure;
+    grid->measure = planned ? work->measure : solution_error;
+    grid->measure = requested ? requested : grid->measure;
+    grid->measure_title = lane->problem.exact ? "largest difference from the true solution"
+                                              : "largest difference from a run of short steps";
+    grid->measure_title = work && work->distance ? work->distance_title : grid->measure_title;
+    grid->observed = strcmp(grid->measure, solution_error) != 0 ||
+                     (planned && strcmp(work->measure, solution_error) == 0) ||
+                     (!lane->problem.exact && gm_scene_observable(scene, solution_error) >= 0);
+    if (!grid->observed) {
+        return;
+    }
+    const int found = gm_scene_observable(scene, grid->measure);
+    if (found < 0) {
+        gm_chosen_refuse(scene, grid->measure, message);
+        gm_arena_refuse(grid->arena, "%s", message);
+    }
+    /* at the start already a measure can say nothing with these parameters, as a distance from an exact
+       solution that there is not; or with this scheme, but then others may say more */
+    const struct gm_observable *observable = gm_scene_observable_at(scene, (size_t)found);
+    if (observable->why || isfinite(gm_lane_observe(lane, (size_t)found))) {
+        grid->measure_title = observable->title;
+        return;
+    }
+    if (requested) {
+        gm_arena_refuse(grid->arena, "%s says nothing with these parameters", requested);
+    }
+    grid->measure = solution_error;
+    grid->observed = false;
+}
+
+static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
+{
+    char message[GM_MESSAGE];
+    const struct gm_scene *scene = grid->request.scene;
+    const struct gm_work *work = scene->work;
+    const struct gm_timing *timing = gm_grid_timing(grid);
+    const char *resolution = work ? work->resolution : NULL, *ratio = work ? work->ratio : NULL;
+    grid->parameter = resolution ? gm_scene_parameter(scene, resolution) : NULL;
+    grid->errors = work && work->errors ? work->errors : usual_errors;
+    grid->ratio = ratio && is_typed(grid, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
+    if (!gm_request_ends_together(&grid->request, message)) {
+        gm_arena_refuse(grid->arena, "%s", message);
+    }
+    if (!is_one_problem(grid)) {
+        gm_arena_refuse(
+            grid->arena, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+            resolution ? ", " : "", resolution ? resolution : "", ratio ? ", " : "", ratio ? ratio : "");
+    }
+    note_settings(grid, words);
+    if (!(timing->until > gm_scene_t0(scene, timing))) {
+        gm_arena_refuse(grid->arena, "until=%g is the start: there is nothing to measure", timing->until);
+    }
+    choose_steps(grid);
+    choose_resolutions(grid);
+    /* one open lane shows which measure has a number and which schemes fit */
+    const struct gm_lane *lane =
+        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+    choose_measure(grid, lane);
+    choose_schemes(grid, lane, is_typed(grid, "scheme"));
+    gm_arena_drop(grid->arena, lane);
+    if (grid->count == 0) {
+        gm_arena_refuse(grid->arena, "no scheme that is compared here fits %s", scene->name);
+    }
+}
+
+/* ---- runs ---- */
+
+enum { REPEATS = 5 };
+
+/* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
+static const double enough_seconds = 0.1, most_seconds = 4;
+
+/* A run of the trusted scheme to the end that is not timed, which reports how far it is; with another value of a
+   parameter where `row` is not NULL. */
+static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
+{
+    char message[GM_MESSAGE];
+    const struct gm_lane_spec *spec = &grid->request.lanes[0];
+    struct gm_timing *timing = gm_parameters_copy(grid->request.scene, spec->parameters);
+    gm_arena_need(grid->arena, timing);
+    if (row) {
+        gm_parameter_put(row, timing, value);
+    }
+    timing->dt = grid->reference_step;
+    struct gm_lane *lane =
+        gm_grid_keep(grid, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
+    const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
+    lane->unfollowed = !lane->scene->stop;
+    for (int percent = 0; percent < 100 && !gm_listener_stops(grid->listener); percent++) {
+        char what[32];
+        snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
+        gm_listener_hears(grid->listener, what, 0, gm_grid_cells(grid));
+        const double share = (percent + 1) / 100.;
+        /* the carried rounding errors are worth their price here */
+        gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
+    }
+    if (lane->run->status != GM_OK || gm_listener_stops(grid->listener)) {
+        gm_arena_refuse(grid->arena, "the reference, %s, failed: %s", grid->reference,
+                        gm_status_name(lane->run->status));
+    }
+    return lane;
+}
+
+/* The run that errors are distances from, of a scene that measures these: at twice the finest resolution, with half the
+   shortest step. */
+static void run_finer(struct gm_grid *grid)
+{
+    const struct gm_work *work = grid->request.scene->work;
+    const struct gm_parameter *row = gm_scene_parameter(grid->request.scene, work->resolution);
+    const double finest = grid->parameter ? grid->values.values[grid->values.count - 1]
+                                          : gm_parameter_get(row, gm_grid_timing(grid)),
+                 finer = grid->smaller_is_finer ? finest / 2 : 2 * finest;
+    grid->trusted = gm_scheme_find(work->reference);
+    grid->reference_step = grid->steps.values[grid->steps.count - 1] / 2;
+    snprintf(grid->reference, sizeof grid->reference, "a run of %s with a step of %.3g and %s=%.3g",
+             grid->trusted->name, grid->reference_step, row->key, finer);
+    grid->finer = run_reference(grid, row, finer);
+}
+
+/* The scheme of the reference run: the plan's, or that of the highest order which fits; NULL: there is none. */
+static const struct gm_scheme *trusted_of(const struct gm_grid *grid, const struct gm_problem *problem)
+{
+    const struct gm_work *work = grid->request.scene->work;
+    const struct gm_scheme *trusted = work && work->reference ? gm_scheme_find(work->reference) : NULL;
+    const bool named = trusted != NULL;
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (gm_scheme_fits(scheme, problem) && !scheme->family->adaptive && scheme->order >= 4) {
+            trusted = trusted && trusted->order >= scheme->order ? trusted : scheme;
+        }
+    }
+    return trusted;
+}
+
+/* The state that solutions are measured against: the exact one, or that of a trusted run, for all steps of the
+   ladder; `lane` is at its start. */
+static void find_solution(struct gm_grid *grid, const struct gm_lane *lane)
+{
+    const struct gm_problem *problem = &lane->problem;
+    const size_t count = problem->n * problem->m;
+    grid->solution = gm_arena_take(grid->arena, count, sizeof *grid->solution);
+    if (problem->exact) {
+        snprintf(grid->reference, sizeof grid->reference, "the exact solution");
+        problem->exact->solution(problem, gm_grid_timing(grid)->until, lane->start, grid->solution,
+                                 problem->m);
+        return;
+    }
+    grid->trusted = trusted_of(grid, problem);
+    if (!grid->trusted) {
+        gm_arena_refuse(
+            grid->arena,
+            "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
+            "make a reference with; --measure KEY compares an observable of the scene instead");
+    }
+    /* a quarter of the shortest step that halving the ladder a few times less gives: beyond, rounding rules */
+    const size_t middle = grid->steps.count > 3 ? grid->steps.count - 3 : grid->steps.count - 1;
+    grid->reference_step = grid->steps.values[middle] / 4;
+    snprintf(grid->reference, sizeof grid->reference, "a run of %s with a step of %.3g", grid->trusted->name,
+             grid->reference_step);
+    const struct gm_lane *reference = run_reference(grid, NULL, 0);
+    memcpy(grid->solution, gm_run_state(reference->run), count * sizeof *grid->solution);
+    gm_arena_drop(grid->arena, reference);
+}
+
+static void prepare(struct gm_grid *grid)
+{
+    char message[GM_MESSAGE];
+    const struct gm_work *work = grid->request.scene->work;
+    if (grid->observed) {
+        return;
+    }
+    if (work && work->distance) {
+        run_finer(grid);
+        return;
+    }
+    const struct gm_lane *lane =
+        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+    find_solution(grid, lane);
+    gm_arena_drop(grid->arena, lane);
+}
+
+static double error_of(const struct gm_grid *grid, const struct gm_lane *lane, const double *solution)
+{
+    const struct gm_scene *scene = lane->scene;
+    if (grid->finer) {
+        return scene->work->distance(lane, grid->finer);
+    }
+    if (solution) {
+        const double *state = gm_run_state(lane->run);
+        double error = 0;
+        for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
+            const double difference = fabs(state[i] - solution[i]);
+            error = gm_larger(error, difference);
+        }
+        return error;
+    }
+    const int observable = gm_scene_observable(scene, grid->measure);
+    return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
+}
+
+/* The same of a scheme that chose its steps and ends behind `until`: the solution is taken on to where it ends. */
+static double error_behind(const struct gm_grid *grid, const struct gm_lane *lane)
+{
+    const struct gm_problem *problem = &lane->problem;
+    const double until = gm_grid_timing(grid)->until, gap = lane->run->t - until;
+    double *state = malloc(problem->n * problem->m * sizeof *state), error = NAN;
+    if (state && problem->exact) {
+        problem->exact->solution(problem, lane->run->t, lane->start, state, problem->m);
+        error = error_of(grid, lane, state);
+    } else if (state && gap > 0) {
+        const int64_t steps = (int64_t)fmin(ceil(gap / grid->reference_step), 1e5);
+        const struct gm_settings settings = {.compensated = 1};
+        struct gm_run *run =
+            gm_run_open(problem, grid->trusted, &settings, until, gap / (double)steps, grid->solution);
+        if (run && gm_run_advance(run, steps) == GM_OK) {
+            error = error_of(grid, lane, gm_run_state(run));
+        }
+        if (run) {
+            gm_run_close(run);
+        }
+    } else if (state) {
+        error = error_of(grid, lane, grid->solution);
+    }
+    free(state);
+    return error;
+}
+
+/* Why the lane has no such number, where it says so. */
+static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, char *message)
+{
+    const int observable = gm_scene_observable(lane->scene, grid->measure);
+    const char *reason = observable < 0 ? NULL : gm_lane_missing(lane, (size_t)observable);
+    gm_refuse(message, "%s", reason ? reason : "");
+}
+
+/* Makes and times a run; returns the time, INFINITY where it was given up. A run that its scene may stop is followed in
+   any case. */
+static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
+{
+    const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
+    lane->unfollowed = !lane->scene->stop;
+    const double seconds = gm_grid_advance(grid, lane, steps, most_seconds);
+    return gm_grid_goes_on(grid, lane, steps) ? INFINITY : seconds;
+}
+
+/* Once more, looking on the way, for an observable that recalls the past. Returns what it then says. */
+static double follow(const struct gm_grid *grid, const struct gm_scheme *scheme, struct gm_grid_cell *cell,
+                     char *message)
+{
+    enum { SLICES = 100 };
+    struct gm_lane *lane = gm_grid_open_lane(grid, scheme, cell, message);
+    const int64_t steps = lane ? gm_run_steps_at(lane->run, gm_grid_timing(grid)->until) : 0;
+    for (int i = 1; lane && i <= SLICES; i++) {
+        gm_grid_advance(grid, lane, i < SLICES ? (int64_t)((double)steps * i / SLICES) : steps, INFINITY);
+    }
+    const double error = lane ? error_of(grid, lane, NULL) : NAN;
+    gm_lane_close(lane);
+    return error;
+}
+
+static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell, char *message)
+{
+    const struct gm_scheme *scheme = lane->scheme;
+    if (grid->solution && scheme == grid->trusted && cell->dt <= 1.01 * grid->reference_step) {
+        cell->tried = false; /* that is the run that the others are measured against */
+        return;
+    }
+    double spent = cell->seconds = time_run(grid, lane);
+    gm_grid_take_end(lane, cell);
+    cell->error = NAN;
+    if (cell->status == GM_OK && isfinite(spent)) {
+        cell->error = grid->solution && scheme->family->adaptive ? error_behind(grid, lane)
+                                                                 : error_of(grid, lane, grid->solution);
+        if (!grid->solution && isnan(cell->error)) {
+            note_reason(grid, lane, message);
+        }
+    }
+    for (int repeat = 1; repeat < REPEATS && spent < enough_seconds && !gm_listener_stops(grid->listener);
+         repeat++) {
+        struct gm_lane *again = gm_grid_open_lane(grid, scheme, cell, message);
+        const double seconds = again ? time_run(grid, again) : INFINITY;
+        gm_lane_close(again);
+        cell->seconds = fmin(cell->seconds, seconds);
+        spent += seconds;
+    }
+    if (grid->request.scene->follow > 0 && !grid->solution && isfinite(cell->error)) {
+        cell->error = follow(grid, scheme, cell, message);
+    }
+}
+
+/* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
+   varies, the resolution rules. */
+static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *last)
+{
+    const struct gm_grid_cell *before = last - 1;
+    const bool resolved = grid->parameter && fabs(last->error - before->error) < 0.03 * before->error;
+    const bool round_off = last->error < 1e-9 && last->error > 0.7 * before->error;
+    const bool long_enough = last->status == GM_OK && last->seconds > most_seconds / 3;
+    return resolved || round_off || long_enough || !isfinite(last->seconds);
+}
+
+static bool is_needless(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell)
+{
+    const struct gm_grid_cell *last = &line->cells[cell] - 1;
+    const size_t before = cell % grid->steps.count; /* of the same resolution */
+    return line->ended || (before > 0 && !last->tried) || (before > 1 && is_enough(grid, last));
+}
+
+/* Errors of both may cancel by chance: a cell is credited with the largest error of its resolution at its step
+   and all shorter ones. */
+static void conclude(const struct gm_grid *grid, struct gm_grid_line *line)
+{
+    struct gm_grid_cell *credited = line->credited;
+    for (size_t k = line->count; grid->parameter && k-- > 0;) {
+        credited[k] = line->cells[k];
+        if (k + 1 < line->count && credited[k + 1].value == credited[k].value &&
+            credited[k + 1].error > credited[k].error) {
+            credited[k].error = credited[k + 1].error;
+        }
+    }
+    for (int cost = 0; grid->parameter && cost < GM_COST_COUNT; cost++) {
+        line->front_count[cost] =
+            gm_work_keep_best(credited, line->count, (enum gm_cost)cost, line->front[cost]);
+    }
+}
+
+static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number)
+{
+    (void)number;
+    if (grid->parameter) {
+        gm_row_number(row, grid->parameter->key, cell->value, 17);
+    }
+    gm_row_number(row, "dt", cell->dt, 17);
+    gm_row_count(row, "steps", (double)cell->steps);
+    gm_row_number(row, "t", cell->t, 17);
+    gm_row_text(row, "status", gm_status_name(cell->status));
+    gm_row_number(row, row->form == GM_ROW_HEAD ? grid->measure : "error",
+                  isfinite(cell->error) ? cell->error : NAN, 17);
+    gm_row_number(row, "seconds", cell->seconds, 6);
+    gm_row_count(row, "evaluations", cell->evaluations);
+    gm_row_count(row, "solves", cell->solves);
+}
+
+const struct gm_study_row gm_study_work = {.name = "work-precision",
+                                           .refusal = GM_EXIT_NUMERICAL,
+                                           .draw = gm_work_draw,
+                                           .which = "work-precision of which scene? See geomint list scenes",
+                                           .schemes = 1,
+                                           .usual = usual,
+                                           .edit = edit,
+                                           .lay_out = lay_out,
+                                           .alone = true,
+                                           .prepare = prepare,
+                                           .is_needless = is_needless,
+                                           .run = run,
+                                           .conclude = conclude,
+                                           .ordered = true,
+                                           .rows = 1,
+                                           .put_cell = put};

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The file of a system, as words of a command line write it or replace its formulas. */
+#ifndef GM_APP_WORDS_TYPED_FILE_H
+#define GM_APP_WORDS_TYPED_FILE_H
+
+#include <stdbool.h>
+
+#include "app/base/place.h"
+
+struct gm_arguments;
+struct gm_fault;
+
+/* A fault in a line that a word wrote is reported at its place in the word. */
+struct gm_typed_file { /* {0} is an empty text */
+    const char *path;  /* NULL: of words alone */
+    char *text;        /* malloc'ed */
+    size_t length;
+    int count;
+    char *const *words; /* "NAME key=value ..." */
+};
+
+extern const char *const gm_typed_keys[];     /* of words alone: H L rate coordinates momenta, and NULL */
+extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
+
+/* Whether a word sets H, L or rate. */
+bool gm_typed_is_formula(const char *word);
+/* The value of a word that sets this key; NULL if it sets another one. */
+const char *gm_word_after(const char *word, const char *key);
+
+/* Writes the file that "system H=... key=value ..." would be: coordinates that are not given are q, or q1, q2 and so
+   on, names of the state have their values at the start, others are parameters. False with a sentence, and a place
+   where it has one. */
+bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place, char *message);
+/* Writes the formulas that were typed where the text has its own. False: no memory. */
+bool gm_typed_file_replace(struct gm_typed_file *file);
+/* Whether a word is one of these lines. */
+bool gm_typed_file_has(const struct gm_typed_file *file, const char *word);
+
+/* Reports what is wrong with the text, and sets `place` if it is in one of the words. Returns an exit status. */
+int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault *fault,
+                        struct gm_word_place *place, char *message);
+
+/* The formulas of a text as words, "H=p^2/2", which would replace them. False: no memory. */
+bool gm_typed_file_formulas(const char *text, struct gm_arguments *words);
+
+#endif

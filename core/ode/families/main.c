@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A program that the build runs: writes schemes of share/schemes as rows of the families that advance them.
+   Usage: write_schemes implicit|splitting|compositions OUT.def NAME.scheme ...
+   Each row is
+       GM_SCHEME_ROW(identifier, coefficients) GM_SCHEME_TEXTS(identifier, members of struct gm_scheme)
+   with the coefficients as the doubles of their formulas; a composition of Verlet's method is
+       GM_COMPOSITION(identifier, steps) */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/files/generated.h"
+#include "core/scheme.h"
+#include "core/theory/written_scheme.h"
+
+static void put_numbers(FILE *out, const struct gm_written_number *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s%a", i ? ", " : "{", numbers[i].value);
+    }
+    fputs("}", out);
+}
+
+static void put_tableau(FILE *out, const struct gm_written_scheme *scheme)
+{
+    const struct gm_written_line *a = &scheme->lines[GM_SCHEME_WORD_A];
+    fprintf(out, ".stages = %d, .a = {", a->rows);
+    for (int i = 0; i < a->rows; i++) {
+        fputs(i ? ", " : "", out);
+        put_numbers(out, a->numbers + i * a->columns, a->columns);
+    }
+    fputs("}, .b = ", out);
+    put_numbers(out, scheme->lines[GM_SCHEME_WORD_B].numbers, a->rows);
+    fputs(", .composition = &gm_composition_none", out);
+}
+
+static void put_pieces(FILE *out, const struct gm_written_scheme *scheme)
+{
+    const struct gm_written_line *drifts = &scheme->lines[GM_SCHEME_WORD_DRIFTS],
+                                 *kicks = &scheme->lines[GM_SCHEME_WORD_KICKS];
+    const int count = drifts->columns + kicks->columns;
+    fprintf(out, ".splitting = {%d, {", count);
+    for (int i = 0; i < count; i++) {
+        const bool kick = (i % 2 == 0) == scheme->kick_first;
+        fprintf(out, "%s{%s, %a}", i ? ", " : "", kick ? "GM_KICK" : "GM_DRIFT",
+                (kick ? kicks : drifts)->numbers[i / 2].value);
+    }
+    fputs("}}", out);
+}
+
+/* The steps of a symmetric composition, as far as the middle one. */
+static void put_composition(FILE *out, const struct gm_written_line *steps)
+{
+    fprintf(out, "{%d, ", steps->columns);
+    put_numbers(out, steps->numbers, (steps->columns + 1) / 2);
+    fputs("}", out);
+}
+
+/* A line as a member of the row; " | " at the beginning of a further line is a line break. */
+static void put_text(FILE *out, const char *member, const struct gm_written_scheme *scheme,
+                     enum gm_scheme_word word)
+{
+    const struct gm_span value = scheme->lines[word].value;
+    char *text =
+        scheme->lines[word].said ? strndup(scheme->text + value.begin, value.end - value.begin) : NULL;
+    for (char *at = text ? strstr(text, "\n | ") : NULL; at; at = strstr(at, "\n | ")) {
+        memmove(at + 1, at + 4, strlen(at + 4) + 1);
+    }
+    if (text) {
+        fprintf(out, ", .%s = ", member);
+        gm_string_put(out, text, strlen(text));
+    }
+    free(text);
+}
+
+static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word word, const char *text)
+{
+    const struct gm_span value = scheme->lines[word].value;
+    return scheme->lines[word].said && value.end - value.begin == strlen(text) &&
+           memcmp(scheme->text + value.begin, text, strlen(text)) == 0;
+}
+
+enum family { IMPLICIT, SPLITTING, COMPOSITIONS, FAMILIES };
+static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions"};
+
+/* Writes the scheme if the family advances it. False if it cannot be a row. */
+static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const char *name,
+                       enum family family)
+{
+    const bool of_verlet = is_text(scheme, GM_SCHEME_WORD_BASE, "verlet"),
+               of_midpoint = is_text(scheme, GM_SCHEME_WORD_BASE, "midpoint");
+    const struct gm_span claimed = scheme->lines[GM_SCHEME_WORD_CLAIMS].value;
+    unsigned claims = 0;
+    size_t wrong = claimed.begin;
+    char identifier[64];
+    snprintf(identifier, sizeof identifier, "%s", name);
+    for (char *at = identifier; (at = strchr(at, '-'));) {
+        *at = '_';
+    }
+    if (!gm_claims_read(scheme->text, claimed, &claims, &wrong) ||
+        (scheme->kind == GM_WRITTEN_COMPOSITION
+             ? !of_verlet && !of_midpoint
+             : scheme->kind != GM_WRITTEN_RUNGE_KUTTA && scheme->kind != GM_WRITTEN_SPLITTING)) {
+        return false;
+    }
+    const bool splitting = scheme->kind == GM_WRITTEN_SPLITTING || of_verlet;
+    if (family == COMPOSITIONS && of_verlet) {
+        fprintf(out, "GM_COMPOSITION(%s, ", identifier);
+        put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
+        fputs(")\n", out);
+    }
+    if (family != (splitting ? SPLITTING : IMPLICIT)) {
+        return true;
+    }
+    fprintf(out, "GM_SCHEME_ROW(%s, ", identifier);
+    if (of_verlet) {
+        fprintf(out, ".of_verlet = &gm_composition_%s", identifier);
+    } else if (of_midpoint) {
+        fputs(".stages = 1, .a = {{0.5}}, .b = {1}, .composition = &(const struct gm_composition)", out);
+        put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
+    } else if (splitting) {
+        put_pieces(out, scheme);
+    } else {
+        put_tableau(out, scheme);
+    }
+    fprintf(out, ")\nGM_SCHEME_TEXTS(%s, .name = \"%s\", .order = %d, .claims = %#x", identifier, name,
+            scheme->order, claims);
+    fputs(splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
+    fputs(scheme->nystrom ? " | GM_NEEDS_NYSTROM" : "", out);
+    put_text(out, "title", scheme, GM_SCHEME_WORD_TITLE);
+    put_text(out, "alias[0]", scheme, GM_SCHEME_WORD_ALIAS);
+    put_text(out, "formula", scheme, GM_SCHEME_WORD_FORMULA);
+    put_text(out, "reference", scheme, GM_SCHEME_WORD_REFERENCE);
+    fputs(")\n", out);
+    return true;
+}
+
+static bool put_file(FILE *out, const char *path, enum family family)
+{
+    size_t length = 0;
+    char *text = gm_input_read(path, &length), name[64];
+    const char *slash = strrchr(path, '/');
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(slash ? slash + 1 : path, "."),
+             slash ? slash + 1 : path);
+    struct gm_written_scheme scheme = {.text = NULL};
+    struct gm_fault fault = {.sentence = "it could not be read"};
+    const bool good = text && gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
+                      put_scheme(out, &scheme, name, family);
+    if (!good) {
+        fprintf(stderr, "%s: %s\n", path, fault.sentence[0] ? fault.sentence : "it is not a row of a family");
+    }
+    gm_written_close(&scheme);
+    free(text);
+    return good;
+}
+
+int main(int argc, char *argv[])
+{
+    enum family family = 0;
+    while (argc > 3 && family < FAMILIES && strcmp(argv[1], families[family]) != 0) {
+        family++;
+    }
+    FILE *out = argc > 3 && family < FAMILIES ? fopen(argv[2], "w") : NULL;
+    bool good = out != NULL;
+    for (int i = 3; i < argc && good; i++) {
+        good = put_file(out, argv[i], family);
+    }
+    return out && fclose(out) == 0 && good ? EXIT_SUCCESS : EXIT_FAILURE;
+}

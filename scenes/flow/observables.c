@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is observed of flows: measures of their states, and errors against the exact solution that a room's file gives,
+   which are NAN where there is none. */
+#include "scenes/flow/observables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct gm_flow *flow_of(const struct gm_view *view)
+{
+    return gm_flow_of(view->problem);
+}
+
+static double kinetic_energy(const struct gm_view *view)
+{
+    return gm_flow_kinetic_energy(flow_of(view), view->state);
+}
+
+static double speed_max(const struct gm_view *view)
+{
+    return gm_flow_largest_speed(flow_of(view), view->state);
+}
+
+static double enstrophy(const struct gm_view *view)
+{
+    return gm_flow_enstrophy(flow_of(view), view->state);
+}
+
+static double divergence(const struct gm_view *view)
+{
+    return gm_flow_divergence(flow_of(view), view->state);
+}
+
+static double circulation_error(const struct gm_view *view)
+{
+    return gm_flow_circulation_error(flow_of(view), view->state);
+}
+
+static double scalar_total(const struct gm_view *view)
+{
+    return gm_flow_scalar_total(flow_of(view), view->state);
+}
+
+static double scalar_outflow(const struct gm_view *view)
+{
+    return gm_flow_budget(flow_of(view), view->state).outflow;
+}
+
+static double budget_defect(const struct gm_view *view)
+{
+    return view->t == view->t0 ? 0 : gm_flow_budget(flow_of(view), view->state).defect;
+}
+
+static double psi_low(const struct gm_view *view)
+{
+    double low = INFINITY;
+    for (size_t v = 0; v < flow_of(view)->complex->vertices; v++) {
+        low = fmin(low, view->state[v]);
+    }
+    return low;
+}
+
+static double change(const struct gm_view *view)
+{
+    const double *before = gm_flow_block(flow_of(view), view->state, GM_FLOW_PSI_BEFORE);
+    double change = 0, size = 0;
+    for (size_t v = 0; v < flow_of(view)->complex->vertices; v++) {
+        change = fmax(change, fabs(view->state[v] - before[v]));
+        size = fmax(size, fabs(view->state[v]));
+    }
+    return size > 0 ? change / size : 0;
+}
+
+static double triangles(const struct gm_view *view)
+{
+    return (double)flow_of(view)->complex->triangles;
+}
+
+static double obtuse_share(const struct gm_view *view)
+{
+    return (double)flow_of(view)->complex->obtuse / (double)flow_of(view)->complex->triangles;
+}
+
+static double star_least(const struct gm_view *view)
+{
+    return flow_of(view)->complex->star_least;
+}
+
+static double mean_edge(const struct gm_view *view)
+{
+    return flow_of(view)->complex->mean_edge;
+}
+
+static double scalar_mean(const struct gm_view *view)
+{
+    const struct gm_flow *flow = flow_of(view);
+    return gm_flow_scalar_total(flow, view->state) / flow->complex->total_area;
+}
+
+static double temperature_mean(const struct gm_view *view)
+{
+    return gm_flow_temperature_mean(flow_of(view), view->state);
+}
+
+double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const double at[2])
+{
+    const struct gm_room *room = gm_room_of(view->problem);
+    const struct gm_room_line *line = gm_room_line(room, GM_ROOM_EXACT);
+    const double place[4] = {0, at[0], at[1], view->t * gm_flow_of(view->problem)->time_unit};
+    return room->unsolved || !line ? NAN
+                                   : gm_room_value(room, line, key, place, key == GM_ROOM_SPEED_Y ? 0 : NAN);
+}
+
+/* |values - exact| / |exact| at the vertices in the norm sum star0 w^2 */
+static double vertex_error(const struct gm_view *view, enum gm_flow_block block, enum gm_room_key key)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    const double *values = gm_flow_block(gm_flow_of(view->problem), view->state, block);
+    double error = 0, size = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double truth = gm_room_exact(view, key, complex->point + 2 * v), away = values[v] - truth;
+        error += complex->star0[v] * away * away;
+        size += complex->star0[v] * truth * truth;
+    }
+    return sqrt(error / size);
+}
+
+static double psi_error(const struct gm_view *view)
+{
+    return vertex_error(view, GM_FLOW_PSI, GM_ROOM_STREAM_FUNCTION);
+}
+
+static double scalar_error(const struct gm_view *view)
+{
+    return vertex_error(view, GM_FLOW_THETA, GM_ROOM_SCALAR);
+}
+
+static double solution_error(const struct gm_view *view)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double largest = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double truth = gm_room_exact(view, GM_ROOM_STREAM_FUNCTION, complex->point + 2 * v);
+        largest = gm_larger(largest, fabs(view->state[v] - truth));
+    }
+    return largest;
+}
+
+/* An end of a dual edge: a dual vertex, or on the boundary the edge's middle. */
+static void dual_end(const struct gm_complex *complex, size_t e, int side, double p[2])
+{
+    const int t = complex->edge_triangle[2 * e + (size_t)side];
+    if (t >= 0) {
+        gm_complex_centre(complex, (size_t)t, p);
+    } else {
+        gm_complex_middle(complex, e, p);
+    }
+}
+
+static double flux_error(const struct gm_view *view)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double error = 0, size = 0;
+    for (size_t e = 0; e < complex->edges; e++) {
+        double from[2], to[2], exact = 0;
+        dual_end(complex, e, 1, from);
+        dual_end(complex, e, 0, to);
+        const double middle[2] = {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2};
+        for (int c = 0; c < 2; c++) { /* Simpson's rule is exact for a parabola */
+            const enum gm_room_key key = c == 0 ? GM_ROOM_SPEED_X : GM_ROOM_SPEED_Y;
+            exact += (to[c] - from[c]) *
+                     (gm_room_exact(view, key, from) + 4 * gm_room_exact(view, key, middle) +
+                      gm_room_exact(view, key, to)) /
+                     6;
+        }
+        const double circulation =
+            -complex->star1[e] * (view->state[complex->edge[2 * e + 1]] - view->state[complex->edge[2 * e]]);
+        error += complex->length[e] * (circulation - exact) * (circulation - exact);
+        size += complex->length[e] * exact * exact;
+    }
+    return sqrt(error / size);
+}
+
+static double velocity_error(const struct gm_view *view)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double error = 0, size = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double u[2], p[6];
+        gm_flow_velocity(complex, view->state, t, u);
+        gm_complex_corners(complex, t, p);
+        const double middle[2] = {(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3},
+                     x = gm_room_exact(view, GM_ROOM_SPEED_X, middle),
+                     y = gm_room_exact(view, GM_ROOM_SPEED_Y, middle);
+        error += complex->area[t] * ((u[0] - x) * (u[0] - x) + (u[1] - y) * (u[1] - y));
+        size += complex->area[t] * (x * x + y * y);
+    }
+    return sqrt(error / size);
+}
+
+/* The error of the total pressure over the triangles whose dual vertex is further than `margin` from the
+   boundary of the rectangle; both pressures with mean 0 there. */
+static double pressure_error_within(const struct gm_view *view, double margin)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    const struct gm_rectangle *box = &gm_room_of(view->problem)->rectangle;
+    double *pressure = malloc(3 * complex->triangles * sizeof *pressure);
+    if (!pressure || !gm_flow_pressure(gm_flow_of(view->problem), view->state, pressure)) {
+        free(pressure);
+        return NAN;
+    }
+    double *exact = pressure + complex->triangles, *area = exact + complex->triangles;
+    double mean = 0, exact_mean = 0, total = 0, error = 0, size = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double centre[2];
+        gm_complex_centre(complex, t, centre);
+        const double to_wall =
+            fmin(fmin(centre[0], box->width - centre[0]), fmin(centre[1], box->height - centre[1]));
+        exact[t] = gm_room_exact(view, GM_ROOM_TOTAL_PRESSURE, centre);
+        area[t] = to_wall >= margin ? complex->area[t] : 0;
+        mean += area[t] * pressure[t];
+        exact_mean += area[t] * exact[t];
+        total += area[t];
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        const double truth = exact[t] - exact_mean / total, away = pressure[t] - mean / total - truth;
+        error += area[t] * away * away;
+        size += area[t] * truth * truth;
+    }
+    free(pressure);
+    return sqrt(error / size);
+}
+
+static double pressure_error(const struct gm_view *view)
+{
+    return pressure_error_within(view, -INFINITY);
+}
+
+static double pressure_error_middle(const struct gm_view *view)
+{
+    return pressure_error_within(view, 0.2);
+}
+
+/* The mean of |u - exact|, or of |theta - exact|, at fifty places along a profile, not at its ends: on the walls
+   velocity and temperature are given, and a polynomial fitted to one side says nothing of the flow. */
+static double profile_error(const struct gm_view *view, char quantity)
+{
+    enum { PLACES = 50 };
+    const double margin = 0.02;
+    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
+    const struct gm_profile *line =
+        &user_room->profiles[user_room->subjects[view->observable - user_room->observables].number].line;
+    double sum = 0;
+    for (size_t i = 0; i < PLACES; i++) {
+        const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),
+                     at[2] = {line->a[0] + s * (line->b[0] - line->a[0]),
+                              line->a[1] + s * (line->b[1] - line->a[1])};
+        struct gm_sample sample = {0};
+        gm_flow_sample(gm_flow_of(view->problem), view->state, at[0], at[1], &sample);
+        sum += fabs(gm_room_quantity(&sample, quantity) - gm_room_exact(view, gm_room_key_of(quantity), at));
+    }
+    return sum / PLACES;
+}
+
+static double profile_u_error(const struct gm_view *view)
+{
+    return profile_error(view, 'u');
+}
+
+static double profile_scalar_error(const struct gm_view *view)
+{
+    return profile_error(view, 's');
+}
+
+static const struct gm_observable errors_along[] = {
+    GM_LOG_OBSERVABLE("u_error", profile_u_error, "mean error of u"),
+    GM_LOG_OBSERVABLE("theta_error", profile_scalar_error, "mean error of θ"),
+};
+static const struct gm_observable observables[] = {
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ"),
+    GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ"),
+    GM_LOG_OBSERVABLE("theta_error", scalar_error, "relative error of θ"),
+    GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux"),
+    GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity"),
+    GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure"),
+    GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
+                      "relative error of the total pressure away from the walls"),
+    GM_OBSERVABLE("psi_min", psi_low, "least stream function"),
+    GM_OBSERVABLE("mean_edge", mean_edge, "mean edge"),
+    GM_LOG_OBSERVABLE("enstrophy_error", enstrophy, "enstrophy error", .error = true, .symbol = "Z"),
+    GM_LOG_OBSERVABLE("circulation_error", circulation_error, "circulation error"),
+    GM_OBSERVABLE("scalar_total", scalar_total, "pollutant in the room"),
+    GM_OBSERVABLE("scalar_outflow", scalar_outflow, "outflow of pollutant"),
+    GM_LOG_OBSERVABLE("budget_defect", budget_defect, "defect of the pollutant's budget"),
+    GM_LOG_OBSERVABLE("divergence", divergence, "divergence  max |d₁ d₀ ψ|"),
+    GM_OBSERVABLE("kinetic_energy", kinetic_energy, "kinetic energy"),
+    GM_OBSERVABLE("enstrophy", enstrophy, "enstrophy"),
+    GM_OBSERVABLE("speed_max", speed_max, "largest speed, of a triangle or of the boundary"),
+    GM_LOG_OBSERVABLE("change", change, "change of ψ in a step"),
+    GM_OBSERVABLE("triangles", triangles, "triangles"),
+    GM_OBSERVABLE("obtuse_share", obtuse_share, "share of obtuse triangles"),
+    GM_OBSERVABLE("star_least", star_least, "least entry of the circumcentric star"),
+    GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration"),
+    GM_OBSERVABLE("temperature_mean", temperature_mean, "mean temperature"),
+};
+
+const struct gm_observable *gm_room_observable(const char *key, bool along)
+{
+    const struct gm_observable *table = along ? errors_along : observables;
+    const size_t rows = along ? GM_COUNT(errors_along) : GM_COUNT(observables);
+    size_t i = 0;
+    while (i < rows && strcmp(table[i].key, key) != 0) {
+        i++;
+    }
+    return i < rows ? &table[i] : NULL;
+}

@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lines of a room say beside its boundary: parameters, observables, pictures and studies. Everything stands in the
+   scene's arena, whose body this is called from. */
+#include "scenes/flow/room_lines.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/flow/observables.h"
+#include "scenes/flow/profiles.h"
+
+/* The text of the only line with a word; NULL: there is none. */
+static const char *said(struct gm_user_room *user_room, const char *word)
+{
+    struct gm_span value;
+    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(user_room, value) : NULL;
+}
+
+/* The text of an option; NULL: it is not given. */
+static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
+{
+    struct gm_span value;
+    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(user_room, value) : NULL;
+}
+
+static const char *take(struct gm_user_room *user_room, struct gm_span *rest, const char *separator)
+{
+    struct gm_span piece;
+    gm_span_take(user_room->room.text, rest, separator, &piece);
+    return gm_room_keep(user_room, piece);
+}
+
+static double number(struct gm_user_room *user_room, struct gm_span span)
+{
+    struct gm_fault fault = {0};
+    double value = NAN;
+    if (!gm_room_number(&user_room->room, span, &value, &fault)) {
+        gm_room_refuse(user_room, &fault);
+    }
+    return value;
+}
+
+/* Numbers that are separated by commas; an option's or, where that has no word, all. */
+static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
+{
+    struct gm_span rest = pieces, piece;
+    double *list = NULL;
+    *count = 0;
+    while ((!word || *count > 0 || gm_room_option(&user_room->room, pieces, word, &rest)) &&
+           gm_span_take(user_room->room.text, &rest, ",", &piece)) {
+        list = gm_arena_resize(user_room->arena, list, *count + 1, sizeof *list);
+        list[(*count)++] = number(user_room, piece);
+    }
+    return list;
+}
+
+static double option_number(struct gm_user_room *user_room, struct gm_span pieces, const char *word,
+                            double otherwise)
+{
+    size_t count;
+    const double *list = numbers(user_room, pieces, word, &count);
+    return count > 0 ? list[0] : otherwise;
+}
+
+/* Words that are separated by blanks or commas, NULL behind them; NULL: there is no text. */
+static const char *const *list_words(struct gm_user_room *user_room, const char *text)
+{
+    size_t count = 0;
+    const char **list = NULL;
+    for (const char *at = text; at && *(at += strspn(at, ", ")); at += strcspn(at, ", ")) {
+        char *word = gm_room_format(user_room, "%.*s", (int)(strcspn(at, ", ")), at);
+        list = gm_arena_resize(user_room->arena, list, count + 2, sizeof *list);
+        list[count++] = word;
+        list[count] = NULL;
+    }
+    return list;
+}
+
+/* The line, or the piece, at which something is not as it should be. */
+_Noreturn static void refuse(struct gm_user_room *user_room, struct gm_span span, const char *sentence)
+{
+    struct gm_fault fault;
+    gm_fail(&fault, span.begin, "%s", sentence);
+    gm_room_refuse(user_room, &fault);
+}
+
+static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
+{
+    const char *key = gm_room_keep(user_room, span);
+    if (gm_scene_observable(&user_room->scene, key) < 0) {
+        refuse(user_room, span, "this is no observable of the room");
+    }
+    return key;
+}
+
+/* The rows that a file may name; others are its own numbers. */
+static const struct gm_parameter known[] = {
+    GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1", 0.01, 1e5, "Reynolds number",
+                .logarithmic = true),
+    GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", "1", 1e-12, 1e6, "kinematic viscosity",
+                .logarithmic = true),
+    GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", "1", 1e-6, 1e6,
+                "Schmidt number, viscosity / diffusivity", .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, rows, "rows", "0", 0, 2000, "", .logarithmic = true, .required = true),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "0", 0, 2000, "", .logarithmic = true,
+                   .required = true),
+    GM_REAL_ROW(struct gm_flows, irregular, "irregular", "0", 0, 0.45,
+                "random shift of the vertices, as a part of their shortest edge"),
+    GM_TEXT_ROW(struct gm_flows, outlet, "outlet", "soft", "soft, dirichlet or free",
+                .choices = gm_flows_outlets, .names = true),
+    GM_TEXT_ROW(struct gm_flows, inlet, "inlet", "inlet", "names or tags of the inlets", .names = true),
+    GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the lid, with mesh= alone"),
+    GM_TEXT_ROW(struct gm_flows, mesh, "mesh", "none",
+                "a Gmsh file (2.2 or 4.1) of another room; none: the rectangle", .file = true),
+    GM_CHOICE_ROW(
+        struct gm_flows, star, "star", "auto", gm_flows_stars,
+        "Hodge star of a mesh=FILE: circumcentric needs Delaunay triangles, barycentric, or galerkin, takes any"),
+    GM_INTEGER_ROW(struct gm_flows, refine, "refine", "1", 1, 64,
+                   "parts that each edge of a mesh=FILE is cut into: 1, 2, 4 ...", .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, tracers, "tracers", "350", 0, 20000,
+                   "particles that the flow carries along", .logarithmic = true),
+    GM_BOOLEAN_ROW(struct gm_flows, smoke, "smoke", "no",
+                   "tracers come in at inlets and sources, and do not fill the room at the start"),
+    GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", gm_flows_shows, "what the picture shows",
+                  .live = true),
+    GM_BOOLEAN_ROW(struct gm_flows, streamlines, "streamlines", "yes",
+                   "streamlines, as level lines of the stream function", .live = true),
+    GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),
+    GM_BOOLEAN_ROW(struct gm_flows, grid, "grid", "no", "the edges of the mesh", .live = true),
+};
+
+static const struct gm_parameter *find_row(const char *key)
+{
+    size_t i = 0;
+    while (i < GM_COUNT(known) && strcmp(known[i].key, key) != 0) {
+        i++;
+    }
+    return i < GM_COUNT(known) ? &known[i] : NULL;
+}
+
+static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct gm_parameter *row)
+{
+    struct gm_scene *scene = &user_room->scene;
+    if (scene->parameter_count == GM_ROOM_ROWS) {
+        gm_arena_refuse(user_room->arena, "a room has at most %d parameters", GM_ROOM_ROWS);
+    }
+    user_room->rows[scene->parameter_count] = *row;
+    return &user_room->rows[scene->parameter_count++];
+}
+
+static char *format(struct gm_user_room *user_room, double value)
+{
+    char text[40];
+    return gm_room_format(user_room, "%s", gm_number_format(value, text, sizeof text));
+}
+
+static void make_rows(struct gm_user_room *user_room)
+{
+    const struct gm_room *room = &user_room->room;
+    const struct gm_parameter timing[] = {GM_DT(format(user_room, isnan(room->dt) ? 0.01 : room->dt),
+                                                room->dt_range.least, room->dt_range.most),
+                                          GM_UNTIL(format(user_room, isnan(room->until) ? 10 : room->until))};
+    size_t own = 0, choices = 0;
+    add_row(user_room, &timing[0]);
+    add_row(user_room, &timing[1]);
+    if (!room->parameters) {
+        add_row(user_room, find_row("viscosity"))->standard = format(user_room, room->viscosity);
+        add_row(user_room, find_row("schmidt"))->standard =
+            format(user_room, room->viscosity / room->diffusivity);
+    }
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        const struct gm_room_parameter *parameter = &room->parameters[i];
+        const struct gm_parameter *template = find_row(parameter->name);
+        const struct gm_parameter choice =
+                                      GM_CHOICE_ROW(struct gm_flows, choices[0], "", "", NULL, "a choice"),
+                                  plain = GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300,
+                                                      "a parameter");
+        struct gm_parameter *row = add_row(user_room, template              ? template
+                                                      : parameter->words[0] ? &choice
+                                                                            : &plain);
+        row->key = parameter->name;
+        if (!template && (own == GM_FLOWS_OWN || choices == GM_FLOWS_OWN)) {
+            gm_arena_refuse(user_room->arena, "a room has at most %d parameters of its own", GM_FLOWS_OWN);
+        }
+        if (!template && parameter->words[0]) {
+            row->choices = list_words(user_room, parameter->words);
+            row->offset += sizeof(int) * choices++;
+        } else if (!template) {
+            row->offset += sizeof(double) * own++;
+        }
+        row->standard = parameter->text[0] ? parameter->text : row->standard;
+        row->help = parameter->meaning[0] ? parameter->meaning : row->help;
+        if (!isnan(parameter->low)) {
+            row->lowest = parameter->low;
+            row->highest = parameter->high;
+            row->logarithmic = row->type == GM_INTEGER || row->lowest > 0;
+        }
+    }
+    user_room->scene.parameters = user_room->rows;
+    for (size_t i = (size_t)(find_row("star") - known); i < GM_COUNT(known); i++) {
+        const bool of_file = known[i].offset == offsetof(struct gm_flows, star) ||
+                             known[i].offset == offsetof(struct gm_flows, refine) ||
+                             known[i].offset == offsetof(struct gm_flows, smoke);
+        if (!gm_room_parameter(room, known[i].key) && !(of_file && room->rectangular)) {
+            struct gm_parameter *row = add_row(user_room, &known[i]);
+            if (!isnan(room->buoyancy) && strcmp(row->key, "show") == 0) {
+                row->choices = gm_flows_warm_shows;
+                row->standard = "temperature";
+            }
+        }
+    }
+}
+
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE */
+static void observe(struct gm_user_room *user_room, struct gm_span rest)
+{
+    const struct gm_span line = rest;
+    const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
+               *title = option(user_room, rest, "title");
+    const struct gm_observable *row = gm_room_observable(key, along);
+    size_t profile = 0;
+    while (along && profile < user_room->profile_count &&
+           strcmp(user_room->profiles[profile].line.name, along) != 0) {
+        profile++;
+    }
+    if (!row || user_room->observable_count == GM_ROOM_OBSERVED ||
+        (along && profile == user_room->profile_count)) {
+        refuse(user_room, line, "this is nothing that is observed of a room, or of a profile that it has");
+    }
+    struct gm_observable *observable = &user_room->observables[user_room->observable_count];
+    *observable = *row;
+    observable->title = title ? title : observable->title;
+    observable->missing = option(user_room, rest, "missing");
+    user_room->subjects[user_room->observable_count++].number = profile;
+}
+
+/* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
+static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
+{
+    user_room->profiles = gm_arena_resize(user_room->arena, user_room->profiles, user_room->profile_count + 1,
+                                          sizeof *user_room->profiles);
+    struct gm_room_profile *profile = &user_room->profiles[user_room->profile_count++];
+    struct gm_span head, piece;
+    const struct gm_span line = rest;
+    gm_span_take(user_room->room.text, &rest, ";", &head);
+    const char *const *words = list_words(user_room, gm_room_keep(user_room, head));
+    *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
+    char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
+    profile->quantities = quantities;
+    for (size_t i = 1; words && words[i]; i++) {
+        quantities[i - 1] = words[i][0];
+    }
+    double *const ends[2] = {profile->line.a, profile->line.b};
+    for (int end = 0; end < 2; end++) {
+        size_t count;
+        gm_span_take(user_room->room.text, &rest, ";", &piece);
+        const double *place = numbers(user_room, piece, NULL, &count);
+        if (count != 2) {
+            refuse(user_room, line, "a profile has a name and quantities, two places and a number of points");
+        }
+        memcpy(ends[end], place, 2 * sizeof *place);
+    }
+    gm_span_take(user_room->room.text, &rest, ";", &piece);
+    profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
+    struct gm_fault fault = {0};
+    if (gm_span_take(user_room->room.text, &rest, ";", &piece) &&
+        !gm_room_range_of(&user_room->room, piece, &profile->range, &fault)) {
+        gm_room_refuse(user_room, &fault);
+    }
+    profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
+}
+
+/* table: NAME PROFILE; KEY = VALUE; place value, place value ... */
+static void add_table(struct gm_user_room *user_room, struct gm_span rest)
+{
+    user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
+                                        sizeof *user_room->tables);
+    struct gm_room_table *table = &user_room->tables[user_room->table_count++];
+    struct gm_span line = rest, condition, piece;
+    const char *const *words = list_words(user_room, take(user_room, &rest, ";"));
+    gm_span_take(user_room->room.text, &rest, ";", &condition);
+    const char *key = take(user_room, &condition, "=");
+    *table = (struct gm_room_table){.name = words ? words[0] : "",
+                                    .row = gm_scene_parameter(&user_room->scene, key)};
+    for (size_t i = 0; i < user_room->profile_count; i++) {
+        if (words && words[1] && strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
+            table->profile = &user_room->profiles[i];
+        }
+    }
+    if (!table->profile || !table->row) {
+        refuse(user_room, line, "a table has a name and a profile, the value of a parameter, and points");
+    }
+    table->value = number(user_room, condition);
+    while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
+        struct gm_span value;
+        gm_span_take(user_room->room.text, &piece, " ", &value);
+        table->points =
+            gm_arena_resize(user_room->arena, table->points, 2 * (table->count + 1), sizeof *table->points);
+        table->points[2 * table->count] = number(user_room, value);
+        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(user_room, piece) : NAN;
+    }
+}
+
+/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme */
+static void make_subtitle(struct gm_user_room *user_room)
+{
+    const char *text = said(user_room, "subtitle");
+    for (size_t i = 0; text && i < GM_COUNT(user_room->look.told) && strchr(text, '{'); i++) {
+        text += strspn(text, ", ");
+        const char *open = strchr(text, '{') + 1, *close = open + strcspn(open, "}");
+        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(open, ":}"), open);
+        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, key);
+        if (row && row->type == GM_REAL) {
+            const int letters = (int)(open - text) - 2;
+            user_room->look.told[i].name = gm_room_format(user_room, "%.*s", letters < 0 ? 0 : letters, text);
+            user_room->look.told[i].offset = row->offset;
+            user_room->look.told[i].nonzero = open[strlen(key)] == ':';
+        }
+        text = close;
+        text += *text == '}';
+    }
+}
+
+/* graph: KEY; low .. high, which may hold what is known of the flow */
+void gm_room_graph(const struct gm_room *room, size_t number, struct gm_look *look)
+{
+    struct gm_span rest, piece;
+    struct gm_fault fault;
+    struct gm_room_range ends = {0, 0};
+    gm_room_said(room, "graph", number, &rest);
+    gm_span_take(room->text, &rest, ";", &piece);
+    if (gm_span_take(room->text, &rest, ";", &piece) && gm_room_range_of(room, piece, &ends, &fault)) {
+        look->graph_low[number] = ends.least;
+        look->graph_high[number] = ends.most;
+    }
+}
+
+static void make_look(struct gm_user_room *user_room)
+{
+    static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
+                                                  {"theta_error", "θ"},
+                                                  {"flux_error", "flux"},
+                                                  {"velocity_error", "velocity"},
+                                                  {"pressure_error", "total pressure"},
+                                                  {NULL, NULL}};
+    struct gm_look *look = &user_room->look;
+    struct gm_span rest, piece;
+    look->errors = gm_room_line(&user_room->room, GM_ROOM_EXACT) ? errors : NULL;
+    make_subtitle(user_room);
+    if (gm_room_said(&user_room->room, "time", 0, &rest)) {
+        const size_t end = gm_span_until(user_room->room.text, rest, ";");
+        rest.begin = end < rest.end ? end + 1 : rest.begin;
+        const char *time = user_room->scene.time = gm_room_keep(user_room, rest);
+        look->clock_unit =
+            end < rest.end ? gm_room_format(user_room, "%.*s", (int)strcspn(time, ", "), time) : "";
+    }
+    if (gm_room_said(&user_room->room, "levels", 0, &rest)) {
+        look->levels = numbers(user_room, rest, NULL, &look->level_count);
+    }
+    for (size_t i = 0; i < GM_COUNT(look->graphs) && gm_room_said(&user_room->room, "graph", i, &rest); i++) {
+        gm_span_take(user_room->room.text, &rest, ";", &piece);
+        look->graphs[i] = observable_key(user_room, piece);
+    }
+    for (size_t i = 0; i < user_room->profile_count; i++) {
+        look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
+    }
+    look->profiles_below = !look->graphs[0];
+    user_room->caption = said(user_room, "caption");
+}
+
+/* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over
+   it. NAN if setup refuses. */
+static double courant_time(const void *parameters)
+{
+    const struct gm_scene *scene = &gm_user_room_of(parameters)->scene;
+    struct gm_problem problem = {0};
+    char sentence[GM_MESSAGE];
+    if (!scene->setup(parameters, &problem, sentence)) {
+        return NAN;
+    }
+    const double time = gm_flow_of(&problem)->complex->mean_edge / gm_flow_of(&problem)->time_unit;
+    scene->close(&problem);
+    return time;
+}
+
+/* Of a map over Reynolds and Courant numbers: where schemes that march through time lose the speed. */
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; reynolds VALUES */
+static void make_studies(struct gm_user_room *user_room)
+{
+    struct gm_scene *scene = &user_room->scene;
+    struct gm_figure *figures = NULL;
+    struct gm_span rest, piece;
+    size_t count = 0;
+    while (gm_room_said(&user_room->room, "figure", scene->figure_count, &rest)) {
+        figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
+        struct gm_figure *figure = &figures[scene->figure_count++];
+        figure->name = take(user_room, &rest, ";");
+        figure->arguments = take(user_room, &rest, ";");
+        figure->statement = gm_room_keep(user_room, rest);
+    }
+    scene->figures = figures;
+    if (gm_room_said(&user_room->room, "work", 0, &rest)) {
+        struct gm_work *work = &user_room->work;
+        *work = (struct gm_work){.arguments = take(user_room, &rest, ";"),
+                                 .coarsest = option_number(user_room, rest, "coarsest", 0),
+                                 .halvings = (int)option_number(user_room, rest, "halvings", 4),
+                                 .schemes = list_words(user_room, option(user_room, rest, "schemes"))};
+        if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
+            work->measure = observable_key(user_room, piece);
+        }
+        work->errors = numbers(user_room, rest, "errors", &count);
+        work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
+        work->resolution = work->resolutions ? user_room->room.edges : NULL;
+        if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
+            refuse(user_room, rest, "work: has three errors that fall, and 1 to 30 halvings");
+        }
+        scene->work = work;
+    }
+    if (gm_room_said(&user_room->room, "stability", 0, &rest)) {
+        struct gm_stability *map = &user_room->stability;
+        *map = (struct gm_stability){.arguments = take(user_room, &rest, ";"),
+                                     .parameter = "reynolds",
+                                     .label = "Courant number",
+                                     .unit = courant_time,
+                                     .steps = courant_numbers,
+                                     .step_count = GM_COUNT(courant_numbers),
+                                     .kept = "speed_max",
+                                     .schemes = marching};
+        map->values = numbers(user_room, rest, map->parameter, &map->value_count);
+        if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
+            refuse(user_room, rest, "stability: needs values of a parameter: reynolds 100, 400");
+        }
+        scene->stability = map;
+    } else if (user_room->look.errors) {
+        scene->no_stability =
+            "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
+    }
+}
+
+void gm_room_take_lines(struct gm_user_room *user_room)
+{
+    struct gm_scene *scene = &user_room->scene;
+    struct gm_span rest;
+    const char *watch = said(user_room, "watch");
+    const char *const *schemes = list_words(user_room, said(user_room, "schemes"));
+    scene->watch = watch ? watch : scene->watch;
+    scene->schemes = schemes ? schemes : scene->schemes;
+    scene->lanes = said(user_room, "lanes");
+    make_rows(user_room);
+    for (size_t i = 0; gm_room_said(&user_room->room, "profile", i, &rest); i++) {
+        add_profile(user_room, rest);
+    }
+    for (size_t i = 0; gm_room_said(&user_room->room, "table", i, &rest); i++) {
+        add_table(user_room, rest);
+    }
+    for (size_t i = 0; gm_room_said(&user_room->room, "observe", i, &rest); i++) {
+        observe(user_room, rest);
+    }
+    scene->observable_count = user_room->observable_count;
+    make_look(user_room);
+    make_studies(user_room);
+    scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
+}
