@@ -165,7 +165,7 @@ static void give(struct gm_reading *reading)
                 entry->node = gm_formula_constant(&reading->system->graph, given);
                 entry->read = true;
                 entry->value.end = entry->value.begin;
-                if (entry->node == GM_NO_NODE) {
+                if (reading->system->graph.failed) {
                     gm_fail_memory(&reading->fault);
                 }
             }
