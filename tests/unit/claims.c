@@ -28,6 +28,7 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 static bool all;
 
