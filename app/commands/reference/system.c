@@ -617,7 +617,7 @@ static bool open_problem(struct report *report)
 {
     double *start = NULL;
     if (gm_system_is_field(&report->system)) {
-        const struct gm_grid1 any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
+        const struct gm_grid1 any = {.points = 6, .dx = 1}; /* its facets are those of every ring */
         const bool waves = report->system.kind == GM_FIELD;
         start = gm_equations_start(&report->system, NULL);
         const bool form = report->system.kind == GM_MATRICES;
@@ -625,7 +625,7 @@ static bool open_problem(struct report *report)
             start && (form ? gm_user_form_derive(&report->form, &report->system) &&
                                  gm_user_form_open(&report->problem, &report->form, start, &any)
                       : waves ? gm_user_wave_derive(&report->wave, &report->system) &&
-                                    gm_user_wave_open(&report->problem, &report->wave, start)
+                                    gm_user_wave_open(&report->problem, &report->wave, start, &any)
                               : gm_user_evolution_derive(&report->evolution, &report->system) &&
                                     gm_user_evolution_open(&report->problem, &report->evolution, start, &any,
                                                            GM_SPACE_DIFFERENCES));
