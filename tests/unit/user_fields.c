@@ -46,10 +46,9 @@ static void open_typed(struct typed *typed, const char *text)
     }
     assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
-    assert_true(gm_user_wave_open(&typed->problem, &typed->wave, values));
+    const struct gm_grid1 ring = {POINTS, 2 * HALF / POINTS, -HALF, 0, false};
+    assert_true(gm_user_wave_open(&typed->problem, &typed->wave, values, &ring));
     free(values);
-    typed->problem.line = (struct gm_grid1){POINTS, 2 * HALF / POINTS, -HALF, 0, false};
-    typed->problem.n = SIZE;
 }
 
 static void close_typed(struct typed *typed)
@@ -528,7 +527,7 @@ static void a_field_closes_on_its_ring(void **unused)
         char sentence[400] = "";
         open_typed(&typed, rings[i].text);
         typed.problem.line.jump = rings[i].jump;
-        const bool closes = gm_user_wave_closes(&typed.problem, "u", sentence, sizeof sentence);
+        const bool closes = gm_user_wave_closes(&typed.problem, sentence, sizeof sentence);
         if (closes != !rings[i].sentence || (!closes && !strstr(sentence, rings[i].sentence))) {
             fail_msg("%s: %s", rings[i].text, sentence);
         }
@@ -550,8 +549,8 @@ static double distance_from_exact(const void *data, double t, const double *y)
     const struct gm_problem *problem = data;
     double largest = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        largest =
-            fmax(largest, fabs(y[i] - gm_user_wave_exact(problem, gm_grid1_node(&problem->line, i), t)));
+        largest = fmax(largest, fabs(y[i] - gm_user_line_exact(problem->parameters, 0,
+                                                               gm_grid1_node(&problem->line, i), t)));
     }
     return largest;
 }
