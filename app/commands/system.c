@@ -582,7 +582,7 @@ static void check_values(const struct gm_options *options, const struct gm_user_
 /* The equation of a field, and its facets, which are those of every ring. */
 static bool open_field(struct report *report, const double *start)
 {
-    const struct gm_grid1 any = {.points = 5, .dx = 1};
+    const struct gm_grid1 any = {.points = 6, .dx = 1};
     struct gm_user_evolution *evolution = &report->evolution;
     if (report->system.kind == GM_MATRICES) {
         return gm_user_form_derive(&report->form, &report->system) &&
@@ -590,7 +590,7 @@ static bool open_field(struct report *report, const double *start)
     }
     if (report->system.kind == GM_FIELD) {
         return gm_user_wave_derive(&report->wave, &report->system) &&
-               gm_user_wave_open(&report->problem, &report->wave, start);
+               gm_user_wave_open(&report->problem, &report->wave, start, &any);
     }
     const bool opened =
         gm_user_evolution_derive(evolution, &report->system) &&

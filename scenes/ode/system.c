@@ -504,30 +504,14 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
         const struct gm_system_variable *variable = &system->variables[number];
-        const char *unit = variable->unit, *help = variable->meaning;
-        const double value = start[number], reach = 1e300; /* sliders find their usual size themselves */
-        const bool ranged = !isnan(variable->low);
         if (variable->derived) {
             continue;
         }
         system_scene->variables[row] = number;
-        system_scene->rows[row] = (struct gm_parameter){
-            .key = variable->name,
-            .unit = unit ? unit : "",
-            .help = help && help[0] ? help
-                    : is_start      ? "where it starts"
-                                    : "a parameter",
-            .type = GM_REAL,
-            .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
-            .lowest = variable->fixed ? value
-                      : ranged        ? variable->low
-                                      : -reach,
-            .highest = variable->fixed ? value
-                       : ranged        ? variable->high
-                                       : reach,
-            .required = typed,
-        };
+        system_scene->rows[row] = gm_written_row(
+            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
+            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].required = typed;
         good = system_scene->rows[row++].standard != NULL;
     }
     system_scene->row_count = row;

@@ -13,6 +13,7 @@ struct gm_two_step_work {
     double *force;                 /* points + 2, from [-1] */
     double *right, *guess, *cells; /* of implicit schemes */
     double *change;                /* from the past to the present level, of schemes that keep it */
+    double *rate[3];               /* of the levels, likewise */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
@@ -41,6 +42,7 @@ struct gm_two_step_row {
     enum gm_wave_law law;
     bool average;      /* the force is the quotient of V, not V' at the present level */
     bool keeps_change; /* work->change is the scheme's memory */
+    bool keeps_rates; /* work->rate of the present and the past level is, and steps and starts set the next */
 };
 
 /* Advances a wave problem by a scheme of two steps. */

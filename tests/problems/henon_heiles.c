@@ -2,7 +2,7 @@
 /* Henon & Heiles, (q1, q2, p1, p2), H = (|p|^2 + |q|^2)/2 + q1^2 q2 - q2^3/3. Astron. J. 69 (1964) 73. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(henon_heiles)
 GM_ENERGY_DECLARE(henon_heiles)

@@ -3,7 +3,7 @@
    are circles. Not separable, and q1 p2 - q2 p1 is kept. M. Born & E. Wolf, Principles of Optics, 4.2.2. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(fish_eye)
 GM_ENERGY_DECLARE(fish_eye)

@@ -5,7 +5,7 @@
    Masses that differ catch a scheme that takes p for the velocity. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(particles)
 GM_ENERGY_DECLARE(particles)

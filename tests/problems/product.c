@@ -3,7 +3,7 @@
    M. Tao, Phys. Rev. E 94 (2016) 043303. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(product)
 GM_ENERGY_DECLARE(product)
