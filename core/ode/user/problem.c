@@ -497,6 +497,8 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         (struct gm_ode){.written = true,
                         .components = model->names[0] ? model->names : NULL,
                         .quadratic = !constrained && gm_user_model_holds(model, values, GM_FACT_QUADRATIC),
+                        .linear = !constrained && gm_user_model_holds(model, values, GM_FACT_LINEAR) &&
+                                  gm_user_model_holds(model, values, GM_FACT_AUTONOMOUS),
                         .rough = !gm_user_model_holds(model, values, GM_FACT_SMOOTH),
                         .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
@@ -576,6 +578,18 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
         self->loops.jacobian = loops->jacobian ? loops->jacobian : self->interpreted.jacobian;
         memcpy(self->loops.over_kernels, loops->over_kernels, sizeof self->loops.over_kernels);
     }
+}
+
+void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
+{
+    const char *lacks;
+    char *text =
+        problem->m == 1 && gm_compiled_has(problem->n) ? gm_user_problem_kernel(problem, over, &lacks) : NULL;
+    const struct gm_loops *loops = text ? gm_compiled_loops(text) : NULL;
+    if (loops) {
+        gm_user_problem_take(problem, loops);
+    }
+    free(text);
 }
 
 const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem)
