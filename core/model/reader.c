@@ -53,10 +53,11 @@ static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item
     return !reading->fault.failed;
 }
 
-/* What a line assigns, and the range and meaning behind it. */
+/* What a line assigns, and the range and meaning behind it, or that starts are derived. */
 struct assignment {
     enum gm_system_word word;
     struct gm_written_range range;
+    bool derived;
 };
 
 /* where a component keeps what a line assigns to it */
@@ -92,6 +93,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
         variable->start_place = target->name.begin;
         variable->low = assignment->range.low;
         variable->high = assignment->range.high;
+        variable->derived = assignment->derived;
         variable->meaning = gm_reading_text(reading, assignment->range.meaning);
         variable->unit = gm_reading_text(reading, assignment->range.unit);
     }
@@ -105,7 +107,11 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
     if (word == GM_WORD_START && !gm_system_is_field(reading->system)) {
         gm_span_take(reading->text, &all, ";", &rest);
-        gm_reading_range(reading, all, &assignment.range);
+        all = gm_span_trimmed(reading->text, all);
+        assignment.derived = gm_span_among(reading->text, all, (const char *const[]){"derived", NULL}) == 0;
+        if (!assignment.derived) {
+            gm_reading_range(reading, all, &assignment.range);
+        }
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;

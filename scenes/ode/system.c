@@ -34,7 +34,14 @@
 #include "scenes/ode/system/variants.h"
 
 enum { DT, UNTIL };
-enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS = 1 << 14, REMEMBERED = 256 };
+enum {
+    MOST_OBSERVED = 60,
+    MOST_LINEARISED = 200,
+    MOST_FOLLOWED = 32,
+    CROSSINGS = 1 << 14,
+    REMEMBERED = 256,
+    MOST_RECORDED = 1 << 22 /* numbers of a track: of many components there are fewer entries */
+};
 
 /* Whether each row was given, bytes behind the values. */
 static char *given_of(struct gm_system_lane *lane)
@@ -44,25 +51,13 @@ static char *given_of(struct gm_system_lane *lane)
 
 /* ---- what is remembered ---- */
 
-static size_t sight_width(const struct gm_view *view)
+/* The state of the last member, of which every sight is made: another one may be chosen during the run. */
+static void record_state(const struct gm_view *view, double *entry)
 {
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    return sight->dimensions * sight->bodies;
-}
-
-static void record_sight(const struct gm_view *view, double *entry)
-{
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    if (sight->rods == 0) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, entry);
-        return;
+    const size_t m = view->problem->m;
+    for (size_t c = 0; c < gm_system_scene_of(view)->system.n; c++) {
+        entry[c] = view->state[c * m + m - 1];
     }
-    double *all = malloc(gm_sight_numbers(sight) * sizeof *all);
-    if (all) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, all);
-        memcpy(entry, all, sight->dimensions * sight->bodies * sizeof *entry);
-    }
-    free(all);
 }
 
 static double step_of(const void *parameters)
@@ -477,14 +472,10 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    const size_t choices = system->choices.count, first_start = GM_SYSTEM_ROWS + choices + parameters;
-    system_scene->row_count = first_start + n;
-    system_scene->rows =
-        calloc(system_scene->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
-    system_scene->common = system_scene->rows ? system_scene->rows + system_scene->row_count : NULL;
-    system_scene->variables = calloc(system_scene->row_count, sizeof *system_scene->variables);
-    system_scene->initial =
-        calloc(1, sizeof *system_scene->initial + (system_scene->row_count) * (sizeof(double) + 1));
+    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
+    system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->variables = calloc(most, sizeof *system_scene->variables);
+    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
@@ -499,31 +490,37 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
         [GM_ROW_SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
                                        "of the members: on a disc's edge, in a grid, on a line"),
         [GM_ROW_SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
-                                      "all, the section, or a plane of two components"),
+                                      "all, or a plane of two components", .live = true),
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
-    if (good) {
-        memcpy(system_scene->rows, timing, sizeof timing);
-        memcpy(system_scene->common, common, sizeof common);
-        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
-        system_scene->initial->owner = system_scene;
-    }
     for (size_t i = 0; good && i < choices; i++) {
         good = make_choice(system_scene, i);
     }
-    for (size_t row = GM_SYSTEM_ROWS + choices; good && row < system_scene->row_count; row++) {
-        const bool is_start = row >= first_start;
-        size_t number = is_start ? row - first_start : system->parameters + row - GM_SYSTEM_ROWS - choices;
+    size_t row = GM_SYSTEM_ROWS + choices;
+    for (size_t i = 0; good && i < parameters + n; i++) {
+        const bool is_start = i >= parameters;
+        size_t number = is_start ? i - parameters : system->parameters + i;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
         const struct gm_system_variable *variable = &system->variables[number];
+        if (variable->derived) {
+            continue;
+        }
         system_scene->variables[row] = number;
         system_scene->rows[row] = gm_written_row(
             &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
             offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
         system_scene->rows[row].required = typed;
-        good = system_scene->rows[row].standard != NULL;
+        good = system_scene->rows[row++].standard != NULL;
+    }
+    system_scene->row_count = row;
+    if (good) {
+        system_scene->common = system_scene->rows + row;
+        memcpy(system_scene->rows, timing, sizeof timing);
+        memcpy(system_scene->common, common, sizeof common);
+        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
+        system_scene->initial->owner = system_scene;
     }
     free(start);
     return good;
@@ -572,18 +569,28 @@ static bool make_shows(struct gm_system_scene *system_scene)
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
     system_scene->common[GM_ROW_SHOW].choices = system_scene->shows;
-    if (system_scene->has_section && gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
-        system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+    if (system_scene->has_section) {
+        system_scene->common[GM_ROW_SHOW].help = "all, the section, or a plane of two components";
+        if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
+            system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+        }
     }
     return true;
 }
 
 static void make_tracks(struct gm_system_scene *system_scene)
 {
-    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){
-        .key = "past", .width = sight_width, .interval = step_of, .bound = 8192, .record = record_sight};
-    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){
-        .key = "trail", .width = sight_width, .bound = 2048, .recent = true, .record = record_sight};
+    const size_t n = system_scene->system.n, bound = 2 + MOST_RECORDED / n;
+    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){.key = "past",
+                                                            .numbers = n,
+                                                            .interval = step_of,
+                                                            .bound = bound < 8192 ? bound : 8192,
+                                                            .record = record_state};
+    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){.key = "trail",
+                                                             .numbers = n,
+                                                             .bound = bound < 2048 ? bound : 2048,
+                                                             .recent = true,
+                                                             .record = record_state};
     system_scene->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
                                                               .width = shape_width,
                                                               .interval = shape_interval,

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 #include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
@@ -151,6 +151,8 @@ static void refusals(void **unused)
     } rows[] = {
         {"kepler eccentricity=1", "out of range"},
         {"kepler eccentricity=1.5", "out of range"},
+        {"kepler q1=1", "q1"},
+        {"henon-heiles p1=1", "p1"},
         {"vortices strength=0", "strength"},
         {"vortices configuration=collision distance=0", "coincide"},
         {"vortices configuration=two-turned angle=pi/2", "coincide"},

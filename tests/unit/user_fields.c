@@ -687,13 +687,14 @@ static void what_cannot_be_told_is_blamed_on_nobody(void **unused)
 static double friction, slowness;
 
 static enum gm_status spoilt(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next,
                              struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const size_t last = work->points - 1;
     const double square = dt * dt / (problem->line.dx * problem->line.dx);
     const struct gm_two_step_row *row = gm_scheme_find("leapfrog")->coefficients;
-    const enum gm_status status = row->step(work, problem, dt, past, now, next, progress);
+    const enum gm_status status = row->step(work, problem, dt, progress);
     for (size_t i = 0; i <= last; i++) {
         const double sides = now[i > 0 ? i - 1 : last] + now[i < last ? i + 1 : 0];
         next[i] -= friction * (now[i] - past[i]) + slowness * square * (sides - 2 * now[i]);

@@ -46,9 +46,10 @@ GM_CLONES static bool within(const double *level, size_t points, double limit)
 
 /* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t,
    to second order from both sides, so that a change of dt costs no order. */
-void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                   const double *now, const double *other, double *next)
+void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
+    const double *other = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double over = 1 / (problem->line.dx * problem->line.dx);
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
@@ -107,14 +108,13 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     }
     for (int64_t k = 0; k < task->steps; k++) {
         if (k > 0 || regular) {
-            progress.status =
-                row->step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);
+            progress.status = row->step(work, task->problem, task->dt, &progress);
         } else {
             if (gap == task->dt) {
                 memcpy(next, work->level[0], size);
                 memcpy(work->rate[2], work->rate[0], size);
             } else {
-                row->start(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
+                row->start(work, task->problem, task->dt, gap);
             }
             if (row->keeps_change) {
                 subtract(work->change, next, work->level[1], points);

@@ -18,14 +18,14 @@ struct gm_two_step_work {
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
 
-/* One step of length dt: next from past and now, both with their end points; status GM_OK. */
+/* One step of length dt: the next level from the past and the present one, both with their end points; status GM_OK. */
 typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                   const double *past, const double *now, double *next,
                                    struct gm_progress *progress);
 
-/* The level at t + dt from the present one and another at t + gap, gap neither dt nor -dt. */
+/* The next level, at t + dt, from the present one and that of the past, which is at t + gap here, gap neither dt nor
+   -dt. */
 typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                               double gap, const double *now, const double *other, double *next);
+                               double gap);
 gm_two_step_start gm_wave_start;
 
 /* The longest step dt of a wave for which (w dt)^2 <= square, w^2 = stiffness/dx^2 + V'' wherever u is. */

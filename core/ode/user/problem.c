@@ -580,6 +580,18 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
     }
 }
 
+void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
+{
+    const char *lacks;
+    char *text =
+        problem->m == 1 && gm_compiled_has(problem->n) ? gm_user_problem_kernel(problem, over, &lacks) : NULL;
+    const struct gm_loops *loops = text ? gm_compiled_loops(text) : NULL;
+    if (loops) {
+        gm_user_problem_take(problem, loops);
+    }
+    free(text);
+}
+
 const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem)
 {
     return own_of(problem)->taken;

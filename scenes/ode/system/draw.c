@@ -145,14 +145,14 @@ static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 }
 
 /* What one lane has shown up to now. */
-static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
+static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight,
+                                 const struct gm_paths *paths, double *numbers)
 {
     struct gm_seen range = nothing;
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
     const size_t dimensions = sight->dimensions;
-    hold(&range, past->values, past->count * past->width / dimensions, dimensions);
-    hold(&range, trail->values, trail->count * trail->width / dimensions, dimensions);
+    hold(&range, paths->past.points, paths->past.count * sight->bodies, dimensions);
+    hold(&range, paths->trail.points, paths->trail.count * sight->bodies, dimensions);
     if (is_disc(lane, sight)) {
         const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
         hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
@@ -181,7 +181,8 @@ static void hold_range(struct gm_seen *range, const struct gm_seen *other)
 static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 {
     const struct gm_system_lane *one = own_of(a), *other = own_of(b);
-    return one->owner == other->owner && one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
+    return one->owner == other->owner && one->members == other->members && one->spread == other->spread &&
+           one->shape == other->shape &&
            memcmp(one->values, other->values,
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
@@ -281,14 +282,13 @@ static void wrap(const struct gm_sight *sight, double *point)
 
 /* The path of a body, from entry `first` on, and where it is now; broken where an angle starts anew. Returns
    how many points, of room for twice the entries and two. */
-static size_t path_of(const struct gm_lane *lane, size_t track, const struct gm_sight *sight, size_t body,
-                      size_t first, const double *now, double *points)
+static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, size_t body, size_t first,
+                      const double *now, double *points)
 {
-    const struct gm_entries *entries = &lane->entries[track];
     size_t count = 0;
-    for (size_t i = first; i <= entries->count; i++) {
+    for (size_t i = first; i <= path->count; i++) {
         double point[2];
-        memcpy(point, i < entries->count ? entries->values + i * entries->width + 2 * body : now + 2 * body,
+        memcpy(point, i < path->count ? path->points + i * path->width + 2 * body : now + 2 * body,
                sizeof point);
         wrap(sight, point);
         for (size_t k = 0; k < 2 && count > 0; k++) {
@@ -319,21 +319,25 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
 }
 
 static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_sight *sight, size_t body, const double *now, double *points)
+                      const struct gm_paths *paths, size_t body, const double *now)
 {
-    const struct gm_entries *trail = &lane->entries[GM_TRACK_TRAIL];
+    const struct gm_sight *sight = gm_system_sight(lane->parameters);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const size_t count = path_of(lane, GM_TRACK_PAST, sight, body, 0, now, points);
+    const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
+    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    const size_t count = path_of(&paths->past, sight, body, 0, now, points);
     if (is_curve(panel, points, count)) {
         gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
-        const size_t end =
-            path_of(lane, GM_TRACK_PAST, sight, body, gm_system_bright_from(lane), now, points);
+        const size_t end = path_of(&paths->past, sight, body, gm_system_bright_from(lane), now, points);
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
         return;
     }
     gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.25, .width = 1.6}, points,
                    count);
-    const size_t recent = path_of(lane, GM_TRACK_TRAIL, sight, body, trail->count / 2, now, points);
+    const size_t recent = path_of(&paths->trail, sight, body, paths->trail.count / 2, now, points);
     if (is_curve(panel, points, recent)) {
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2, GM_SOLID}, points, recent);
     }
@@ -392,19 +396,14 @@ static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const 
 }
 
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_sight *sight, double *numbers)
+                      const struct gm_paths *paths, double *numbers)
 {
+    const struct gm_sight *sight = gm_system_sight(lane->parameters);
     const struct gm_view view = gm_lane_view(lane);
     struct gm_view before = view;
     before.state = view.start;
     before.t = view.t0;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
-    const size_t most = past->count > trail->count ? past->count : trail->count;
-    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
-    if (!points) {
-        return;
-    }
     if (is_disc(lane, sight)) {
         draw_disc(picture, panel, lane);
         return;
@@ -421,7 +420,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         if (!sight->fixed[body]) {
-            draw_body(picture, panel, lane, sight, body, numbers, points);
+            draw_body(picture, panel, lane, paths, body, numbers);
         }
     }
     for (size_t rod = 0; rod < sight->rods; rod++) {
@@ -497,11 +496,15 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
     double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
     struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
-    if (!numbers || !ranges) {
+    struct gm_paths *paths = gm_picture_memory(picture, count * sizeof *paths);
+    if (!numbers || !ranges || !paths) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = lane_range(lanes[i], gm_system_sight(lanes[i]->parameters), numbers);
+        const struct gm_sight *sight = gm_system_sight(lanes[i]->parameters);
+        paths[i] = (struct gm_paths){gm_system_path(picture, lanes[i], GM_TRACK_PAST, sight),
+                                     gm_system_path(picture, lanes[i], GM_TRACK_TRAIL, sight)};
+        ranges[i] = lane_range(lanes[i], sight, &paths[i], numbers);
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
@@ -509,11 +512,12 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         const struct gm_sight *sight = gm_system_sight(walk.lane->parameters);
+        size_t lane = 0;
+        while (lanes[lane] != walk.lane) {
+            lane++;
+        }
         if (walk.first) {
-            struct gm_seen range = ranges[0];
-            for (size_t i = 0; i < count; i++) {
-                range = lanes[i] == walk.lane ? ranges[i] : range;
-            }
+            const struct gm_seen range = ranges[lane];
             panel = add_panel(picture, &walk,
                               range.left ? "on a scale of its own" : value_now(picture, walk.lane));
             if (sight->dimensions == 3) {
@@ -531,9 +535,9 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
         }
         leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
-            gm_system_draw_in_space(picture, panel, &space, walk.lane);
+            gm_system_draw_in_space(picture, panel, &space, walk.lane, &paths[lane]);
         } else {
-            draw_lane(picture, panel, walk.lane, sight, numbers);
+            draw_lane(picture, panel, walk.lane, &paths[lane], numbers);
         }
     }
 }

@@ -170,3 +170,26 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     gm_tape_values(tape, variables, values, count);
     free(variables);
 }
+
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight)
+{
+    enum { BATCH = 256 };
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_entries *entries = &lane->entries[track];
+    const size_t n = entries->width, width = sight->dimensions * sight->bodies;
+    double *points = gm_picture_memory(picture, (entries->count * width + 1) * sizeof *points),
+           *states = gm_picture_memory(picture, BATCH * (n + gm_sight_numbers(sight)) * sizeof *states);
+    for (size_t first = 0, count; points && states && first < entries->count; first += count) {
+        count = entries->count - first < BATCH ? entries->count - first : BATCH;
+        for (size_t i = 0; i < n * count; i++) {
+            states[i] = entries->values[(first + i % count) * n + i / count];
+        }
+        double *values = states + n * count;
+        gm_system_values_of(&sight->tape, &view, states, entries->times + first, count, values);
+        for (size_t i = 0; i < width * count; i++) {
+            points[first * width + i] = values[i % width * count + i / width];
+        }
+    }
+    return (struct gm_path){points, points && states ? entries->count : 0, width};
+}

@@ -102,6 +102,18 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
                          const double *times, size_t count, double *values);
+/* The numbers of a sight's bodies in every entry of a track: `width` of each entry. */
+struct gm_path {
+    const double *points;
+    size_t count, width;
+};
+/* The path of a lane's last member in a track of states; it lies in the picture's memory, and is empty if that is short. */
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight);
+/* Both of a lane. */
+struct gm_paths {
+    struct gm_path past, trail;
+};
 /* How many numbers a sight tells of a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
 /* From which entry of the past on the path of a body is bright: a part of the whole run. */

@@ -51,11 +51,11 @@ static enum gm_status start(const struct gm_task *task)
 
 /* The first level after a change of the step: Heun's method, once. */
 static void first_level(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                        double gap, const double *now, const double *other, double *next)
+                        double gap)
 {
     (void)gap;
-    (void)other;
-    double *const *v = work->rate;
+    const double *now = work->level[1];
+    double *next = work->level[2], *const *v = work->rate;
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
         v[2][i] = acceleration(problem, now, i, 1, work->force[i]);
@@ -68,9 +68,10 @@ static void first_level(struct gm_two_step_work *work, const struct gm_problem *
 }
 
 static enum gm_status centred_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                   const double *past, const double *now, double *next,
                                    struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     double *const *v = work->rate;
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
