@@ -6,7 +6,7 @@
 #ifndef GM_CORE_ODE_USER_EVOLUTION_H
 #define GM_CORE_ODE_USER_EVOLUTION_H
 
-#include "core/model/line.h"
+#include "core/line.h"
 #include "core/ode/ode.h"
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
