@@ -12,8 +12,8 @@
 #include <gsl/gsl_integration.h>
 
 #include "core/basics.h"
-#include "core/line.h"
 #include "core/memory.h"
+#include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
 
