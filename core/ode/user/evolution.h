@@ -6,8 +6,8 @@
 #ifndef GM_CORE_ODE_USER_EVOLUTION_H
 #define GM_CORE_ODE_USER_EVOLUTION_H
 
-#include "core/model/line.h"
 #include "core/ode/ode.h"
+#include "core/user/line.h"
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 
