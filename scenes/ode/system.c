@@ -790,7 +790,13 @@ static struct gm_system_scene *make_other(const struct gm_system_scene *first,
     } else if (gm_system_is_field(&system)) {
         gm_refuse(sentence, "choice: %s=%s is a field, and other words are none", values->name, values->text);
     } else {
-        return open_one(&system, first->scene.name, first->scene.words, false, sentence);
+        struct gm_system_scene *made =
+            open_one(&system, first->scene.name, first->scene.words, false, sentence);
+        if (made && !gm_system_lack(made, values[count - 1].name, values[count - 1].text)) {
+            gm_system_scene_close(&made->scene);
+            made = NULL;
+        }
+        return made;
     }
     gm_system_close(&system);
     return NULL;
