@@ -932,6 +932,17 @@ void gm_tape_close(struct gm_tape *tape)
     *tape = (struct gm_tape){0};
 }
 
+static void close_tape(void *tape)
+{
+    gm_tape_close(tape);
+}
+
+void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened)
+{
+    gm_arena_keep(arena, tape, close_tape);
+    gm_arena_need(arena, opened);
+}
+
 /* ---- code to numbers ---- */
 
 static struct gm_instruction member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i)

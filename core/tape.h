@@ -5,6 +5,7 @@
 #ifndef GM_CORE_TAPE_H
 #define GM_CORE_TAPE_H
 
+#include "core/arena.h"
 #include "core/expression/graph.h"
 
 /* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums number
@@ -62,6 +63,8 @@ struct gm_tape {
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
                   size_t inputs, const double *values);
 void gm_tape_close(struct gm_tape *tape);
+/* In the body of an arena: leaves it where the tape was not opened, else the arena closes it. */
+void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
 /* Goes through the operations one by one, those that are repeated and the terms of sums as well: false at the
    end. `at` is {0} at first. */

@@ -9,55 +9,18 @@
 #include "core/model/equations.h"
 #include "core/ode/kernel/members.h"
 
-static bool is_linear(struct gm_user_system *system, bool *marked)
+static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, bool *marked)
 {
     memset(marked + system->velocities, true, system->n / 2);
-    bool *dependent = gm_formula_dependent(&system->graph, marked, system->variable_count);
-    bool linear = dependent != NULL;
-    for (size_t i = 0; linear && i < system->mass.count; i++) {
-        linear = !dependent[system->mass.entries[i].node];
+    bool *dependent =
+        gm_arena_keep(arena, gm_formula_dependent(&system->graph, marked, system->variable_count), free);
+    bool linear = true;
+    for (size_t i = 0; i < system->mass.count; i++) {
+        linear = linear && !dependent[system->mass.entries[i].node];
     }
-    system->graph.failed |= !dependent;
-    free(dependent);
+    gm_arena_drop(arena, dependent);
     memset(marked, false, system->variable_count);
     return linear;
-}
-
-bool gm_user_lagrangian_model_open(struct gm_user_lagrangian_model *model, struct gm_user_system *system)
-{
-    const size_t n = system->n, half = n / 2, count = system->variable_count;
-    *model = (struct gm_user_lagrangian_model){
-        .graph = &system->graph, .half = half, .components = n + system->timed};
-    gm_node_id *others = malloc(count * sizeof *others);
-    bool *marked = calloc(count, sizeof *marked);
-    model->nodes = malloc((n + 1) * sizeof *model->nodes);
-    if (!others || !marked || !model->nodes) {
-        system->graph.failed = true;
-    } else {
-        model->linear = is_linear(system, marked);
-        memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
-        memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
-        model->nodes[n] = system->energy;
-        gm_equations_in_velocities(system, model->nodes, n + 1); /* a force may hold momenta */
-        for (size_t i = 0; i < count; i++) {
-            const bool velocity = i >= system->velocities && i < system->velocities + half;
-            others[i] =
-                velocity ? gm_formula_variable(&system->graph, half + i - system->velocities) : GM_NO_NODE;
-        }
-        gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
-        memset(marked, true, model->components);
-        gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes);
-    }
-    free(others);
-    free(marked);
-    return !system->graph.failed;
-}
-
-void gm_user_lagrangian_model_close(struct gm_user_lagrangian_model *model)
-{
-    free(model->nodes);
-    free(model->slopes.entries);
-    *model = (struct gm_user_lagrangian_model){0};
 }
 
 /* whether it is one of the mass matrix */
@@ -66,40 +29,56 @@ static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struc
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
 }
 
-bool gm_user_lagrangian_open(struct gm_user_lagrangian *lagrangian,
-                             const struct gm_user_lagrangian_model *model, const double *values)
+void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
+                                   struct gm_user_system *system)
 {
-    const struct gm_formula *graph = model->graph;
-    const size_t half = model->half, n = model->components;
-    *lagrangian = (struct gm_user_lagrangian){.model = model};
-    gm_node_id *nodes = malloc((half + model->slopes.count) * sizeof *nodes);
-    bool good = nodes != NULL;
-    if (nodes) {
-        size_t count = half;
-        memcpy(nodes, model->nodes, half * sizeof *nodes);
-        for (size_t i = 0; i < model->slopes.count; i++) {
-            if (is_of_mass(model, &model->slopes.entries[i])) {
-                nodes[count++] = model->slopes.entries[i].node;
-            }
-        }
-        good = gm_tape_open(&lagrangian->momenta, graph, nodes, count, n, values) &&
-               gm_tape_open(&lagrangian->rates, graph, model->nodes + half, half, n, values) &&
-               gm_tape_open(&lagrangian->value, graph, model->nodes + 2 * half, 1, n, values);
-        for (size_t i = 0; i < model->slopes.count; i++) {
-            nodes[i] = model->slopes.entries[i].node;
-        }
-        good = good && gm_tape_open(&lagrangian->slopes, graph, nodes, model->slopes.count, n, values);
+    const size_t n = system->n, half = n / 2, count = system->variable_count;
+    gm_node_id *others = gm_arena_take(arena, count, sizeof *others);
+    bool *marked = gm_arena_take(arena, count, sizeof *marked);
+    *model = (struct gm_user_lagrangian_model){.graph = &system->graph,
+                                               .half = half,
+                                               .components = n + system->timed,
+                                               .linear = is_linear(arena, system, marked),
+                                               .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
+    memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
+    memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
+    model->nodes[n] = system->energy;
+    gm_equations_in_velocities(system, model->nodes, n + 1); /* a force may hold momenta */
+    for (size_t i = 0; i < count; i++) {
+        const bool velocity = i >= system->velocities && i < system->velocities + half;
+        others[i] =
+            velocity ? gm_formula_variable(&system->graph, half + i - system->velocities) : GM_NO_NODE;
     }
-    free(nodes);
-    return good;
+    gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
+    memset(marked, true, model->components);
+    gm_sparse_keep(arena, &model->slopes,
+                   gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes));
+    model->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &model->slopes);
+    model->momenta = gm_sparse_nodes(arena, model->nodes, half, &model->slopes);
+    model->momenta_count = half;
+    for (size_t i = 0; i < model->slopes.count; i++) {
+        if (is_of_mass(model, &model->slopes.entries[i])) {
+            model->momenta[model->momenta_count++] = model->slopes.entries[i].node;
+        }
+    }
 }
 
-void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian)
+static void open_tape(struct gm_arena *arena, struct gm_tape *tape,
+                      const struct gm_user_lagrangian_model *model, const gm_node_id *nodes, size_t count,
+                      const double *values)
 {
-    gm_tape_close(&lagrangian->momenta);
-    gm_tape_close(&lagrangian->rates);
-    gm_tape_close(&lagrangian->value);
-    gm_tape_close(&lagrangian->slopes);
+    gm_tape_keep(arena, tape, gm_tape_open(tape, model->graph, nodes, count, model->components, values));
+}
+
+void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
+                             const struct gm_user_lagrangian_model *model, const double *values)
+{
+    const size_t half = model->half;
+    *lagrangian = (struct gm_user_lagrangian){.model = model};
+    open_tape(arena, &lagrangian->momenta, model, model->momenta, model->momenta_count, values);
+    open_tape(arena, &lagrangian->rates, model, model->nodes + half, half, values);
+    open_tape(arena, &lagrangian->value, model, model->nodes + 2 * half, 1, values);
+    open_tape(arena, &lagrangian->slopes, model, model->slope_nodes, model->slopes.count, values);
 }
 
 static void no_numbers(double *values, size_t count)
