@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
-#include "app/data/meta.h"
-#include "app/output/json.h"
+#include "app/data/save.h"
+#include "app/output/row.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "library/host.h"
@@ -21,7 +21,7 @@ const char *geomint_version(void)
 
 const char *geomint_scene_name(size_t index)
 {
-    return index < gm_scene_count() ? gm_scene_at(index)->name : NULL;
+    return index < gm_scene_count() ? gm_scene_name(index) : NULL;
 }
 
 const char *geomint_scheme_name(size_t index)

@@ -15,7 +15,6 @@
 #include <unistd.h>
 
 #include "app/native/cache.h"
-#include "app/native/compiler.h"
 #include "core/basics.h"
 #include "core/kind.h"
 #include "core/memory.h"

@@ -19,11 +19,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/tape.h"
 
-enum {
-    ROOM = 64 /* places that are computed together */,
-    ORDERS = GM_MOST_DERIVATIVES + 1,
-    MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2
-};
+enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };
 
 /* What a call works in. */
 struct room {
@@ -34,6 +30,7 @@ struct room {
 };
 
 struct own {
+    struct gm_user_line along; /* first */
     struct gm_ode facets;
     struct gm_semilinear semilinear;
     struct gm_loops loops;
@@ -46,7 +43,7 @@ struct own {
     /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
     double mirrored[GM_MOST_FIELDS];
     bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
-    struct gm_tape rates, rests, starts, exact, *densities;
+    struct gm_tape rates, rests, *densities;
     double complex *symbols; /* of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
@@ -132,13 +129,9 @@ static void derive_all(struct gm_arena *arena, void *data)
     const size_t n = system->n;
     deriving->arena = arena;
     evolution->densities = gm_arena_take(arena, system->item_count + 1, sizeof *evolution->densities);
-    bool told = true;
     for (size_t i = 0; i < n; i++) {
         evolution->rates[i] = system->rates[i];
-        evolution->starts[i] = system->variables[i].start;
-        evolution->exact[i] = system->variables[i].exact;
         evolution->masses[i] = gm_formula_variable(&system->graph, i);
-        told &= evolution->exact[i] != GM_NO_NODE;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
@@ -146,14 +139,10 @@ static void derive_all(struct gm_arena *arena, void *data)
             evolution->densities[evolution->density_count++] = item->nodes[0];
         }
     }
+    gm_arena_need(arena, gm_line_derive(&evolution->formulas, system));
     number_inputs(deriving);
     renumber(deriving, evolution->rates, n);
-    renumber(deriving, evolution->starts, n);
     renumber(deriving, evolution->densities, evolution->density_count);
-    if (told) {
-        renumber(deriving, evolution->exact, n);
-    }
-    evolution->exact[0] = told ? evolution->exact[0] : GM_NO_NODE;
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_MASS) {
             gm_node_id mass = system->items[i].nodes[0];
@@ -481,10 +470,6 @@ static void open_tapes(struct own *self, const double *values)
     self->densities = gm_arena_take(self->arena, evolution->density_count, sizeof *self->densities);
     open_tape(self, &self->rates, evolution->rates, n, values);
     open_tape(self, &self->rests, evolution->rests, n, values);
-    open_tape(self, &self->starts, evolution->starts, n, values);
-    if (evolution->exact[0] != GM_NO_NODE) {
-        open_tape(self, &self->exact, evolution->exact, n, values);
-    }
     for (size_t i = 0; i < evolution->density_count; i++) {
         open_tape(self, &self->densities[i], &evolution->densities[i], 1, values);
     }
@@ -500,6 +485,11 @@ struct opening {
 static void close_idle(void *idle)
 {
     room_close(atomic_exchange((struct room * _Atomic *)idle, NULL));
+}
+
+static void close_line(void *line)
+{
+    gm_user_line_close(line);
 }
 
 static void open_problem(struct gm_arena *arena, void *data)
@@ -519,6 +509,10 @@ static void open_problem(struct gm_arena *arena, void *data)
     problem->n = self->fields * self->line.points;
     problem->parameters = self;
     problem->facets = &self->facets;
+    gm_arena_keep(arena, &self->along, close_line);
+    gm_arena_need(arena,
+                  gm_user_line_open(&self->along, system, opening->evolution->formulas.start, self->fields,
+                                    opening->evolution->formulas.exact, opening->values));
     /* the values of all variables in their new order */
     double *values = gm_arena_take(arena, self->inputs + parameters, sizeof *values);
     memcpy(values + self->inputs, opening->values + system->parameters, parameters * sizeof *values);
@@ -563,45 +557,16 @@ void gm_user_evolution_shut(struct gm_problem *problem)
 
 /* ---- what is asked of it ---- */
 
-/* The fields at the start at so many places, at most ROOM: [field * count + place]. */
-static void starts_at(const struct own *self, const double *x, size_t count, double *values)
-{
-    double inputs[MOST_INPUTS * ROOM] = {0};
-    memcpy(inputs + (self->inputs - 2) * count, x, count * sizeof *x);
-    gm_tape_values(&self->starts, inputs, values, count);
-}
-
 void gm_user_evolution_start(const struct gm_problem *problem, double *y)
 {
     const struct own *self = own_of(problem);
     const size_t points = self->line.points;
-    double x[ROOM], values[GM_MOST_FIELDS * ROOM];
-    for (size_t first = 0, some; first < points; first += some) {
-        some = points - first < ROOM ? points - first : ROOM;
-        for (size_t i = 0; i < some; i++) {
-            x[i] = gm_grid1_node(&self->line, first + i);
-        }
-        starts_at(self, x, some, values);
-        for (size_t c = 0; c < self->fields; c++) {
-            for (size_t i = 0; i < some; i++) {
-                const double sign = first + i < gm_grid1_seen(&self->line) ? 1 : self->mirrored[c];
-                y[c * points + first + i] = sign * values[c * some + i];
-            }
+    gm_user_line_start(&self->along, &self->line, y);
+    for (size_t c = 0; c < self->fields; c++) {
+        for (size_t i = gm_grid1_seen(&self->line); i < points; i++) {
+            y[c * points + i] *= self->mirrored[c];
         }
     }
-}
-
-double gm_user_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t)
-{
-    const struct own *self = own_of(problem);
-    double inputs[MOST_INPUTS] = {0}, values[GM_MOST_FIELDS];
-    inputs[self->inputs - 2] = x;
-    inputs[self->inputs - 1] = t;
-    if (self->evolution->exact[0] == GM_NO_NODE) {
-        return NAN;
-    }
-    gm_tape_values(&self->exact, inputs, values, 1);
-    return values[field];
 }
 
 double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
@@ -623,37 +588,20 @@ double gm_user_evolution_integral(const struct gm_problem *problem, size_t densi
     return sum * self->line.dx;
 }
 
-/* u: that field of the state at the start */
-static bool field_closes(const struct own *self, size_t field, const double *u, char *sentence, size_t size)
+static bool field_closes(const struct own *self, size_t field, char *sentence, size_t size)
 {
     const struct gm_grid1 *grid = &self->line;
-    const char *name = self->evolution->system->variables[field].name;
-    double low = INFINITY, high = -INFINITY, values[2 * GM_MOST_FIELDS];
-    for (size_t i = 0; i < grid->points; i++) {
-        if (!isfinite(u[i])) {
-            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name,
-                     gm_grid1_node(grid, i));
-            return false;
-        }
-        low = fmin(low, u[i]);
-        high = fmax(high, u[i]);
+    struct gm_line_ends ends;
+    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, sentence, size)) {
+        return false;
     }
-    starts_at(self, (const double[]){grid->first, -grid->first}, 2, values);
-    const double left = values[2 * field], right = values[2 * field + 1];
     if (grid->walls && self->mirrored[field] < 0 &&
-        !(fabs(left) + fabs(right) <= 1e-3 * fmax(fabs(low), fabs(high)))) {
+        !(fabs(ends.left) + fabs(ends.right) <= 1e-3 * fmax(fabs(ends.low), fabs(ends.high)))) {
         snprintf(
             sentence, size,
             "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
             "%.6g at the other",
-            name, left, right);
-        return false;
-    }
-    if (!grid->walls &&
-        !(fabs(right - left) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
-        snprintf(sentence, size,
-                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other",
-                 name, left, right);
+            self->evolution->system->variables[field].name, ends.left, ends.right);
         return false;
     }
     return true;
@@ -706,7 +654,7 @@ bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, 
         snprintf(sentence, size, "not enough memory");
     }
     for (size_t i = 0; i < self->fields && good; i++) {
-        good = field_closes(self, i, y + i * self->line.points, sentence, size);
+        good = field_closes(self, i, sentence, size);
     }
     good = good && has_masses(self, sentence, size);
     if (good) {
