@@ -4,7 +4,6 @@
 #ifndef GM_CORE_EXPRESSION_DERIVATIVE_H
 #define GM_CORE_EXPRESSION_DERIVATIVE_H
 
-#include "core/arena.h"
 #include "core/expression/graph.h"
 
 /* All return false, or GM_NO_NODE, where memory was refused (graph->failed, or none for an array). */
@@ -30,11 +29,5 @@ struct gm_sparse {
    by free(entries), in any case. */
 bool gm_sparse_jacobian(struct gm_formula *graph, const gm_node_id *nodes, size_t rows, const bool *marked,
                         size_t variables, struct gm_sparse *jacobian);
-
-/* In the body of an arena: leaves it where such a matrix was not derived, else the arena holds its entries. */
-void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
-/* So many nodes, and behind them those of a matrix. */
-gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
-                            const struct gm_sparse *jacobian);
 
 #endif

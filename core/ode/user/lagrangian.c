@@ -97,19 +97,21 @@ struct transform {
     double *scratch;
 };
 
-static bool open_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian)
+static void lay_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian,
+                          double *memory)
 {
-    const size_t half = lagrangian->model->half, n = lagrangian->model->components,
-                 outputs = lagrangian->momenta.outputs;
-    *transform = (struct transform){.lagrangian = lagrangian};
-    transform->at = malloc((n + outputs + half + gm_newton_scratch(half)) * sizeof(double));
-    if (!transform->at) {
-        return false;
-    }
-    transform->outputs = transform->at + n;
-    transform->wanted = transform->outputs + outputs;
+    const size_t half = lagrangian->model->half;
+    transform->lagrangian = lagrangian;
+    transform->at = memory;
+    transform->outputs = transform->at + lagrangian->model->components;
+    transform->wanted = transform->outputs + lagrangian->momenta.outputs;
     transform->scratch = transform->wanted + half;
-    return true;
+}
+
+static size_t transform_size(const struct gm_user_lagrangian *lagrangian)
+{
+    const size_t half = lagrangian->model->half;
+    return lagrangian->model->components + lagrangian->momenta.outputs + half + gm_newton_scratch(half);
 }
 
 /* The mass matrix from the values of all slopes, or of those that are `alone` in it. */
@@ -167,29 +169,28 @@ static void find_velocities(struct transform *transform, const double *y, size_t
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
 }
 
-/* The m states with velocities in place of the momenta, or with 0; malloc'ed, NULL: out of memory. */
+/* The m states with velocities in place of the momenta, or with 0; malloc'ed. NULL where memory is short: then the
+   `count` numbers that were to come of them are none. */
 static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
-                             bool found)
+                             bool found, double *numbers, size_t count)
 {
     const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = malloc(n * m * sizeof *at), *v = malloc(half * sizeof *v);
-    struct transform transform = {0};
-    const bool good = at && v && open_transform(&transform, lagrangian);
-    for (size_t i = 0; good && i < n * m; i++) {
-        at[i] = i >= half * m && i < 2 * half * m ? 0 : y[i];
+    double *at = malloc((n * m + half + transform_size(lagrangian)) * sizeof *at);
+    if (!at) {
+        no_numbers(numbers, count);
+        return NULL;
     }
-    for (size_t l = 0; good && found && l < m; l++) {
+    double *v = at + n * m;
+    struct transform transform;
+    lay_transform(&transform, lagrangian, v + half);
+    memcpy(at, y, n * m * sizeof *at);
+    memset(at + half * m, 0, half * m * sizeof *at);
+    for (size_t l = 0; found && l < m; l++) {
         find_velocities(&transform, y, m, l, v);
         for (size_t i = 0; i < half; i++) {
             at[(half + i) * m + l] = v[i];
         }
     }
-    free(transform.at);
-    if (!good) {
-        free(at);
-        at = NULL;
-    }
-    free(v);
     return at;
 }
 
@@ -197,15 +198,13 @@ void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const
                               size_t m)
 {
     const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, f, n * m);
     if (at) {
         memcpy(f, at + half * m, half * m * sizeof *f);
         gm_tape_values(&lagrangian->rates, at, f + half * m, m);
         for (size_t i = 2 * half * m; i < n * m; i++) {
             f[i] = 1; /* of t */
         }
-    } else {
-        no_numbers(f, n * m);
     }
     free(at);
 }
@@ -214,11 +213,9 @@ void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, co
                                  double *velocity, size_t m)
 {
     const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, velocity, half * m);
     if (at) {
         memcpy(velocity, at + half * m, half * m * sizeof *velocity);
-    } else {
-        no_numbers(velocity, half * m);
     }
     free(at);
 }
@@ -226,11 +223,9 @@ void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, co
 void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
                               size_t m)
 {
-    double *at = at_velocities(lagrangian, y, m, false);
+    double *at = at_velocities(lagrangian, y, m, false, force, lagrangian->model->half * m);
     if (at) {
         gm_tape_values(&lagrangian->rates, at, force, m);
-    } else {
-        no_numbers(force, lagrangian->model->half * m);
     }
     free(at);
 }
@@ -239,7 +234,7 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
                                size_t m)
 {
     const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, energy, m);
     if (at) {
         gm_tape_values(&lagrangian->value, at, energy, m);
         for (size_t l = 0; l < m; l++) {
@@ -249,8 +244,6 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
             }
             energy[l] = sum - energy[l];
         }
-    } else {
-        no_numbers(energy, m);
     }
     free(at);
 }
@@ -290,13 +283,13 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     const struct gm_sparse_entry *entries = model->slopes.entries;
     struct transform transform;
     /* columns of dv over the state, the slopes' values, a velocity */
-    double *columns = calloc(n * half + count + half, sizeof *columns);
-    if (!columns || !open_transform(&transform, lagrangian)) {
-        free(columns);
+    double *columns = calloc(n * half + count + half + transform_size(lagrangian), sizeof *columns);
+    if (!columns) {
         no_numbers(matrix, n * n);
         return;
     }
     double *values = columns + n * half, *v = values + count;
+    lay_transform(&transform, lagrangian, v + half);
     find_velocities(&transform, y, 1, 0, v);
     gm_tape_values(&lagrangian->slopes, transform.at, values, 1);
     memset(matrix, 0, n * n * sizeof *matrix);
@@ -328,6 +321,5 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     if (!isfinite(v[0])) {
         no_numbers(matrix, n * n);
     }
-    free(transform.at);
     free(columns);
 }
