@@ -26,6 +26,7 @@ struct gm_user_evolution {
     gm_node_id
         kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
     size_t kinked; /* in which */
+    struct gm_arena *arena;
 };
 
 /* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */
