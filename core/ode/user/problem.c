@@ -11,6 +11,7 @@
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/trace_free.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/lazy_tape.h"
 #include "core/ode/variational/manifold.h"
@@ -44,7 +45,8 @@ struct own {
     struct gm_monitor monitor;
     struct gm_user_bracket bracket;
     struct gm_poisson poisson;
-    double *values; /* of the system's variables */
+    double matrix[9]; /* of a linear field of three components without divergence */
+    double *values;   /* of the system's variables */
     const struct gm_user_model *model;
     const struct gm_user_rates *rates; /* of the model */
 };
@@ -150,6 +152,11 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     }
 }
 
+static void trace_free_flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
+{
+    gm_trace_free_flow(own_of(problem)->matrix, piece, h, y, m);
+}
+
 static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
 {
     const struct own *self = own_of(problem);
@@ -193,7 +200,7 @@ static void prepare(const struct gm_problem *problem, unsigned needs)
     } else if (needs & GM_NEEDS_FAST_LINEAR) {
         gm_late_tape(&self->slow_force);
     } else if (needs & GM_NEEDS_VOLUME) {
-        for (size_t i = 0; i < problem->n; i++) {
+        for (size_t i = 0; self->pieces && i < problem->n; i++) {
             gm_late_tape(&self->pieces[i]);
         }
     } else {
@@ -466,6 +473,20 @@ static bool attracts(const struct gm_problem *problem, const double *values)
     return negative;
 }
 
+/* Whether y' = A y in three dimensions with tr A = 0, to round-off; notes A. */
+static bool is_trace_free(struct own *self, const struct gm_problem *problem)
+{
+    const double origin[3] = {0}, *a = self->matrix;
+    double rates[3];
+    if (problem->n != 3) {
+        return false;
+    }
+    self->loops.jacobian(problem, origin, self->matrix);
+    self->loops.field(problem, origin, rates, 1);
+    return rates[0] == 0 && rates[1] == 0 && rates[2] == 0 &&
+           fabs(a[0] + a[4] + a[8]) <= 1e-15 * (fabs(a[0]) + fabs(a[4]) + fabs(a[8]));
+}
+
 bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
 {
     const struct gm_user_system *system = model->system;
@@ -525,6 +546,10 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         !open_monitor(self, values) || !open_poisson(self, problem, values)) {
         return false;
     }
+    if (self->ode.linear && !self->ode.volume && is_trace_free(self, problem)) {
+        self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
+        self->ode.volume = &self->volume;
+    }
     self->split.attracts = self->ode.split && self->ode.hamiltonian && attracts(problem, values);
     return true;
 }
@@ -575,6 +600,7 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
             self->constants[i] = tapes[i] ? tapes[i]->constants : NULL;
         }
         self->loops.field = loops->field;
+        self->volume.flow = loops->shear && self->pieces ? loops->shear : self->volume.flow;
         self->loops.jacobian = loops->jacobian ? loops->jacobian : self->interpreted.jacobian;
         memcpy(self->loops.over_kernels, loops->over_kernels, sizeof self->loops.over_kernels);
     }
