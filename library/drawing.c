@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/still.h"
+#include "app/output/printer.h"
 #include "core/memory.h"
 #include "library/handle.h"
 #include "library/host.h"

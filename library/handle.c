@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
-#include "app/data/meta.h"
-#include "app/output/json.h"
+#include "app/data/save.h"
+#include "app/output/row.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "library/host.h"

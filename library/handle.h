@@ -5,7 +5,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
-#include "app/words/chosen.h"
+#include "app/words/names.h"
 #include "app/words/drive.h"
 #include "core/quantity.h"
 #include "library/geomint.h"

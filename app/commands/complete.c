@@ -11,7 +11,7 @@
 #include "app/commands/reference/reference.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "app/words/fitting.h"
+#include "app/words/names.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"

@@ -9,19 +9,14 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/data/meta.h"
-#include "app/data/profile.h"
-#include "app/data/rows.h"
 #include "app/data/save.h"
-#include "app/data/tracks.h"
 #include "app/native/engine.h"
-#include "app/output/checkpoint.h"
-#include "app/output/csv.h"
 #include "app/output/folder.h"
-#include "app/output/json.h"
+#include "app/output/frames.h"
+#include "app/output/row.h"
 #include "app/output/say.h"
-#include "app/words/chosen.h"
 #include "app/words/drive.h"
+#include "app/words/names.h"
 #include "core/basics.h"
 #include "core/memory.h"
 #include "render/clock.h"
@@ -685,22 +680,19 @@ static void tell(const struct outcome *outcome, const struct gm_options *options
 }
 
 /* Standard output goes to one reader. */
-static bool check_options(const struct gm_options *options)
+static void check_options(const struct gm_options *options)
 {
     if (options->state && !options->json) {
-        gm_complain("--state needs --json");
-        return false;
+        gm_command_end(options, GM_EXIT_USAGE, "--state needs --json");
     }
     if (is_standard_output(options->csv) + is_standard_output(options->profile) + (options->json != 0) > 1) {
-        gm_complain("standard output takes one of --csv -, --profile - and --json");
-        return false;
+        gm_command_end(options, GM_EXIT_USAGE,
+                       "standard output takes one of --csv -, --profile - and --json");
     }
     if ((options->every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
-        gm_complain("--%s says which steps have a row: of --csv or --save",
-                    options->every > 0 ? "every" : "interval");
-        return false;
+        gm_command_end(options, GM_EXIT_USAGE, "--%s says which steps have a row: of --csv or --save",
+                       options->every > 0 ? "every" : "interval");
     }
-    return true;
 }
 
 /* Whether the scene has profiles of its own, or its states have nodes on a line. */
@@ -858,34 +850,25 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
 int gm_command_run(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
-    struct gm_request request;
-    if (!check_options(options)) {
-        return GM_EXIT_USAGE;
-    }
-    if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RUN_SCHEMES,
-                          message)) {
-        return gm_give_up(gm_request_refusal(&request), "%s", message);
-    }
-    if (!gm_command_confirmed(options, &request)) {
-        gm_request_close(&request);
-        return GM_EXIT_USAGE;
-    }
+    check_options(options);
+    struct gm_request *request =
+        gm_command_parse(options, options->arguments.count, options->arguments.words, GM_RUN_SCHEMES);
+    gm_command_confirm(options, request);
     gm_catch_interrupts();
     struct outputs outputs = {.options = options,
                               .rows = {.every = options->every, .interval = options->interval}};
-    int status = open_outputs(&outputs, &request, message);
+    int status = open_outputs(&outputs, request, message);
     const bool opened = status == GM_EXIT_OK;
     if (!opened) {
         gm_complain("%s", message);
     }
     for (size_t i = 0;
-         i < request.count && opened && status != GM_EXIT_FILE && !gm_interrupted && !is_in_vain(&outputs);
+         i < request->count && opened && status != GM_EXIT_FILE && !gm_interrupted && !is_in_vain(&outputs);
          i++) {
-        const int lane = make_lane(&outputs, &request, i);
+        const int lane = make_lane(&outputs, request, i);
         status = lane == GM_EXIT_FILE || lane == GM_EXIT_USAGE || status == GM_EXIT_OK ? lane : status;
     }
     status = close_outputs(&outputs, opened, status);
-    gm_request_close(&request);
     errno = outputs.csv_why != 0 ? outputs.csv_why : errno;
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }

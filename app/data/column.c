@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of files that grow; those that are lines. */
-#include "app/data/column.h"
+#include "app/data/format.h"
 
 #include <errno.h>
 #include <libdeflate.h>
@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-#include "app/data/bytes.h"
 
 bool gm_column_open(struct gm_column *column)
 {

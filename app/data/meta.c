@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was run, as JSON. */
-#include "app/data/meta.h"
+#include "app/data/save.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-#include "app/output/json.h"
+#include "app/output/row.h"
 #include "core/basics.h"
 
 void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)

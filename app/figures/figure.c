@@ -9,8 +9,7 @@
 
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
-#include "app/base/text.h"
-#include "app/output/still.h"
+#include "app/output/printer.h"
 #include "app/words/drive.h"
 #include "core/memory.h"
 #include "render/clock.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page of figures: one file of HTML with everything in it. */
-#include "app/figures/page.h"
+#include "app/figures/figure.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/text.h"
+#include "app/base/arguments.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/files/base64.h"

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #include "app/base/arguments.h"
-#include "app/base/text.h"
 #include "app/words/request.h"
 #include "core/field/field.h"
 #include "core/memory.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checkpoints of runs and of renders. */
-#include "app/output/checkpoint.h"
+#include "app/output/frames.h"
 
 #include <errno.h>
 #include <libdeflate.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/text.h"
+#include "app/base/arguments.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
 #include "render/files/regular_file.h"

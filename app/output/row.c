@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Named cells as CSV or as JSON. */
+/* Cells one after the other: tables in CSV (RFC 4180), and JSON. */
 #include "app/output/row.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "app/output/csv.h"
-#include "app/output/json.h"
+#include "render/cells/text.h"
 
 static void begin(struct gm_row *row, const char *key)
 {
@@ -81,4 +84,103 @@ struct gm_row gm_row_open(struct gm_row *row, const char *key, char end)
 void gm_row_close(const struct gm_row *row)
 {
     fputc(row->end, row->stream);
+}
+
+void gm_json_put_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    while (*text) {
+        const char *letter = text;
+        const uint32_t code = gm_text_next(&text);
+        if (code == '\n') {
+            fputs("\\n", stream);
+        } else if (code < ' ') {
+            fprintf(stream, "\\u%04x", (unsigned)code);
+        } else if (code == 0xFFFD) { /* malformed bytes, too */
+            fputs("\\ufffd", stream);
+        } else {
+            fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
+        }
+    }
+    fputc('"', stream);
+}
+
+void gm_json_pair(const char *key, const char *text)
+{
+    gm_json_put_text(stdout, key);
+    putchar(':');
+    gm_json_put_text(stdout, text);
+}
+
+void gm_json_put_number(FILE *stream, double value)
+{
+    if (isfinite(value)) {
+        fprintf(stream, "%.17g", value);
+    } else {
+        fputs("null", stream);
+    }
+}
+
+void gm_json_number(double value)
+{
+    gm_json_put_number(stdout, value);
+}
+
+void gm_json_number_pair(const char *key, double value)
+{
+    gm_json_put_text(stdout, key);
+    putchar(':');
+    gm_json_number(value);
+}
+
+void gm_csv_put_quoted(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (; *text; text++) {
+        fputs(*text == '"' ? "\"" : "", stream);
+        fputc(*text, stream);
+    }
+    fputc('"', stream);
+}
+
+void gm_csv_put_text(FILE *stream, const char *text)
+{
+    if (strpbrk(text, ",\"")) {
+        gm_csv_put_quoted(stream, text);
+    } else {
+        fputs(text, stream);
+    }
+}
+
+const char *gm_csv_cell(const char *row, size_t index)
+{
+    for (bool quoted = false; index > 0; row++) {
+        if (*row == '\0') {
+            return row;
+        }
+        quoted ^= *row == '"';
+        index -= !quoted && *row == ',';
+    }
+    return row;
+}
+
+const char *gm_csv_next(struct gm_csv_lines *lines)
+{
+    const ssize_t length = lines->stream ? getline(&lines->line, &lines->room, lines->stream) : -1;
+    if (length > 0 && lines->line[length - 1] == '\n') {
+        return lines->line;
+    }
+    if (length <= 0 && lines->line) {
+        lines->line[0] = '\0';
+    }
+    return NULL;
+}
+
+void gm_csv_close(struct gm_csv_lines *lines)
+{
+    if (lines->stream) {
+        fclose(lines->stream);
+    }
+    free(lines->line);
+    *lines = (struct gm_csv_lines){0};
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "app/base/exit.h"
 #include "app/base/files.h"
+#include "app/base/interrupt.h"
 #include "app/base/place.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"

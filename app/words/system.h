@@ -51,4 +51,8 @@ void gm_system_trial_close(struct gm_system_trial *trial);
    memory. */
 bool gm_system_recall(const char *word, const char *text);
 
+/* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no
+   memory. */
+char *gm_system_now(const struct gm_scene *scene, const void *parameters);
+
 #endif

@@ -12,8 +12,7 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
                    bool outline);
 
 /* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
-void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
-                   int gap);
+void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_role role, int gap);
 
 /* The colour map from bottom to top. */
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);

@@ -435,19 +435,33 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
     return 0;
 }
 
+/* The variable that says where a component starts: a parameter that is its start, or itself. */
+static size_t start_of(const struct gm_user_system *system, long component)
+{
+    if (component < 0 || (size_t)component >= system->n) {
+        return GM_NO_VARIABLE;
+    }
+    const gm_node_id start = system->variables[component].start;
+    const struct gm_node *node = start == GM_NO_NODE ? NULL : &system->graph.nodes[start];
+    const bool given = node && node->operation == GM_VARIABLE && node->a >= system->parameters &&
+                       node->a < system->velocities;
+    return given ? node->a : (size_t)component;
+}
+
 static size_t point(const void *parameters, double x, double y, struct gm_choice *choices)
 {
     const struct gm_system_lane *lane = parameters;
     const struct gm_sight *sight = gm_system_sight(lane);
     size_t count = 0;
     for (size_t k = 0; k < 2; k++) {
+        const size_t number = start_of(&lane->owner->system, sight->components[k]);
         for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
-            if (sight->components[k] >= 0 && lane->owner->variables[row] == (size_t)sight->components[k]) {
+            if (number != GM_NO_VARIABLE && lane->owner->variables[row] == number) {
                 gm_choose(&choices[count++], lane->owner->rows[row].key, k ? y : x);
             }
         }
     }
-    if (count == 2) {
+    if (count == (sight->over_time ? 1 : 2)) {
         return count + on_section(lane, sight, &choices[count]);
     }
     double *start = gm_system_start_values(lane, NULL);
@@ -516,30 +530,14 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
         const struct gm_system_variable *variable = &system->variables[number];
-        const char *unit = variable->unit, *help = variable->meaning;
-        const double value = start[number], reach = 1e300; /* sliders find their usual size themselves */
-        const bool ranged = !isnan(variable->low);
         if (variable->derived) {
             continue;
         }
         system_scene->variables[row] = number;
-        system_scene->rows[row] = (struct gm_parameter){
-            .key = variable->name,
-            .unit = unit ? unit : "",
-            .help = help && help[0] ? help
-                    : is_start      ? "where it starts"
-                                    : "a parameter",
-            .type = GM_REAL,
-            .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
-            .lowest = variable->fixed ? value
-                      : ranged        ? variable->low
-                                      : -reach,
-            .highest = variable->fixed ? value
-                       : ranged        ? variable->high
-                                       : reach,
-            .required = typed,
-        };
+        system_scene->rows[row] = gm_written_row(
+            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
+            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].required = typed;
         good = system_scene->rows[row++].standard != NULL;
     }
     system_scene->row_count = row;

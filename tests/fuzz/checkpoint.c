@@ -9,7 +9,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "app/output/checkpoint.h"
+#include "app/output/frames.h"
 #include "app/words/drive.h"
 #include "render/picture/picture.h"
 #include "scenes/common/lane_pack.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checkpoints: what they keep, and those that were forged, whose checksum is right and which say what cannot
    be. */
-#include "app/output/checkpoint.h"
+#include "app/output/frames.h"
 
 #include <libdeflate.h>
 #include <math.h>

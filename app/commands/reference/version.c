@@ -13,8 +13,7 @@
 #include <suitesparse/cholmod.h>
 
 #include "app/commands/reference/reference.h"
-#include "app/native/compiler.h"
-#include "app/native/sources.h"
+#include "app/native/cache.h"
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"

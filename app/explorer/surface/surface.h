@@ -6,7 +6,7 @@
 
 #include "app/explorer/worker/session.h"
 #include "app/explorer/worker/worker.h"
-#include "app/runs/shot.h"
+#include "app/runs/session.h"
 #include "core/scheme.h"
 #include "render/cells/cells.h"
 #include "render/files/inline_image.h"

@@ -9,7 +9,7 @@
 
 #include "app/grid/chart.h"
 #include "app/grid/sweep.h"
-#include "app/output/csv.h"
+#include "app/output/row.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
 #include "scenes/common/symbol.h"

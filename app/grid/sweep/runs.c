@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The runs of a sweep: from a number to a run, and from a run to a row. */
+#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
-#include "app/base/text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "app/grid/sweep.h"
-#include "app/output/csv.h"
+#include "app/output/row.h"
 #include "app/words/drive.h"
 #include "core/memory.h"
 #include "core/schemes.h"

@@ -19,11 +19,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/tape.h"
 
-enum {
-    ROOM = 64 /* places that are computed together */,
-    ORDERS = GM_MOST_DERIVATIVES + 1,
-    MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2
-};
+enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };
 
 /* What a call works in. */
 struct room {
@@ -34,6 +30,7 @@ struct room {
 };
 
 struct own {
+    struct gm_user_line along; /* first */
     struct gm_ode facets;
     struct gm_semilinear semilinear;
     struct gm_loops loops;
@@ -46,7 +43,7 @@ struct own {
     /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
     double mirrored[GM_MOST_FIELDS];
     bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
-    struct gm_tape rates, rests, starts, exact, *densities;
+    struct gm_tape rates, rests, *densities;
     double complex *symbols; /* of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
@@ -117,13 +114,10 @@ bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_use
     const size_t n = system->n;
     *evolution = (struct gm_user_evolution){
         .system = system, .densities = malloc((system->item_count + 1) * sizeof *evolution->densities)};
-    bool good = evolution->densities != NULL, told = true;
+    bool good = evolution->densities != NULL;
     for (size_t i = 0; i < n; i++) {
         evolution->rates[i] = system->rates[i];
-        evolution->starts[i] = system->variables[i].start;
-        evolution->exact[i] = system->variables[i].exact;
         evolution->masses[i] = gm_formula_variable(&system->graph, i);
-        told &= evolution->exact[i] != GM_NO_NODE;
     }
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
@@ -131,10 +125,8 @@ bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_use
             evolution->densities[evolution->density_count++] = item->nodes[0];
         }
     }
-    good = good && renumber(system, evolution->rates, n) && renumber(system, evolution->starts, n) &&
-           renumber(system, evolution->densities, evolution->density_count) &&
-           (!told || renumber(system, evolution->exact, n));
-    evolution->exact[0] = told ? evolution->exact[0] : GM_NO_NODE;
+    good = good && gm_line_derive(&evolution->formulas, system) && renumber(system, evolution->rates, n) &&
+           renumber(system, evolution->densities, evolution->density_count);
     for (size_t i = 0; good && i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_MASS) {
             gm_node_id mass = system->items[i].nodes[0];
@@ -471,10 +463,7 @@ static bool open_tapes(struct own *self, const double *values)
     const size_t n = self->fields, inputs = self->inputs;
     self->densities = calloc(evolution->density_count + 1, sizeof *self->densities);
     bool good = self->densities && gm_tape_open(&self->rates, graph, evolution->rates, n, inputs, values) &&
-                gm_tape_open(&self->rests, graph, evolution->rests, n, inputs, values) &&
-                gm_tape_open(&self->starts, graph, evolution->starts, n, inputs, values) &&
-                (evolution->exact[0] == GM_NO_NODE ||
-                 gm_tape_open(&self->exact, graph, evolution->exact, n, inputs, values));
+                gm_tape_open(&self->rests, graph, evolution->rests, n, inputs, values);
     for (size_t i = 0; good && i < evolution->density_count; i++) {
         good = gm_tape_open(&self->densities[i], graph, &evolution->densities[i], 1, inputs, values);
     }
@@ -498,8 +487,11 @@ bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evo
     problem->parameters = self;
     problem->facets = &self->facets;
     double *ordered = renumbered(self, values);
-    const bool good = ordered && open_tapes(self, ordered) && make_symbols(self, ordered) &&
-                      find_needed(self) && name_fields(self);
+    const bool good = ordered &&
+                      gm_user_line_open(&self->along, evolution->system, evolution->formulas.start,
+                                        self->fields, evolution->formulas.exact, values) &&
+                      open_tapes(self, ordered) && make_symbols(self, ordered) && find_needed(self) &&
+                      name_fields(self);
     free(ordered);
     if (good && grid->walls) {
         find_mirror(self);
@@ -519,10 +511,9 @@ void gm_user_evolution_shut(struct gm_problem *problem)
 {
     struct own *self = own_of(problem);
     if (self) {
-        struct gm_tape *const tapes[] = {&self->rates, &self->rests, &self->starts, &self->exact};
-        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
-            gm_tape_close(tapes[i]);
-        }
+        gm_user_line_close(&self->along);
+        gm_tape_close(&self->rates);
+        gm_tape_close(&self->rests);
         for (size_t i = 0; self->densities && i < self->evolution->density_count; i++) {
             gm_tape_close(&self->densities[i]);
         }
@@ -538,45 +529,16 @@ void gm_user_evolution_shut(struct gm_problem *problem)
 
 /* ---- what is asked of it ---- */
 
-/* The fields at the start at so many places, at most ROOM: [field * count + place]. */
-static void starts_at(const struct own *self, const double *x, size_t count, double *values)
-{
-    double inputs[MOST_INPUTS * ROOM] = {0};
-    memcpy(inputs + (self->inputs - 2) * count, x, count * sizeof *x);
-    gm_tape_values(&self->starts, inputs, values, count);
-}
-
 void gm_user_evolution_start(const struct gm_problem *problem, double *y)
 {
     const struct own *self = own_of(problem);
     const size_t points = self->line.points;
-    double x[ROOM], values[GM_MOST_FIELDS * ROOM];
-    for (size_t first = 0, some; first < points; first += some) {
-        some = points - first < ROOM ? points - first : ROOM;
-        for (size_t i = 0; i < some; i++) {
-            x[i] = gm_grid1_node(&self->line, first + i);
-        }
-        starts_at(self, x, some, values);
-        for (size_t c = 0; c < self->fields; c++) {
-            for (size_t i = 0; i < some; i++) {
-                const double sign = first + i < gm_grid1_seen(&self->line) ? 1 : self->mirrored[c];
-                y[c * points + first + i] = sign * values[c * some + i];
-            }
+    gm_user_line_start(&self->along, &self->line, y);
+    for (size_t c = 0; c < self->fields; c++) {
+        for (size_t i = gm_grid1_seen(&self->line); i < points; i++) {
+            y[c * points + i] *= self->mirrored[c];
         }
     }
-}
-
-double gm_user_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t)
-{
-    const struct own *self = own_of(problem);
-    double inputs[MOST_INPUTS] = {0}, values[GM_MOST_FIELDS];
-    inputs[self->inputs - 2] = x;
-    inputs[self->inputs - 1] = t;
-    if (self->evolution->exact[0] == GM_NO_NODE) {
-        return NAN;
-    }
-    gm_tape_values(&self->exact, inputs, values, 1);
-    return values[field];
 }
 
 double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
@@ -598,37 +560,20 @@ double gm_user_evolution_integral(const struct gm_problem *problem, size_t densi
     return sum * self->line.dx;
 }
 
-/* u: that field of the state at the start */
-static bool field_closes(const struct own *self, size_t field, const double *u, char *sentence, size_t size)
+static bool field_closes(const struct own *self, size_t field, char *sentence, size_t size)
 {
     const struct gm_grid1 *grid = &self->line;
-    const char *name = self->evolution->system->variables[field].name;
-    double low = INFINITY, high = -INFINITY, values[2 * GM_MOST_FIELDS];
-    for (size_t i = 0; i < grid->points; i++) {
-        if (!isfinite(u[i])) {
-            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name,
-                     gm_grid1_node(grid, i));
-            return false;
-        }
-        low = fmin(low, u[i]);
-        high = fmax(high, u[i]);
+    struct gm_line_ends ends;
+    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, sentence, size)) {
+        return false;
     }
-    starts_at(self, (const double[]){grid->first, -grid->first}, 2, values);
-    const double left = values[2 * field], right = values[2 * field + 1];
     if (grid->walls && self->mirrored[field] < 0 &&
-        !(fabs(left) + fabs(right) <= 1e-3 * fmax(fabs(low), fabs(high)))) {
+        !(fabs(ends.left) + fabs(ends.right) <= 1e-3 * fmax(fabs(ends.low), fabs(ends.high)))) {
         snprintf(
             sentence, size,
             "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
             "%.6g at the other",
-            name, left, right);
-        return false;
-    }
-    if (!grid->walls &&
-        !(fabs(right - left) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
-        snprintf(sentence, size,
-                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other",
-                 name, left, right);
+            self->evolution->system->variables[field].name, ends.left, ends.right);
         return false;
     }
     return true;
@@ -681,7 +626,7 @@ bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, 
         snprintf(sentence, size, "not enough memory");
     }
     for (size_t i = 0; i < self->fields && good; i++) {
-        good = field_closes(self, i, y + i * self->line.points, sentence, size);
+        good = field_closes(self, i, sentence, size);
     }
     good = good && has_masses(self, sentence, size);
     if (good) {

@@ -165,6 +165,9 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sig
     if (dimensions == 2) {
         gm_system_hold_levels(lane, sight, &range);
     }
+    if (sight->over_time) {
+        range.low[0] = range.high[0] = 0; /* whose axis is that of all times */
+    }
     return range;
 }
 
@@ -196,7 +199,8 @@ static void find_left(const struct gm_lane *const *lanes, size_t count, struct g
     for (size_t i = 0; i < count; i++) {
         double least = extent(&ranges[i]);
         for (size_t k = 0; k < count; k++) {
-            const bool seen = ranges[k].high[0] >= ranges[k].low[0];
+            const bool ended = lanes[k]->run->status != GM_OK && i != k; /* and has shown less */
+            const bool seen = ranges[k].high[0] >= ranges[k].low[0] && !ended;
             least = seen && is_same(lanes[k], lanes[i]) ? fmin(least, extent(&ranges[k])) : least;
         }
         ranges[i].left = extent(&ranges[i]) > fmax(farthest * least, 1e-9);
@@ -226,8 +230,10 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
 {
     struct gm_seen *seen = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
+    bool alike = true;
     find_left(lanes, count, ranges);
     for (size_t i = 0; i < count; i++) {
+        alike = alike && own_of(lanes[i])->owner == own_of(lanes[0])->owner;
         seen[i] = range_like(lanes, count, i, ranges);
         if (!seen[i].left) {
             hold_range(&all, &seen[i]);
@@ -240,7 +246,7 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
         for (size_t k = 0; k < count; k++) {
             left = left && (seen[k].left || lanes[k]->shown.panel != lanes[i]->shown.panel);
         }
-        ranges[i] = left || most > largest_ratio * least ? nothing : all;
+        ranges[i] = left || !alike || most > largest_ratio * least ? nothing : all;
         ranges[i].left = left;
         for (size_t k = 0; k < count; k++) {
             if (lanes[k]->shown.panel == lanes[i]->shown.panel && seen[k].left == left) {
@@ -318,6 +324,23 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     return chords == 0 || sum < longest_chord * (double)chords;
 }
 
+/* Leaves the means of groups of points where there are many, which is what slow motion is of a swing that is fast. */
+static size_t average(double *points, size_t count)
+{
+    enum { SHOWN = 128 };
+    const size_t group = (count + SHOWN - 1) / SHOWN;
+    size_t made = 0;
+    for (size_t i = 0; i < count; i += group, made++) {
+        const size_t end = i + group < count ? i + group : count;
+        double sum[2] = {0, 0};
+        for (size_t k = 2 * i; k < 2 * end; k++) {
+            sum[k % 2] += points[k] / (double)(end - i);
+        }
+        memcpy(points + 2 * made, sum, sizeof sum);
+    }
+    return made;
+}
+
 static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_paths *paths, size_t body, const double *now)
 {
@@ -328,7 +351,16 @@ static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const 
     if (!points) {
         return;
     }
-    const size_t count = path_of(&paths->past, sight, body, 0, now, points);
+    size_t count = path_of(&paths->past, sight, body, 0, now, points);
+    if (sight->over_time) { /* with the steps, where they are apart; of several values the last one in full */
+        const bool last = body + 1 == sight->bodies;
+        const struct gm_style style = {role, 0.9, 1.6, last ? GM_SOLID : gm_lane_dash(body)};
+        count = last ? count : average(points, count);
+        gm_mark_line(picture, panel, style, points, count, false);
+        gm_mark_points(picture, panel, (struct gm_style){role, 1, 3.4, GM_SOLID}, points,
+                       last && count < 1500 ? count : 0);
+        return;
+    }
     if (is_curve(panel, points, count)) {
         gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
         const size_t end = path_of(&paths->past, sight, body, gm_system_bright_from(lane), now, points);
@@ -415,7 +447,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     for (size_t body = 0; body < sight->bodies; body++) {
         wrap(sight, numbers + 2 * body);
         gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
-                       numbers + 2 * body, sight->fixed[body] ? 0 : 1);
+                       numbers + 2 * body, sight->fixed[body] || sight->over_time ? 0 : 1);
     }
     gm_system_values(&sight->tape, &view, gm_system_centre(&view), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
@@ -427,10 +459,10 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.8, 3, GM_SOLID},
                      numbers + 2 * sight->bodies + 4 * rod, 2, false);
     }
+    const double width = sight->over_time ? 5 : sight->rods > 0 ? 13 : 10;
     for (int fixed = 1; fixed >= 0; fixed--) { /* what moves stands in front */
         for (size_t body = 0; body < sight->bodies; body++) {
-            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, sight->rods > 0 ? 13 : 10,
-                                           GM_SOLID};
+            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, width, GM_SOLID};
             wrap(sight, numbers + 2 * body);
             gm_mark_points(picture, panel, style, numbers + 2 * body,
                            sight->fixed[body] == (fixed == 1) ? 1 : 0);
@@ -442,14 +474,17 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
 static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
 {
     const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
-    return strcmp(sight->name, "view") == 0 ||
+    return (strcmp(sight->name, "view") == 0 && !sight->over_time) ||
            (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5);
 }
 
-static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_sight *sight,
-                      const struct gm_seen *range)
+static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_walk *walk,
+                      const struct gm_sight *sight, const struct gm_seen *range)
 {
     set_axis(picture, &panel->x, sight->labels[0], sight->angles[0], range->low[0], range->high[0]);
+    if (sight->over_time) {
+        gm_time_axis(&panel->x, walk->lanes, walk->count);
+    }
     set_axis(picture, &panel->y, sight->labels[1], sight->angles[1], range->low[1], range->high[1]);
     panel->axes = sight->labels[0] != NULL;
     panel->equal = is_equal(sight, panel);
@@ -527,7 +562,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                 }
                 space = gm_system_space(picture, panel, walk.lane, &range, names);
             } else {
-                set_plane(picture, panel, sight, &range);
+                set_plane(picture, panel, &walk, sight, &range);
             }
         }
         if (sight->dimensions == 2 && (walk.first || !is_same(walk.lane, leader))) {
@@ -705,10 +740,10 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
     const char *name = gm_system_title(&system_scene->system) ? system_scene->scene.title
                                                               : typeset(picture, system_scene->scene.title);
-    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, name);
-    if (!gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
+    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
+    if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
         picture->title =
-            gm_picture_text(picture, "%s, by %s", picture->title,
+            gm_picture_text(picture, "%s, by %s", picture->title ? picture->title : name,
                             one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
     }
     picture->subtitle = gm_picture_text(

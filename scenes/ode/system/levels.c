@@ -207,7 +207,7 @@ static bool follow(const struct level *level, struct box *found, const struct bo
 void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range)
 {
     struct level level;
-    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+    if (sight->over_time || !gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
         return;
     }
     for (size_t number = 0; take_level(&level, lane, &number);) {

@@ -23,6 +23,7 @@ struct gm_sight {
     struct gm_tape tape;   /* of all variables to these numbers */
     bool *fixed;           /* of each body: it does not move */
     const char *labels[3]; /* of the axes; NULL: they have no names */
+    bool over_time;        /* the first axis is the time */
     bool angles[2];        /* an axis is an angle */
     long components[2];    /* an axis is this component of the state; -1: it is none */
 };

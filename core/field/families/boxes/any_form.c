@@ -307,11 +307,7 @@ struct gm_progress gm_any_form_advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         guess(work, known);
         progress.status = gm_collocation_step(work, task->dt, &progress);
-        if (progress.status == GM_OK &&
-            !gm_field_within(work->high, work->state * work->r * work->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, work->high, work->state * work->r * work->points)) {
             return progress;
         }
         double *low = work->low;
@@ -320,7 +316,6 @@ struct gm_progress gm_any_form_advance(const struct gm_task *task)
         shift(&work->z, work->past_z);
         shift(&work->y, work->past_y);
         known = known <= GM_COLLOCATION_PAST ? known + 1 : known;
-        progress.done++;
     }
     remember(work, known, task->memory_out);
     find_state(work, task->dt, task->out);

@@ -61,34 +61,32 @@ static void kdv_nodes_step(const struct gm_problem *problem, bool centred, doubl
 }
 
 static enum gm_status kdv_step(struct gm_two_step_work *work, const struct gm_problem *problem, bool centred,
-                               double dt, const double *past, const double *now, double *next,
-                               struct gm_progress *progress)
+                               double dt, struct gm_progress *progress)
 {
-    kdv_nodes_step(problem, centred, dt, NULL, past, now, next, work->force);
+    double *const *level = work->level;
+    kdv_nodes_step(problem, centred, dt, NULL, level[0], level[1], level[2], work->force);
     progress->evaluations++;
     return GM_OK;
 }
 
 static enum gm_status kdv_euler(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                const double *past, const double *now, double *next,
                                 struct gm_progress *progress)
 {
-    return kdv_step(work, problem, false, dt, past, now, next, progress);
+    return kdv_step(work, problem, false, dt, progress);
 }
 
 static enum gm_status kdv_centred(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                  const double *past, const double *now, double *next,
                                   struct gm_progress *progress)
 {
-    return kdv_step(work, problem, true, dt, past, now, next, progress);
+    return kdv_step(work, problem, true, dt, progress);
 }
 
 /* An Euler step: once, so that the order stays 2. */
-static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                      const double *now, const double *other, double *next)
+static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
     (void)gap;
-    (void)other;
+    const double *now = work->level[1];
+    double *next = work->level[2];
     const size_t points = problem->line.points;
     find_flux(problem, 1, NULL, now, work->force);
     for (size_t i = 0; i < points; i++) {

@@ -235,20 +235,14 @@ static struct gm_progress advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         progress.status =
             make_step(work, task->scheme->coefficients, task->problem, task->dt, NULL, &progress);
-        if (progress.status == GM_OK && !gm_field_within(work->u, points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, work->u, points)) {
             return progress;
         }
-        progress.done++;
     }
     memcpy(task->memory_out, work->u, size);
     memcpy(task->memory_out + points, work->v, size);
     task->memory_out[2 * points] = 1;
-    memcpy(task->out, work->u, size);
-    memcpy(task->out + points, work->before, size);
-    task->out[2 * points] = -task->dt;
+    gm_wave_write(task, work->u, work->before);
     return progress;
 }
 
