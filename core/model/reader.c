@@ -328,7 +328,8 @@ static char *take_words(struct gm_reading *reading, struct gm_span *rest)
     struct gm_span piece;
     gm_span_take(reading->text, rest, ";", &piece);
     char *words = gm_reading_text(reading, piece);
-    for (const char *word = words; word && *word; word += strcspn(word, " "), word += *word == ' ') {
+    const bool none = words && strcmp(words, "none") == 0;
+    for (const char *word = words; word && *word && !none; word += strcspn(word, " "), word += *word == ' ') {
         if (strcspn(word, "=") >= strcspn(word, " ")) {
             gm_fail_first(&reading->fault, piece.begin, "%.60s is no word key=value: until=100", word);
             break;
@@ -532,7 +533,8 @@ static bool read_angles(struct gm_reading *reading, const struct gm_system_line 
         if (!entry) {
             return false;
         }
-        if (entry->role != GM_ENTRY_COMPONENT || entry->number >= system->n / 2) {
+        if (entry->role != GM_ENTRY_COMPONENT ||
+            (system->kind != GM_RATES && entry->number >= system->n / 2)) {
             return gm_fail_first(&reading->fault, target.name.begin, "an angle is one of the coordinates");
         }
         system->variables[entry->number].angle = true;
@@ -731,6 +733,7 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_SCHEMES:
     case GM_WORD_LANES:
     case GM_WORD_MEMBERS:
+    case GM_WORD_HOOK:
         system->texts[line->word] = gm_reading_text(reading, line->value);
         return true;
     case GM_WORD_COMPILE:

@@ -54,9 +54,9 @@ static char *given_of(struct gm_system_lane *lane)
 /* The state of the last member, of which every sight is made: another one may be chosen during the run. */
 static void record_state(const struct gm_view *view, double *entry)
 {
-    const size_t m = view->problem->m;
+    const size_t m = view->problem->m, centre = gm_system_centre(view);
     for (size_t c = 0; c < gm_system_scene_of(view)->system.n; c++) {
-        entry[c] = view->state[c * m + m - 1];
+        entry[c] = view->state[c * m + centre];
     }
 }
 
@@ -246,7 +246,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
         gm_user_problem_close(problem);
         return false;
     }
-    problem->m = (size_t)lane->members;
+    problem->m = system_scene->hook ? system_scene->hook->members : (size_t)lane->members;
     return true;
 }
 
@@ -301,8 +301,10 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     }
     free(values);
     for (size_t i = 0; i < m; i++) {
-        double from_centre[2];
-        place_member(lane, i, m, from_centre);
+        double from_centre[2] = {0, 0};
+        if (!system_scene->hook) {
+            place_member(lane, i, m, from_centre);
+        }
         for (size_t c = 0; c < problem->n; c++) {
             y[c * m + i] = c < n ? centre[c] : 0;
         }
@@ -314,6 +316,9 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
         }
     }
     free(centre);
+    if (system_scene->hook) {
+        system_scene->hook->place(y);
+    }
 }
 
 static void close_problem(struct gm_problem *problem)
@@ -389,7 +394,8 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
-/* Where a plane is shown there is nothing to go around; and other words of a choice have values of their own. */
+/* Where a plane is shown there is nothing to go around; a hook places its members; and other words of a choice have values
+   of their own. */
 static const char *idle(const void *parameters, const char *key)
 {
     const struct gm_system_lane *lane = parameters;
@@ -398,6 +404,12 @@ static const char *idle(const void *parameters, const char *key)
         if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
             lane->owner->variables[row] == GM_NO_VARIABLE) {
             return lane->owner->lacks;
+        }
+    }
+    for (const struct gm_parameter *row = lane->owner->common;
+         lane->owner->hook && row < lane->owner->common + GM_ROW_SHOW; row++) {
+        if (strcmp(row->key, key) == 0) {
+            return "the file's hook places the members";
         }
     }
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
@@ -615,7 +627,7 @@ static void make_tracks(struct gm_system_scene *system_scene)
                                                                .section = section,
                                                                .admits = is_admitted,
                                                                .again = true,
-                                                               .each = true,
+                                                               .each = !system_scene->hook,
                                                                .bound = CROSSINGS,
                                                                .record = record_crossing};
     system_scene->scene.tracks = system_scene->tracks;
@@ -680,6 +692,26 @@ static const char *title_of(struct gm_system_scene *system_scene)
     return kept ? kept : "A system of one’s own";
 }
 
+/* Finds the hook that the file names, if it does. False with a sentence: there is none, or it suits other systems. */
+static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
+{
+    static const struct gm_hook *const hooks[] = {
+#define GM_HOOK(name) &gm_hook_##name,
+#include "scenes/hooks.def"
+#undef GM_HOOK
+    };
+    const char *name = system_scene->system.texts[GM_WORD_HOOK];
+    for (size_t i = 0; name && i < GM_COUNT(hooks); i++) {
+        system_scene->hook = strcmp(hooks[i]->name, name) == 0 ? hooks[i] : system_scene->hook;
+    }
+    const struct gm_hook *hook = system_scene->hook;
+    if (name && !hook) {
+        return gm_refuse(sentence, "hook: there is no hook \"%.60s\"", name);
+    }
+    return !hook || hook->suits(&system_scene->system) ||
+           gm_refuse(sentence, "the hook \"%s\" is for %s", hook->name, hook->needs);
+}
+
 static const struct gm_scene *variant(const void *parameters)
 {
     return &((const struct gm_system_lane *)parameters)->owner->scene;
@@ -690,7 +722,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
 {
     struct gm_user_system *system = &system_scene->system;
     gm_refuse(sentence, "not enough memory");
-    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed)) {
+    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed) ||
+        !find_hook(system_scene, sentence)) {
         return false;
     }
     system_scene->scene = (struct gm_scene){

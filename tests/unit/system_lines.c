@@ -368,6 +368,37 @@ static void studies_are_those_of_the_file(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* A cell of a flow without divergence has one volume, and of one that shrinks every length by exp(-t) that of exp(-3 t). */
+static void hooks_join(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"rate: x = sin(z), y = sin(x), z = sin(y)\n",
+                                        "rate: x = -x, y = -y, z = -z\n"};
+    for (int i = 0; i < 2; i++) {
+        char text[300];
+        snprintf(
+            text, sizeof text, "components: x y z\n%sstart: x = 0.5, y = 1, z = -0.4\ndt: 0.1\n%s", texts[i],
+            "hook: cell\nobserve: place = x\ngraph: log_volume; log; to-last\nstability: none; missing it ends\n");
+        const struct gm_scene *scene = scene_of(text);
+        assert_null(scene->stability);
+        assert_non_null(strstr(scene->no_stability, "it ends; "));
+        assert_non_null(gm_scene_idle(scene, scene->initial, "members"));
+        assert_null(gm_scene_idle(scene, scene->initial, "show"));
+        struct gm_lane *lane = running(scene, "", "gauss8", 1);
+        assert_float_equal(test_observed(lane, "log_volume"), i == 0 ? 0 : -3, 1e-6);
+        assert_true(test_observed(lane, "place") == gm_run_state(lane->run)[0]);
+        struct gm_picture *picture = picture_of(&lane, 1);
+        gm_picture_close(picture);
+        gm_lane_close(lane);
+        gm_system_scene_close(scene);
+    }
+    char sentence[GM_MESSAGE];
+    assert_null(open_scene(OSCILLATOR "hook: cell\n", sentence));
+    assert_string_equal(sentence, "the hook \"cell\" is for three components without the time");
+    assert_null(open_scene(OSCILLATOR "hook: no\n", sentence));
+    assert_string_equal(sentence, "hook: there is no hook \"no\"");
+}
+
 /* What a file claims about its scene, and what is wrong with it. */
 static void what_is_wrong_is_named(void **unused)
 {
@@ -411,6 +442,7 @@ int main(void)
         cmocka_unit_test(levels_are_drawn),
         cmocka_unit_test(graphs_are_those_of_the_file),
         cmocka_unit_test(studies_are_those_of_the_file),
+        cmocka_unit_test(hooks_join),
         cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

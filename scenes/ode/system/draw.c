@@ -444,13 +444,13 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     if (lane->problem.m > 1) {
         draw_members(picture, panel, lane, sight, numbers);
     }
-    gm_system_values(&sight->tape, &before, lane->problem.m - 1, numbers);
+    gm_system_values(&sight->tape, &before, gm_system_centre(&before), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         wrap(sight, numbers + 2 * body);
         gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
                        numbers + 2 * body, sight->fixed[body] || sight->over_time ? 0 : 1);
     }
-    gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
+    gm_system_values(&sight->tape, &view, gm_system_centre(&view), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         if (!sight->fixed[body]) {
             draw_body(picture, panel, lane, paths, body, numbers);
@@ -665,6 +665,7 @@ static void draw_number(struct gm_picture *picture, const struct gm_lane *const 
         graph.highest = gm_system_option(item, GM_OPTION_HIGHEST) != NULL;
         graph.relative = gm_system_option(item, GM_OPTION_RELATIVE) != NULL;
         graph.magnitude = gm_system_option(item, GM_OPTION_MAGNITUDE) != NULL;
+        graph.to_last = gm_system_option(item, GM_OPTION_TO_LAST) != NULL;
         graph.calm_low = range ? range->numbers[0] : 0;
         graph.calm_high = range ? range->numbers[1] : 0;
     }

@@ -14,6 +14,11 @@ const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
     return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
+size_t gm_system_centre(const struct gm_view *view)
+{
+    return gm_system_scene_of(view)->hook ? 0 : view->problem->m - 1;
+}
+
 size_t gm_sight_numbers(const struct gm_sight *sight)
 {
     return sight->dimensions * (sight->bodies + 2 * sight->rods);
@@ -33,9 +38,10 @@ size_t gm_system_bright_from(const struct gm_lane *lane)
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
-    const struct gm_system_scene *system_scene = lane->owner;
-    const size_t pairs = system_scene->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
-                 show = (size_t)lane->show;
+    const struct gm_system_scene *system_scene = lane->owner,
+                                 *first = system_scene->first ? system_scene->first : system_scene;
+    const size_t pairs = first->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
+                 show = (size_t)lane->show; /* a word of the first system */
     if (system_scene->has_section && show == GM_SHOW_SECTION) {
         return &system_scene->section;
     }
@@ -157,7 +163,7 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     memcpy(variables, states, n * count * sizeof *variables);
     memcpy(variables + n * count, times, count * sizeof *variables);
     for (size_t i = 0; i < n; i++) {
-        fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
+        fill(variables + (system->initial + i) * count, view->start[i * m + gm_system_centre(view)], count);
     }
     for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
         if (gm_system_is_parameter(lane->owner, row)) {

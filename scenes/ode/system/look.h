@@ -10,6 +10,7 @@
 #include "scenes/common/camera.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/written.h"
+#include "scenes/ode/hook.h"
 
 /* Of a row that is no variable of the system: a choice, or a row of others. */
 #define GM_NO_VARIABLE SIZE_MAX
@@ -43,6 +44,7 @@ struct gm_system_scene {
     struct gm_scene scene;
     struct gm_user_system system;
     struct gm_user_model model;
+    const struct gm_hook *hook;           /* NULL: the file names none */
     struct gm_parameter *rows, *common;   /* all of them, and those behind the system's own */
     size_t *variables;                    /* of each row: its number among the system's, or GM_NO_VARIABLE */
     size_t row_count;                     /* where the system's own end */
@@ -94,6 +96,9 @@ void gm_system_put_parameters(const struct gm_system_lane *lane, double *variabl
 
 /* The scene that a view is of. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
+
+/* The number of the member that is looked at. */
+size_t gm_system_centre(const struct gm_view *view);
 
 /* The values of all variables for one member of a view's state; velocities are NaN, and so is the exact solution, if it
    is not asked for or not known. */

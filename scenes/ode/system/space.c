@@ -34,7 +34,7 @@ static void take_surfaces(struct gm_picture *picture, const struct gm_lane *lane
     space->surface_count = surfaces ? tape->outputs / 3 : 0;
     space->surfaces = surfaces;
     if (space->surface_count > 0) {
-        gm_system_values(tape, &before, lane->problem.m - 1, sizes);
+        gm_system_values(tape, &before, gm_system_centre(&before), sizes);
     }
     for (size_t i = 0; i < space->surface_count; i++) {
         memcpy(surfaces[i].axes, sizes + 3 * i, sizeof surfaces[i].axes);
@@ -198,10 +198,10 @@ void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel,
     if (lane->problem.m > 1) {
         draw_members(picture, panel, space, lane, sight, numbers);
     }
-    gm_system_values(&sight->tape, &before, lane->problem.m - 1, numbers);
+    gm_system_values(&sight->tape, &before, gm_system_centre(&before), numbers);
     gm_space_points(picture, panel, space, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 6},
                     points, choose_bodies(sight, numbers, false, points));
-    gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
+    gm_system_values(&sight->tape, &view, gm_system_centre(&view), numbers);
     draw_paths(picture, panel, space, lane, paths, numbers);
     for (size_t rod = 0; rod < sight->rods; rod++) {
         const double *ends = numbers + 3 * sight->bodies + 6 * rod;
