@@ -110,9 +110,15 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
 
 struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
+    enum { MOST = 10000000 };
     const long best =
         gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
     rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
+    if ((double)rectangle->edges * (double)rectangle->strips > MOST) {
+        gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle->edges,
+                  rectangle->strips, 2 * MOST);
+        return NULL;
+    }
     if (rectangle->strips % 2 != 0) {
         gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
         return NULL;

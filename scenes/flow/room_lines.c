@@ -4,63 +4,33 @@
 #include "scenes/flow/room_lines.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/model/scope.h"
+#include "core/schemes.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
-/* The text of the only line with a word; NULL: there is none. */
-static const char *said(struct gm_user_room *user_room, const char *word)
-{
-    struct gm_span value;
-    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(user_room, value) : NULL;
-}
-
 /* The text of an option; NULL: it is not given. */
-static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
+static const char *option(const struct gm_statement *line, enum gm_statement_row row)
 {
-    struct gm_span value;
-    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(user_room, value) : NULL;
+    const struct gm_piece *piece = gm_statement_piece(line, row);
+    return piece ? piece->text : NULL;
 }
 
-static const char *take(struct gm_user_room *user_room, struct gm_span *rest, const char *separator)
+/* The place at which something is not as it should be. */
+__attribute__((format(printf, 3, 4))) _Noreturn static void refuse(struct gm_user_room *user_room,
+                                                                   size_t place, const char *format, ...)
 {
-    struct gm_span piece;
-    gm_span_take(user_room->room.text, rest, separator, &piece);
-    return gm_room_keep(user_room, piece);
-}
-
-static double number(struct gm_user_room *user_room, struct gm_span span)
-{
-    struct gm_fault fault = {0};
-    double value = NAN;
-    if (!gm_room_number(&user_room->room, span, &value, &fault)) {
-        gm_room_refuse(user_room, &fault);
-    }
-    return value;
-}
-
-/* Numbers that are separated by commas; an option's or, where that has no word, all. */
-static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
-{
-    struct gm_span rest = pieces, piece;
-    double *list = NULL;
-    *count = 0;
-    while ((!word || *count > 0 || gm_room_option(&user_room->room, pieces, word, &rest)) &&
-           gm_span_take(user_room->room.text, &rest, ",", &piece)) {
-        list = gm_arena_resize(user_room->arena, list, *count + 1, sizeof *list);
-        list[(*count)++] = number(user_room, piece);
-    }
-    return list;
-}
-
-static double option_number(struct gm_user_room *user_room, struct gm_span pieces, const char *word,
-                            double otherwise)
-{
-    size_t count;
-    const double *list = numbers(user_room, pieces, word, &count);
-    return count > 0 ? list[0] : otherwise;
+    struct gm_fault fault = {.offset = place};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fault.sentence, sizeof fault.sentence, format, arguments);
+    va_end(arguments);
+    gm_room_refuse(user_room, &fault);
 }
 
 /* Words that are separated by blanks or commas, NULL behind them; NULL: there is no text. */
@@ -77,21 +47,55 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* The line, or the piece, at which something is not as it should be. */
-_Noreturn static void refuse(struct gm_user_room *user_room, struct gm_span span, const char *sentence)
+/* Names of schemes; NULL: there is no text. */
+static const char *const *list_schemes(struct gm_user_room *user_room, const struct gm_piece *piece)
 {
-    struct gm_fault fault;
-    gm_fail(&fault, span.begin, "%s", sentence);
-    gm_room_refuse(user_room, &fault);
+    const char *const *list = list_words(user_room, piece ? piece->text : NULL);
+    for (const char *const *word = list; word && *word; word++) {
+        if (!gm_scheme_find(*word)) {
+            refuse(user_room, piece->span.begin, "%.60s is no scheme", *word);
+        }
+    }
+    return list;
 }
 
-static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
+static const char *observable_key(struct gm_user_room *user_room, const struct gm_piece *piece)
 {
-    const char *key = gm_room_keep(user_room, span);
-    if (gm_scene_observable(&user_room->scene, key) < 0) {
-        refuse(user_room, span, "this is no observable of the room");
+    if (gm_scene_observable(&user_room->scene, piece->text) < 0) {
+        refuse(user_room, piece->span.begin, "this is no observable of the room");
     }
-    return key;
+    return piece->text;
+}
+
+/* Whether every value of a list can be a row's. */
+static bool takes(const struct gm_parameter *row, const char *values)
+{
+    struct gm_flows scratch;
+    char value[GM_TEXT_SIZE];
+    bool good = true;
+    for (const char *at = values; good && *at; at += strcspn(at, ", "), at += *at == ',') {
+        snprintf(value, sizeof value, "%.*s", (int)strcspn(at, ", "), at);
+        good = strstr(value, "..") || gm_parameter_set(row, &scratch, value) == GM_PARSED;
+        if (at[strcspn(at, ", ")] == ' ') {
+            break;
+        }
+    }
+    return good;
+}
+
+/* Words key=value of a command line, which the scene's keys take. */
+static const char *arguments(struct gm_user_room *user_room, const struct gm_piece *piece)
+{
+    for (const char *word = piece->text; *word; word += strcspn(word, " "), word += *word == ' ') {
+        const int letters = (int)strcspn(word, " ");
+        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(word, "="), word);
+        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, key);
+        if (row ? !takes(row, word + strlen(key) + 1) : !gm_reading_reserves(key, strlen(key))) {
+            refuse(user_room, piece->span.begin, "%.*s: the room has no such key, or not with that value",
+                   letters, word);
+        }
+    }
+    return piece->text;
 }
 
 /* The rows that a file may name; others are its own numbers. */
@@ -142,9 +146,6 @@ static const struct gm_parameter *find_row(const char *key)
 static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct gm_parameter *row)
 {
     struct gm_scene *scene = &user_room->scene;
-    if (scene->parameter_count == GM_ROOM_ROWS) {
-        gm_arena_refuse(user_room->arena, "a room has at most %d parameters", GM_ROOM_ROWS);
-    }
     user_room->rows[scene->parameter_count] = *row;
     return &user_room->rows[scene->parameter_count++];
 }
@@ -155,35 +156,59 @@ static char *format(struct gm_user_room *user_room, double value)
     return gm_room_format(user_room, "%s", gm_number_format(value, text, sizeof text));
 }
 
+/* The usual value of a row has to be one that it can have. */
+static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
+{
+    struct gm_flows scratch;
+    if (gm_parameter_set(row, &scratch, row->standard) == GM_PARSED) {
+        return;
+    }
+    if (row->type == GM_REAL || row->type == GM_INTEGER) {
+        refuse(user_room, place, "%s = %.60s is no number of its range, %g .. %g", row->key, row->standard,
+               row->lowest, row->highest);
+    }
+    refuse(user_room, place, "%s = %.60s is none of its words", row->key, row->standard);
+}
+
 static void make_rows(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
-    const struct gm_parameter timing[] = {GM_DT(format(user_room, isnan(room->dt) ? 0.01 : room->dt),
-                                                room->dt_range.least, room->dt_range.most),
-                                          GM_UNTIL(format(user_room, isnan(room->until) ? 10 : room->until))};
+    const struct gm_statement *step = gm_statement(&room->said, GM_LINE_DT, 0);
+    const struct gm_piece *range = gm_statement_piece(step, GM_LINE_DT_RANGE);
+    const struct gm_room_range steps = gm_statement_range(GM_LINE_DT);
+    const struct gm_parameter timing[] = {
+        GM_DT(format(user_room, gm_statement_value(&room->said, GM_LINE_DT, 0.01)),
+              range ? range->numbers[0] : steps.least, range ? range->numbers[1] : steps.most),
+        GM_UNTIL(format(user_room, gm_statement_value(&room->said, GM_LINE_UNTIL, 10)))};
     size_t own = 0, choices = 0;
-    add_row(user_room, &timing[0]);
+    check_row(user_room, add_row(user_room, &timing[0]), step ? step->pieces[0].span.begin : 0);
     add_row(user_room, &timing[1]);
-    if (!room->parameters) {
+    if (!gm_room_parameter(&room->names, "viscosity") && !gm_room_parameter(&room->names, "reynolds")) {
         add_row(user_room, find_row("viscosity"))->standard = format(user_room, room->viscosity);
-        add_row(user_room, find_row("schmidt"))->standard =
-            format(user_room, room->viscosity / room->diffusivity);
+        if (!gm_room_parameter(&room->names, "schmidt")) {
+            add_row(user_room, find_row("schmidt"))->standard =
+                format(user_room, room->viscosity / room->diffusivity);
+        }
     }
-    for (size_t i = 0; i < room->parameter_count; i++) {
-        const struct gm_room_parameter *parameter = &room->parameters[i];
+    for (size_t i = 0; i < room->names.count; i++) {
+        const struct gm_room_parameter *parameter = &room->names.parameters[i];
         const struct gm_parameter *template = find_row(parameter->name);
         const struct gm_parameter choice =
                                       GM_CHOICE_ROW(struct gm_flows, choices[0], "", "", NULL, "a choice"),
                                   plain = GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300,
                                                       "a parameter");
+        if (template && parameter->words[0]) {
+            refuse(user_room, parameter->place, "the name %s is reserved", parameter->name);
+        }
+        if (!template && (parameter->words[0] ? choices : own) == GM_FLOWS_OWN) {
+            refuse(user_room, parameter->place, "a room has at most %d parameters and %d choices of its own",
+                   GM_FLOWS_OWN, GM_FLOWS_OWN);
+        }
         struct gm_parameter *row = add_row(user_room, template              ? template
                                                       : parameter->words[0] ? &choice
                                                                             : &plain);
         row->key = parameter->name;
-        if (!template && (own == GM_FLOWS_OWN || choices == GM_FLOWS_OWN)) {
-            gm_arena_refuse(user_room->arena, "a room has at most %d parameters of its own", GM_FLOWS_OWN);
-        }
-        if (!template && parameter->words[0]) {
+        if (parameter->words[0]) {
             row->choices = list_words(user_room, parameter->words);
             row->offset += sizeof(int) * choices++;
         } else if (!template) {
@@ -196,13 +221,14 @@ static void make_rows(struct gm_user_room *user_room)
             row->highest = parameter->high;
             row->logarithmic = row->type == GM_INTEGER || row->lowest > 0;
         }
+        check_row(user_room, row, parameter->place);
     }
     user_room->scene.parameters = user_room->rows;
     for (size_t i = (size_t)(find_row("star") - known); i < GM_COUNT(known); i++) {
         const bool of_file = known[i].offset == offsetof(struct gm_flows, star) ||
                              known[i].offset == offsetof(struct gm_flows, refine) ||
                              known[i].offset == offsetof(struct gm_flows, smoke);
-        if (!gm_room_parameter(room, known[i].key) && !(of_file && room->rectangular)) {
+        if (!gm_room_parameter(&room->names, known[i].key) && !(of_file && room->rectangular)) {
             struct gm_parameter *row = add_row(user_room, &known[i]);
             if (!isnan(room->buoyancy) && strcmp(row->key, "show") == 0) {
                 row->choices = gm_flows_warm_shows;
@@ -212,131 +238,120 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE */
-static void observe(struct gm_user_room *user_room, struct gm_span rest)
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new one, or what one that there is is called */
+static void observe(struct gm_user_room *user_room, const struct gm_statement *line)
 {
-    const struct gm_span line = rest;
-    const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
-               *title = option(user_room, rest, "title");
+    const char *key = line->pieces[0].text, *along = option(line, GM_LINE_OBSERVE_ALONG),
+               *title = option(line, GM_LINE_OBSERVE_TITLE), *missing = option(line, GM_LINE_OBSERVE_MISSING);
     const struct gm_observable *row = gm_room_observable(key, along);
-    size_t profile = 0;
+    size_t profile = 0, i = 0;
     while (along && profile < user_room->profile_count &&
            strcmp(user_room->profiles[profile].line.name, along) != 0) {
         profile++;
     }
-    if (!row || user_room->observable_count == GM_ROOM_OBSERVED ||
-        (along && profile == user_room->profile_count)) {
-        refuse(user_room, line, "this is nothing that is observed of a room, or of a profile that it has");
+    while (i < user_room->observable_count && strcmp(user_room->observables[i].key, key) != 0) {
+        i++;
     }
-    struct gm_observable *observable = &user_room->observables[user_room->observable_count];
-    *observable = *row;
+    struct gm_observable *observable = &user_room->observables[i];
+    if (i == user_room->observable_count) {
+        if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
+            refuse(user_room, line->pieces[0].span.begin,
+                   "this is nothing that is observed of a room, or of a profile that it has");
+        }
+        *observable = *row;
+        user_room->subjects[user_room->observable_count++].number = profile;
+    }
     observable->title = title ? title : observable->title;
-    observable->missing = option(user_room, rest, "missing");
-    user_room->subjects[user_room->observable_count++].number = profile;
+    observable->missing = missing ? missing : observable->missing;
 }
 
 /* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
-static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
+static void add_profile(struct gm_user_room *user_room, const struct gm_statement *line)
 {
     user_room->profiles = gm_arena_resize(user_room->arena, user_room->profiles, user_room->profile_count + 1,
                                           sizeof *user_room->profiles);
     struct gm_room_profile *profile = &user_room->profiles[user_room->profile_count++];
-    struct gm_span head, piece;
-    const struct gm_span line = rest;
-    gm_span_take(user_room->room.text, &rest, ";", &head);
-    const char *const *words = list_words(user_room, gm_room_keep(user_room, head));
-    *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
-    char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
+    const char *const *words = list_words(user_room, line->pieces[0].text);
+    const struct gm_piece *range = gm_statement_piece(line, GM_LINE_PROFILE_RANGE);
+    *profile = (struct gm_room_profile){
+        .line = {.name = words[0], .count = (size_t)gm_statement_number(line, GM_LINE_PROFILE_POINTS, 0)},
+        .label = option(line, GM_LINE_PROFILE_LABEL),
+        .range = {range ? range->numbers[0] : NAN, range ? range->numbers[1] : NAN}};
+    memcpy(profile->line.a, gm_statement_piece(line, GM_LINE_PROFILE_FROM)->numbers, sizeof profile->line.a);
+    memcpy(profile->line.b, gm_statement_piece(line, GM_LINE_PROFILE_TO)->numbers, sizeof profile->line.b);
+    char *quantities = gm_arena_take(user_room->arena, strlen(line->pieces[0].text) + 1, 1);
     profile->quantities = quantities;
-    for (size_t i = 1; words && words[i]; i++) {
+    for (size_t i = 1; words[i]; i++) {
+        if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
+            refuse(user_room, line->pieces[0].span.begin, "a profile shows u, v or scalar, not %.60s",
+                   words[i]);
+        }
         quantities[i - 1] = words[i][0];
     }
-    double *const ends[2] = {profile->line.a, profile->line.b};
-    for (int end = 0; end < 2; end++) {
-        size_t count;
-        gm_span_take(user_room->room.text, &rest, ";", &piece);
-        const double *place = numbers(user_room, piece, NULL, &count);
-        if (count != 2) {
-            refuse(user_room, line, "a profile has a name and quantities, two places and a number of points");
-        }
-        memcpy(ends[end], place, 2 * sizeof *place);
-    }
-    gm_span_take(user_room->room.text, &rest, ";", &piece);
-    profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
-    struct gm_fault fault = {0};
-    if (gm_span_take(user_room->room.text, &rest, ";", &piece) &&
-        !gm_room_range_of(&user_room->room, piece, &profile->range, &fault)) {
-        gm_room_refuse(user_room, &fault);
-    }
-    profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
 }
 
 /* table: NAME PROFILE; KEY = VALUE; place value, place value ... */
-static void add_table(struct gm_user_room *user_room, struct gm_span rest)
+static void add_table(struct gm_user_room *user_room, const struct gm_statement *line)
 {
     user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
                                         sizeof *user_room->tables);
     struct gm_room_table *table = &user_room->tables[user_room->table_count++];
-    struct gm_span line = rest, condition, piece;
-    const char *const *words = list_words(user_room, take(user_room, &rest, ";"));
-    gm_span_take(user_room->room.text, &rest, ";", &condition);
-    const char *key = take(user_room, &condition, "=");
-    *table = (struct gm_room_table){.name = words ? words[0] : "",
-                                    .row = gm_scene_parameter(&user_room->scene, key)};
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        if (words && words[1] && strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
+    const char *const *words = list_words(user_room, line->pieces[0].text);
+    const struct gm_piece *condition = gm_statement_piece(line, GM_LINE_TABLE_CONDITION),
+                          *points = gm_statement_piece(line, GM_LINE_TABLE_POINTS);
+    *table = (struct gm_room_table){.name = words[0],
+                                    .row = gm_scene_parameter(&user_room->scene, condition->text),
+                                    .value = condition->numbers[0],
+                                    .points = points->numbers,
+                                    .count = points->count / 2};
+    for (size_t i = 0; i < user_room->profile_count && words[1] && !words[2]; i++) {
+        if (strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
             table->profile = &user_room->profiles[i];
         }
     }
-    if (!table->profile || !table->row) {
-        refuse(user_room, line, "a table has a name and a profile, the value of a parameter, and points");
-    }
-    table->value = number(user_room, condition);
-    while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
-        struct gm_span value;
-        gm_span_take(user_room->room.text, &piece, " ", &value);
-        table->points =
-            gm_arena_resize(user_room->arena, table->points, 2 * (table->count + 1), sizeof *table->points);
-        table->points[2 * table->count] = number(user_room, value);
-        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(user_room, piece) : NAN;
+    if (!table->profile) {
+        refuse(user_room, line->pieces[0].span.begin, "a table has a name and a profile that the room has");
     }
 }
 
-/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme */
-static void make_subtitle(struct gm_user_room *user_room)
+/* Values in braces: the first two real parameters by name, where nothing else comes before, and a remark behind mesh
+   and scheme. */
+static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
+                          struct gm_picture *picture, struct gm_look *look)
 {
-    const char *text = said(user_room, "subtitle");
-    for (size_t i = 0; text && i < GM_COUNT(user_room->look.told) && strchr(text, '{'); i++) {
-        text += strspn(text, ", ");
-        const char *open = strchr(text, '{') + 1, *close = open + strcspn(open, "}");
-        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(open, ":}"), open);
-        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, key);
-        if (row && row->type == GM_REAL) {
-            const int letters = (int)(open - text) - 2;
-            user_room->look.told[i].name = gm_room_format(user_room, "%.*s", letters < 0 ? 0 : letters, text);
-            user_room->look.told[i].offset = row->offset;
-            user_room->look.told[i].nonzero = open[strlen(key)] == ':';
+    const struct gm_statement *line = gm_statement(&room->said, GM_LINE_SUBTITLE, 0);
+    const char *text = room->names.text, *remark = "";
+    struct gm_span rest = line ? line->pieces[0].span : (struct gm_span){0, 0};
+    for (size_t i = 0; rest.begin < rest.end; i++) {
+        const size_t open = gm_span_until(text, rest, "{"),
+                     close = gm_span_until(text, (struct gm_span){open, rest.end}, "}"),
+                     colon = gm_span_until(text, (struct gm_span){open, close}, ":");
+        const struct gm_span key = {open < close ? open + 1 : open, colon};
+        const struct gm_parameter *row =
+            gm_scene_parameter(&user_room->scene, gm_picture_text(picture, "%.*s", (int)(key.end - key.begin),
+                                                                  text + key.begin));
+        struct gm_fault fault;
+        double value;
+        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !remark[0]) {
+            rest.begin += strspn(text + rest.begin, ", ");
+            const struct gm_span name = gm_span_trimmed(text, (struct gm_span){rest.begin, open});
+            look->told[i].name =
+                gm_picture_text(picture, "%.*s", (int)(name.end - name.begin), text + name.begin);
+            look->told[i].offset = row->offset;
+            look->told[i].nonzero = colon < close;
+        } else {
+            remark = gm_picture_text(picture, "%s%.*s", remark, (int)(open - rest.begin), text + rest.begin);
+            if (open < close && gm_room_number(&room->names, key, &value, &fault)) {
+                remark = gm_picture_text(picture, "%s%.4g", remark, value);
+            }
         }
-        text = close;
-        text += *text == '}';
+        rest.begin = close < rest.end ? close + 1 : close;
     }
+    look->remark = remark;
 }
 
-/* graph: KEY; low .. high, which may hold what is known of the flow */
-void gm_room_graph(const struct gm_room *room, size_t number, struct gm_look *look)
-{
-    struct gm_span rest, piece;
-    struct gm_fault fault;
-    struct gm_room_range ends = {0, 0};
-    gm_room_said(room, "graph", number, &rest);
-    gm_span_take(room->text, &rest, ";", &piece);
-    if (gm_span_take(room->text, &rest, ";", &piece) && gm_room_range_of(room, piece, &ends, &fault)) {
-        look->graph_low[number] = ends.least;
-        look->graph_high[number] = ends.most;
-    }
-}
-
-static void make_look(struct gm_user_room *user_room)
+void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
+                       struct gm_picture *picture, struct gm_look *look)
 {
     static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
                                                   {"theta_error", "θ"},
@@ -344,29 +359,40 @@ static void make_look(struct gm_user_room *user_room)
                                                   {"velocity_error", "velocity"},
                                                   {"pressure_error", "total pressure"},
                                                   {NULL, NULL}};
-    struct gm_look *look = &user_room->look;
-    struct gm_span rest, piece;
-    look->errors = gm_room_line(&user_room->room, GM_ROOM_EXACT) ? errors : NULL;
-    make_subtitle(user_room);
-    if (gm_room_said(&user_room->room, "time", 0, &rest)) {
-        const size_t end = gm_span_until(user_room->room.text, rest, ";");
-        rest.begin = end < rest.end ? end + 1 : rest.begin;
-        const char *time = user_room->scene.time = gm_room_keep(user_room, rest);
-        look->clock_unit =
-            end < rest.end ? gm_room_format(user_room, "%.*s", (int)strcspn(time, ", "), time) : "";
+    const struct gm_statement *time = gm_statement(&room->said, GM_LINE_TIME, 0),
+                              *levels = gm_statement(&room->said, GM_LINE_LEVELS, 0),
+                              *colours = gm_statement(&room->said, GM_LINE_COLOURS, 0), *graph;
+    look->errors = gm_room_line(room, GM_ROOM_EXACT) ? errors : NULL;
+    if (time) {
+        const char *unit = option(time, GM_LINE_TIME_TEXT);
+        look->clock_unit = gm_picture_text(picture, "%.*s", unit ? (int)strcspn(unit, ", ") : 0, unit);
     }
-    if (gm_room_said(&user_room->room, "levels", 0, &rest)) {
-        look->levels = numbers(user_room, rest, NULL, &look->level_count);
+    if (gm_statement(&room->said, GM_LINE_SUBTITLE, 0)) {
+        memset(look->told, 0, sizeof look->told);
+        fill_subtitle(user_room, room, picture, look);
     }
-    for (size_t i = 0; i < GM_COUNT(look->graphs) && gm_room_said(&user_room->room, "graph", i, &rest); i++) {
-        gm_span_take(user_room->room.text, &rest, ";", &piece);
-        look->graphs[i] = observable_key(user_room, piece);
-    }
+    look->levels = levels ? levels->pieces[0].numbers : NULL;
+    look->level_count = levels ? levels->pieces[0].count : 0;
+    look->vorticity_range = gm_statement_number(colours, GM_LINE_COLOURS_VORTICITY, look->vorticity_range);
+    look->speed_high = gm_statement_number(colours, GM_LINE_COLOURS_SPEED, look->speed_high);
     for (size_t i = 0; i < user_room->profile_count; i++) {
         look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
     }
-    look->profiles_below = !look->graphs[0];
-    user_room->caption = said(user_room, "caption");
+    const bool graphs = gm_statement(&room->said, GM_LINE_GRAPH, 0);
+    look->profiles_below = look->profiles && room->rectangular && !graphs;
+    for (size_t i = 0; i < GM_COUNT(look->graphs); i++) {
+        graph = gm_statement(&room->said, GM_LINE_GRAPH, i);
+        const struct gm_piece *range = gm_statement_piece(graph, GM_LINE_GRAPH_RANGE);
+        struct gm_room_range ends = {0, 0};
+        struct gm_fault fault;
+        if (graphs || look->profiles_below) {
+            look->graphs[i] = graph ? gm_picture_text(picture, "%s", graph->pieces[0].text) : NULL;
+        }
+        if (range && gm_room_range_of(&room->names, range->span, &ends, &fault)) {
+            look->graph_low[i] = ends.least;
+            look->graph_high[i] = ends.most;
+        }
+    }
 }
 
 /* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over
@@ -388,80 +414,98 @@ static double courant_time(const void *parameters)
 static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
 static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 
-/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; reynolds VALUES */
+/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; KEY VALUES */
 static void make_studies(struct gm_user_room *user_room)
 {
+    const struct gm_statements *said = &user_room->room.said;
+    const struct gm_statement *work_line = gm_statement(said, GM_LINE_WORK, 0),
+                              *map_line = gm_statement(said, GM_LINE_STABILITY, 0), *line;
     struct gm_scene *scene = &user_room->scene;
     struct gm_figure *figures = NULL;
-    struct gm_span rest, piece;
-    size_t count = 0;
-    while (gm_room_said(&user_room->room, "figure", scene->figure_count, &rest)) {
+    for (; (line = gm_statement(said, GM_LINE_FIGURE, scene->figure_count)); scene->figure_count++) {
         figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
-        struct gm_figure *figure = &figures[scene->figure_count++];
-        figure->name = take(user_room, &rest, ";");
-        figure->arguments = take(user_room, &rest, ";");
-        figure->statement = gm_room_keep(user_room, rest);
+        figures[scene->figure_count] = (struct gm_figure){
+            .name = line->pieces[0].text,
+            .arguments = arguments(user_room, gm_statement_piece(line, GM_LINE_FIGURE_WORDS)),
+            .statement = option(line, GM_LINE_FIGURE_STATEMENT)};
     }
     scene->figures = figures;
-    if (gm_room_said(&user_room->room, "work", 0, &rest)) {
-        struct gm_work *work = &user_room->work;
-        *work = (struct gm_work){.arguments = take(user_room, &rest, ";"),
-                                 .coarsest = option_number(user_room, rest, "coarsest", 0),
-                                 .halvings = (int)option_number(user_room, rest, "halvings", 4),
-                                 .schemes = list_words(user_room, option(user_room, rest, "schemes"))};
-        if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
-            work->measure = observable_key(user_room, piece);
+    if (work_line) {
+        const struct gm_piece *measure = gm_statement_piece(work_line, GM_LINE_WORK_MEASURE),
+                              *errors = gm_statement_piece(work_line, GM_LINE_WORK_ERRORS),
+                              *resolutions = gm_statement_piece(work_line, GM_LINE_WORK_RESOLUTIONS);
+        user_room->work = (struct gm_work){
+            .arguments = arguments(user_room, &work_line->pieces[0]),
+            .measure = measure ? observable_key(user_room, measure) : NULL,
+            .coarsest = gm_statement_number(work_line, GM_LINE_WORK_COARSEST, 0),
+            .halvings = (int)gm_statement_number(work_line, GM_LINE_WORK_HALVINGS, 4),
+            .schemes = list_schemes(user_room, gm_statement_piece(work_line, GM_LINE_WORK_SCHEMES)),
+            .errors = errors ? errors->numbers : NULL,
+            .resolutions = resolutions ? resolutions->numbers : NULL,
+            .resolution_count = resolutions ? resolutions->count : 0,
+            .resolution = resolutions ? resolutions->text : NULL};
+        if (errors && (errors->count != 3 || !(errors->numbers[0] > errors->numbers[1] &&
+                                               errors->numbers[1] > errors->numbers[2]))) {
+            refuse(user_room, errors->span.begin, "work: has three errors that fall");
         }
-        work->errors = numbers(user_room, rest, "errors", &count);
-        work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
-        work->resolution = work->resolutions ? user_room->room.edges : NULL;
-        if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
-            refuse(user_room, rest, "work: has three errors that fall, and 1 to 30 halvings");
-        }
-        scene->work = work;
+        scene->work = &user_room->work;
     }
-    if (gm_room_said(&user_room->room, "stability", 0, &rest)) {
-        struct gm_stability *map = &user_room->stability;
-        *map = (struct gm_stability){.arguments = take(user_room, &rest, ";"),
-                                     .parameter = "reynolds",
-                                     .label = "Courant number",
-                                     .unit = courant_time,
-                                     .steps = courant_numbers,
-                                     .step_count = GM_COUNT(courant_numbers),
-                                     .kept = "speed_max",
-                                     .schemes = marching};
-        map->values = numbers(user_room, rest, map->parameter, &map->value_count);
-        if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
-            refuse(user_room, rest, "stability: needs values of a parameter: reynolds 100, 400");
-        }
-        scene->stability = map;
-    } else if (user_room->look.errors) {
+    if (map_line) {
+        const struct gm_piece *values = gm_statement_piece(map_line, GM_LINE_STABILITY_VALUES);
+        user_room->stability = (struct gm_stability){.arguments = arguments(user_room, &map_line->pieces[0]),
+                                                     .parameter = values->text,
+                                                     .values = values->numbers,
+                                                     .value_count = values->count,
+                                                     .label = "Courant number",
+                                                     .unit = courant_time,
+                                                     .steps = courant_numbers,
+                                                     .step_count = GM_COUNT(courant_numbers),
+                                                     .kept = "speed_max",
+                                                     .schemes = marching};
+        scene->stability = &user_room->stability;
+    } else if (gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
         scene->no_stability =
             "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
 }
 
+static void check_graphs(struct gm_user_room *user_room, const struct gm_room *room)
+{
+    const struct gm_statement *graph;
+    for (size_t i = 0; (graph = gm_statement(&room->said, GM_LINE_GRAPH, i)); i++) {
+        observable_key(user_room, &graph->pieces[0]);
+    }
+}
+
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
+    const struct gm_statements *said = &user_room->room.said;
+    const struct gm_statement *schemes = gm_statement(said, GM_LINE_SCHEMES, 0),
+                              *lanes = gm_statement(said, GM_LINE_LANES, 0),
+                              *time = gm_statement(said, GM_LINE_TIME, 0), *line;
     struct gm_scene *scene = &user_room->scene;
-    struct gm_span rest;
-    const char *watch = said(user_room, "watch");
-    const char *const *schemes = list_words(user_room, said(user_room, "schemes"));
-    scene->watch = watch ? watch : scene->watch;
-    scene->schemes = schemes ? schemes : scene->schemes;
-    scene->lanes = said(user_room, "lanes");
     make_rows(user_room);
-    for (size_t i = 0; gm_room_said(&user_room->room, "profile", i, &rest); i++) {
-        add_profile(user_room, rest);
+    for (size_t i = 0; (line = gm_statement(said, GM_LINE_PROFILE, i)); i++) {
+        add_profile(user_room, line);
     }
-    for (size_t i = 0; gm_room_said(&user_room->room, "table", i, &rest); i++) {
-        add_table(user_room, rest);
+    for (size_t i = 0; (line = gm_statement(said, GM_LINE_TABLE, i)); i++) {
+        add_table(user_room, line);
     }
-    for (size_t i = 0; gm_room_said(&user_room->room, "observe", i, &rest); i++) {
-        observe(user_room, rest);
+    for (size_t i = 0; (line = gm_statement(said, GM_LINE_OBSERVE, i)); i++) {
+        observe(user_room, line);
     }
     scene->observable_count = user_room->observable_count;
-    make_look(user_room);
+    check_graphs(user_room, &user_room->room);
+    for (size_t i = 0; i < user_room->other_count; i++) {
+        check_graphs(user_room, user_room->others[i]);
+    }
+    scene->watch = gm_statement_text(said, GM_LINE_WATCH) ? gm_statement_text(said, GM_LINE_WATCH) : "";
+    scene->schemes = schemes ? list_schemes(user_room, &schemes->pieces[0]) : scene->schemes;
+    scene->lanes = lanes ? arguments(user_room, &lanes->pieces[0]) : NULL;
+    if (time) {
+        const char *meaning = option(time, GM_LINE_TIME_TEXT);
+        scene->time = meaning ? meaning : time->pieces[0].text;
+    }
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }
