@@ -57,7 +57,7 @@ static const struct gm_scene *open_system(const char *name)
         gm_system_close(&system);
         return NULL;
     }
-    return gm_system_scene_open(&system, name, NULL, false, sentence);
+    return gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
 }
 
 static struct {

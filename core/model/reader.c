@@ -613,6 +613,19 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
     if (equals == piece.end && name.end - name.begin == 3 && memcmp(text + name.begin, "yes", 3) == 0) {
         return true;
     }
+    if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
+        const struct gm_written_choice *choice = gm_choice_named(&system->choices, entry->name);
+        char *word = gm_reading_text(reading, value);
+        size_t k = 0;
+        while (word && k < choice->count && strcmp(choice->words[k], word) != 0) {
+            k++;
+        }
+        if (word && k == choice->count) {
+            gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
+        }
+        free(word);
+        return !reading->fault.failed;
+    }
     if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
         return gm_fail_first(&reading->fault, piece.begin,
                              "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
@@ -790,8 +803,8 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
     const size_t equals = gm_span_until(reading->text, head, "=");
     const struct gm_span counter = gm_span_trimmed(reading->text, (struct gm_span){head.begin, equals}),
                          bounds = gm_span_trimmed(reading->text, (struct gm_span){equals + 1, head.end});
-    if (!gm_system_words[line->word].repeated || head.end == line->value.end || equals == head.end ||
-        name == 0 || counter.end != counter.begin + name ||
+    if (gm_system_words[line->word].identity == GM_LINE_ONCE || head.end == line->value.end ||
+        equals == head.end || name == 0 || counter.end != counter.begin + name ||
         gm_span_until(reading->text, bounds, "..") == bounds.end) {
         return read_what_is_said(reading, line);
     }

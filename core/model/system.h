@@ -4,6 +4,7 @@
 #ifndef GM_CORE_MODEL_SYSTEM_H
 #define GM_CORE_MODEL_SYSTEM_H
 
+#include "core/expression/choices.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"
@@ -99,6 +100,7 @@ struct gm_user_system {
     char *source; /* the text that it was read from, closed by a NUL */
     size_t length;
     bool typed; /* the text is made of words: its lines are nobody's */
+    struct gm_written_choices choices;
     struct gm_formula graph;
     char *texts[GM_WORDS]; /* of the words that are texts; NULL: not given */
     size_t n;
@@ -124,7 +126,7 @@ struct gm_user_system {
     size_t part_count;  /* that were read; what follows was derived */
 };
 
-/* A parameter that is to have another value, "N", "5". */
+/* A parameter that is to have another value, "N", "5", or a choice another word. */
 struct gm_system_value {
     const char *name, *text;
 };

@@ -203,6 +203,9 @@ struct gm_scene {
 
     /* The time at the start; NULL: 0. */
     double (*t0)(const void *parameters);
+    /* The scene whose lane has these parameters, where words of a choice make several whose tables have the same rows;
+       NULL: this one. */
+    const struct gm_scene *(*variant)(const void *parameters);
     /* Why the parameter of that key has no effect with these, NULL if it has one; no hook: all have one. */
     const char *(*idle)(const void *parameters, const char *key);
     /* Makes parameters agree that follow from others, after those of these keys were set; false with a

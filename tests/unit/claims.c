@@ -552,6 +552,20 @@ static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_prob
     return status;
 }
 
+/* McLachlan's splitting holds what it claims, and is not the method whose name it has here. */
+static void a_name_of_another_method(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("mclachlan2");
+    wrong.name = "variational-trapezoidal2";
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds && certificate.theory_holds);
+    assert_string_equal(certificate.same.other->name, "verlet");
+    assert_true(certificate.same.difference > 1e-6);
+    assert_false(certificate.same.holds);
+    assert_false(certificate.holds);
+}
+
 static void a_wave_with_friction(void **unused)
 {
     (void)unused;
@@ -722,6 +736,7 @@ int main(int argc, char *argv[])
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
         cmocka_unit_test(names_find_the_row_that_fits),
+        cmocka_unit_test(a_name_of_another_method),
         cmocka_unit_test(a_wave_with_friction),
         cmocka_unit_test(the_law_of_another_scheme),
         cmocka_unit_test(a_logarithmic_hamiltonian_gone_wrong),

@@ -33,7 +33,7 @@ static const struct gm_scene *open_scene(const char *text, char *sentence)
     if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    return gm_system_scene_open(&system, "test", words, false, sentence);
+    return gm_system_scene_open(&system, "test", words, false, &fault, sentence);
 }
 
 static const struct gm_scene *scene_of(const char *text)

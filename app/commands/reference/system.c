@@ -10,6 +10,7 @@
 
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
+#include "app/words/fitting.h"
 #include "app/words/system.h"
 #include "core/basics.h"
 #include "core/expression/derivative.h"
@@ -391,7 +392,8 @@ static void print_names(const struct report *report, const struct gm_kind *other
     for (size_t i = 0; out && i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         if (other ? scheme->family->kind == other : fits(report, scheme)) {
-            fprintf(out, "%s ", scheme->name);
+            const struct gm_scheme *same = other ? NULL : gm_scheme_same_as(scheme, &report->problem);
+            fprintf(out, same ? "%s (= %s) " : "%s ", scheme->name, same ? same->name : "");
         }
     }
     if (out && fclose(out) == 0) {
@@ -493,13 +495,18 @@ static void print_json(const struct report *report, const struct gm_file *file)
     struct gm_row structure = gm_row_open(&row, "structure", '}');
     each_fact(report, put_fact, &structure);
     gm_row_close(&structure);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
+    size_t count = 0;
     struct gm_row schemes = gm_row_open(&row, "schemes", ']');
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
+    for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
         if (fits(report, gm_scheme_at(i))) {
-            gm_row_text(&schemes, NULL, gm_scheme_at(i)->name);
+            fitting[count] = gm_scheme_at(i);
+            same[count] = gm_scheme_same_as(fitting[count], &report->problem);
+            gm_row_text(&schemes, NULL, fitting[count++]->name);
         }
     }
     gm_row_close(&schemes);
+    gm_list_put_same(&row, fitting, same, count);
     gm_list_put_file(&row, file, system->source);
     printf("}\n");
 }
@@ -703,6 +710,28 @@ static int check_scene(const struct gm_arguments *arguments)
     }
     gm_system_trial_close(&trial);
     return status;
+}
+
+void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
+                      const struct gm_scheme *const *same, size_t count)
+{
+    struct gm_row all = gm_row_open(row, "same_as", '}');
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_scheme *one = same[i] ? same[i] : schemes[i];
+        struct gm_row names;
+        bool begun = false;
+        for (size_t k = 0; k < count; k++) {
+            if (k != i && (schemes[k] == one || same[k] == one)) {
+                names = begun ? names : gm_row_open(&all, schemes[i]->name, ']');
+                gm_row_text(&names, NULL, schemes[k]->name);
+                begun = true;
+            }
+        }
+        if (begun) {
+            gm_row_close(&names);
+        }
+    }
+    gm_row_close(&all);
 }
 
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)

@@ -336,6 +336,15 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
+static void note_same(struct gm_certificate *certificate, const struct gm_field_subject *subject,
+                      const double *y)
+{
+    const struct gm_settings settings = {0};
+    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
+                                   GM_SAME_STEPS};
+    gm_certificate_note_same(certificate, &trial, y);
+}
+
 static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -354,6 +363,9 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
         }
         if (k == 0 && gm_field_of(&subject.problem)->form) {
             gm_field_note_form(certificate, &subject, y, 1);
+        }
+        if (k == 0) {
+            note_same(certificate, &subject, y);
         }
         if (k == 0 && equation->frames) {
             gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
@@ -428,6 +440,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     if (!failing) {
         certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
         gm_field_note_form(certificate, &subject, y, size);
+        note_same(certificate, &subject, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {
@@ -466,6 +479,29 @@ static const struct gm_family *const families[] = {
     NULL,
 };
 
+static bool is_wave(const struct gm_problem *problem)
+{
+    return gm_field_of(problem)->wave != NULL;
+}
+
+/* a wave without a potential */
+static bool is_free(const struct gm_problem *problem)
+{
+    const double places[] = {-1.7, 0.3, 2.1};
+    double slopes[GM_COUNT(places)] = {0};
+    if (!is_wave(problem)) {
+        return false;
+    }
+    gm_field_of(problem)->wave->slopes(problem, places, slopes, GM_COUNT(places));
+    return slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
+}
+
+static const struct gm_same same[] = {
+    {"euler-box", "leapfrog", is_wave},
+    {"energy-conserving", "leapfrog", is_free},
+    {0},
+};
+
 const struct gm_kind gm_kind_field = {
     .name = "field",
     .problems = "waves on a line",
@@ -475,5 +511,6 @@ const struct gm_kind gm_kind_field = {
     .certify_on = certify_on,
     .most_certified = 100000,
     .families = families,
+    .same = same,
     .quantities = gm_field_quantities,
 };

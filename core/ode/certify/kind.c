@@ -318,6 +318,14 @@ static void doubt(struct gm_certificate *certificate)
     }
 }
 
+static void note_same(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const struct gm_settings settings = gm_subject_settings(subject->dt);
+    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
+                                   GM_SAME_STEPS};
+    gm_certificate_note_same(certificate, &trial, subject->start);
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -332,6 +340,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
     measure(certificate, &subject);
+    note_same(certificate, &subject);
     /* an order is of short steps, and dt need not be one: that of a map is all of it */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
@@ -359,6 +368,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
         if (gm_subject_fits(&subject, scheme)) {
             measure(certificate, &subject);
         }
+        note_same(certificate, &subject);
     }
     /* a scheme that chooses its order has to follow its tolerance */
     certificate->order_holds = scheme->order == 0
@@ -373,6 +383,37 @@ static const struct gm_family *const families[] = {
     NULL,
 };
 
+static bool is_linear(const struct gm_problem *problem)
+{
+    return gm_ode_of(problem)->linear;
+}
+
+/* H = T(p) + V(q), T quadratic, without a force or a constraint */
+static bool is_natural(const struct gm_problem *problem)
+{
+    return (~facets(problem) & (GM_NEEDS_NYSTROM | GM_NEEDS_ENERGY | GM_NEEDS_ACTION)) == 0;
+}
+
+/* H = T(p) + V(q), without a force or a constraint: the flows of all q commute, and so do those of all p */
+static bool is_separable(const struct gm_problem *problem)
+{
+    return (~facets(problem) & (GM_NEEDS_SPLIT | GM_NEEDS_ENERGY)) == 0;
+}
+
+static const struct gm_same same[] = {
+    {"variational-midpoint2", "midpoint", is_natural},
+    {"variational-trapezoidal2", "verlet", is_natural},
+    {"variational-simpson4", "lobatto4", is_natural},
+    {"trapezoidal", "midpoint", is_linear},
+    {"avf2", "midpoint", is_linear},
+    {"discrete-gradient2", "midpoint", is_linear},
+    {"kahan2", "midpoint", is_linear},
+    {"avf4", "rk4sym", is_linear},
+    {"volume-splitting1", "symplectic-euler-adjoint", is_separable},
+    {"volume-splitting2", "verlet-position", is_separable},
+    {0},
+};
+
 const struct gm_kind gm_kind_ode = {
     .name = "ode",
     .problems = "ordinary differential equations",
@@ -385,5 +426,6 @@ const struct gm_kind gm_kind_ode = {
     .certify_on = certify_on,
     .most_certified = GM_SUBJECT_COMPONENTS,
     .families = families,
+    .same = same,
     .quantities = gm_ode_quantities,
 };

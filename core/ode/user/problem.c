@@ -497,6 +497,8 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         (struct gm_ode){.written = true,
                         .components = model->names[0] ? model->names : NULL,
                         .quadratic = !constrained && gm_user_model_holds(model, values, GM_FACT_QUADRATIC),
+                        .linear = !constrained && gm_user_model_holds(model, values, GM_FACT_LINEAR) &&
+                                  gm_user_model_holds(model, values, GM_FACT_AUTONOMOUS),
                         .rough = !gm_user_model_holds(model, values, GM_FACT_SMOOTH),
                         .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {

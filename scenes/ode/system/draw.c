@@ -181,7 +181,7 @@ static void hold_range(struct gm_seen *range, const struct gm_seen *other)
 static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 {
     const struct gm_system_lane *one = own_of(a), *other = own_of(b);
-    return one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
+    return one->owner == other->owner && one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
            memcmp(one->values, other->values,
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
@@ -490,20 +490,25 @@ static const char *value_now(struct gm_picture *picture, const struct gm_lane *l
 
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_sight *sight = gm_system_sight(lanes[0]->parameters);
-    double *numbers = gm_picture_memory(picture, (gm_sight_numbers(sight) + 1) * sizeof *numbers);
+    size_t most = 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t own = gm_sight_numbers(gm_system_sight(lanes[i]->parameters));
+        most = own > most ? own : most;
+    }
+    double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
     struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
     if (!numbers || !ranges) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = lane_range(lanes[i], sight, numbers);
+        ranges[i] = lane_range(lanes[i], gm_system_sight(lanes[i]->parameters), numbers);
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
     const struct gm_lane *leader = NULL; /* the first of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct gm_sight *sight = gm_system_sight(walk.lane->parameters);
         if (walk.first) {
             struct gm_seen range = ranges[0];
             for (size_t i = 0; i < count; i++) {
@@ -660,10 +665,10 @@ static const char *told(struct gm_picture *picture, const struct gm_lane *const 
     const char *text = "";
     char number[64];
     size_t shown = 0;
-    for (size_t row = 0; row < system_scene->first_start && shown < TOLD_PARAMETERS; row++) {
+    for (size_t row = 0; row < system_scene->row_count && shown < TOLD_PARAMETERS; row++) {
         const struct gm_parameter *parameter = &system_scene->rows[row];
         const double value = gm_parameter_get(parameter, lanes[0]->parameters);
-        bool same = parameter->offset >= offsetof(struct gm_system_lane, values);
+        bool same = gm_system_is_parameter(system_scene, row);
         for (size_t i = 1; i < count; i++) {
             same &= value == gm_parameter_get(parameter, lanes[i]->parameters);
         }

@@ -62,6 +62,22 @@ static void put_exact(const struct gm_view *view, double *variables)
     }
 }
 
+bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t row)
+{
+    const size_t number = system_scene->variables[row];
+    return row >= GM_SYSTEM_ROWS && number >= system_scene->system.parameters &&
+           number < system_scene->system.velocities;
+}
+
+void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables)
+{
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+        if (gm_system_is_parameter(lane->owner, row)) {
+            variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+        }
+    }
+}
+
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables)
 {
     const struct gm_system_lane *lane = view->parameters;
@@ -74,9 +90,7 @@ void gm_system_variables(const struct gm_view *view, size_t member, bool exact, 
         variables[i] = view->state[i * m + member];
         variables[system->initial + i] = view->start[i * m + member];
     }
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
-        variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
+    gm_system_put_parameters(lane, variables);
     variables[system->n] = view->t;
     if (exact) {
         put_exact(view, variables);
@@ -145,8 +159,10 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     for (size_t i = 0; i < n; i++) {
         fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
     }
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
-        fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+        if (gm_system_is_parameter(lane->owner, row)) {
+            fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+        }
     }
     if (tape->last_used > system->exact) {
         put_all_exact(view, variables, count);
