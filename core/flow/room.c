@@ -3,6 +3,7 @@
 #include "core/flow/room.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/model/scope.h"
 
 #include <float.h>
 #include <math.h>
@@ -40,33 +41,117 @@ static const struct {
 };
 enum { WORDS = GM_COUNT(words) };
 
+/* The variables of formulas. */
+enum { PART, X, Y, TIME, VARIABLES };
+static const char *const variables[VARIABLES] = {"s", "x", "y", "t"};
+
+static const char *const measures[GM_ROOM_MEASURES] = {"perimeter", "area", "inlet_length", "until"};
+
+/* A formula that is read, and the variables that it may hold. */
+struct reading {
+    const struct gm_room *room;
+    struct gm_formula *graph;
+    unsigned may;
+    bool timed; /* it holds t */
+};
+
 /* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives, and the exact
    solution, may change in time. */
 static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
 {
-    const bool varies = key != GM_ROOM_FLOW && key != GM_ROOM_CENTRE && key != GM_ROOM_SLIP &&
-                        key != GM_ROOM_X && key != GM_ROOM_Y,
-               changes = (word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT) && key != GM_ROOM_SLIP;
-    return (varies ? 1u << GM_ROOM_AT_X | 1u << GM_ROOM_AT_Y : 0) |
-           (varies && word == GM_ROOM_INLET ? 1u << GM_ROOM_AT_S : 0) | (changes ? 1u << GM_ROOM_AT_T : 0);
+    const unsigned along = 1u << X | 1u << Y | (word == GM_ROOM_INLET ? 1u << PART : 0),
+                   changes = word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT ? 1u << TIME : 0;
+    return key == GM_ROOM_SLIP                            ? 0
+           : key == GM_ROOM_FLOW || key == GM_ROOM_CENTRE ? changes
+           : key == GM_ROOM_X || key == GM_ROOM_Y         ? 0
+                                                          : along | changes;
+}
+
+const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name)
+{
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        if (strcmp(room->parameters[i].name, name) == 0) {
+            return &room->parameters[i];
+        }
+    }
+    return NULL;
+}
+
+static const char *known(size_t i, const void *data)
+{
+    const struct gm_room *room = ((const struct reading *)data)->room;
+    return i < VARIABLES                           ? variables[i]
+           : i - VARIABLES < room->parameter_count ? room->parameters[i - VARIABLES].name
+                                                   : NULL;
+}
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    struct reading *reading = data;
+    char whole[GM_ROOM_NAME];
+    snprintf(whole, sizeof whole, "%.*s", (int)(name->length < sizeof whole ? name->length : 0), name->text);
+    const struct gm_room_parameter *parameter = gm_room_parameter(reading->room, whole);
+    if (parameter ? isnan(parameter->value) : gm_choice_named(&reading->room->choices, whole) != NULL) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, and no number", whole);
+        return GM_REFUSED;
+    }
+    if (parameter && !name->indexed && !name->initial) {
+        *node = gm_formula_constant(reading->graph, parameter->value);
+        return GM_KNOWN;
+    }
+    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
+        if (strcmp(whole, measures[i]) == 0 && !isnan(reading->room->measures[i])) {
+            *node = gm_formula_constant(reading->graph, reading->room->measures[i]);
+            return GM_KNOWN;
+        }
+    }
+    for (size_t i = 0; i < VARIABLES; i++) {
+        if (strcmp(whole, variables[i]) != 0 || name->initial) {
+            continue;
+        }
+        if (name->indexed) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%s is one number, and has no index", variables[i]);
+            return GM_REFUSED;
+        }
+        if (!(reading->may >> i & 1)) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%s",
+                     i == TIME
+                         ? "what a room's boundary gives may change in time: no start, no source and no place"
+                     : i == PART
+                         ? "s runs along an inlet, and stands in what that gives at a place"
+                         : "a flow is that of a whole side, and a place is two numbers: neither holds "
+                           "x and y");
+            return GM_REFUSED;
+        }
+        reading->timed = reading->timed || i == TIME;
+        *node = gm_formula_variable(reading->graph, i);
+        return GM_KNOWN;
+    }
+    return GM_UNKNOWN;
+}
+
+static bool read_node(struct reading *reading, struct gm_span span, gm_node_id *node, struct gm_fault *fault)
+{
+    const struct gm_scope scope = {.find = find, .known = known, .data = reading, .lines = true};
+    return gm_formula_read(reading->graph, reading->room->text, span.begin, span.end, &scope, node, fault);
 }
 
 static bool read_formula(struct gm_room *room, struct gm_span span, enum gm_room_word word,
                          enum gm_room_key key, struct gm_room_formula *value, struct gm_fault *fault)
 {
+    struct reading reading = {room, &room->graph, may_hold(word, key), false};
     gm_node_id node = 0;
-    bool timed;
-    if (!gm_room_read_formula(&room->names, span, may_hold(word, key), &room->graph, &node, &timed, fault)) {
+    if (!read_node(&reading, span, &node, fault)) {
         return false;
     }
-    room->timed = room->timed || (timed && word <= GM_ROOM_BOUNDARY);
+    room->timed = room->timed || (reading.timed && word <= GM_ROOM_BOUNDARY);
     value->place = span.begin;
     value->part = gm_formula_parts(&room->graph, node, &value->parts);
     return value->part != NULL;
 }
 
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                     const double at[GM_ROOM_AT], double standard)
+                     const double at[VARIABLES], double standard)
 {
     const struct gm_room_formula *value = line ? &line->value[key] : NULL;
     if (!value || value->place == 0) {
@@ -76,9 +161,96 @@ double gm_room_value(const struct gm_room *room, const struct gm_room_line *line
     return room->scratch[value->part[value->parts - 1]];
 }
 
+/* The value of a formula at a place. */
+static bool read_value(const struct gm_room *room, struct gm_span span, unsigned may,
+                       const double at[VARIABLES], double *value, struct gm_fault *fault)
+{
+    struct gm_formula graph;
+    struct reading reading = {room, &graph, may, false};
+    gm_node_id node = 0;
+    gm_formula_open(&graph);
+    bool good = read_node(&reading, span, &node, fault);
+    double *values = good ? malloc((graph.count + 1) * sizeof *values) : NULL;
+    good = values != NULL;
+    if (good) {
+        gm_formula_evaluate(&graph, node + 1, at, values);
+        *value = values[node];
+    }
+    free(values);
+    gm_formula_close(&graph);
+    return good;
+}
+
+bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault)
+{
+    const double origin[VARIABLES] = {0};
+    return read_value(room, span, 0, origin, number, fault) &&
+           (isfinite(*number) || gm_fail(fault, span.begin, "this is no finite number"));
+}
+
+bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
+                      struct gm_fault *fault)
+{
+    const size_t dots = gm_span_until(room->text, span, "..");
+    if (dots == span.end) {
+        return gm_fail(fault, span.begin, "a range was expected, low .. high");
+    }
+    return gm_room_number(room, (struct gm_span){span.begin, dots}, &range->least, fault) &&
+           gm_room_number(room, (struct gm_span){dots + 2, span.end}, &range->most, fault) &&
+           (range->least < range->most || gm_fail(fault, span.begin, "a range's lower end comes first"));
+}
+
+static bool is_word(const struct gm_room *room, struct gm_span span, const char *word)
+{
+    return span.end - span.begin == strlen(word) &&
+           memcmp(room->text + span.begin, word, span.end - span.begin) == 0;
+}
+
+static bool find_line(const struct gm_room *room, const char *word, size_t number, struct gm_text_line *line)
+{
+    struct gm_fault fault;
+    size_t at = 0;
+    while (gm_lines_next(room->text, room->length, &at, line, &fault)) {
+        if (is_word(room, line->word, word) && number-- == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value)
+{
+    struct gm_text_line line;
+    const bool said = find_line(room, word, number, &line);
+    *value = said ? line.value : (struct gm_span){0, 0};
+    return said;
+}
+
+/* Takes the first word of a span off its front. */
+static struct gm_span take_word(const struct gm_room *room, struct gm_span *rest)
+{
+    struct gm_span word = {rest->begin, rest->begin};
+    while (word.end < rest->end && !strchr(" \t\r\n", room->text[word.end])) {
+        word.end++;
+    }
+    *rest = gm_span_trimmed(room->text, (struct gm_span){word.end, rest->end});
+    return word;
+}
+
+bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
+                    struct gm_span *value)
+{
+    while (gm_span_take(room->text, &pieces, ";", value)) {
+        if (is_word(room, take_word(room, value), word)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2])
 {
-    const double origin[GM_ROOM_AT] = {0};
+    const double origin[VARIABLES] = {0};
     point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0);
     point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0);
 }
@@ -130,10 +302,10 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
     unsigned given = 0;
     char list[160];
     while (rest.begin < rest.end) {
-        const size_t length = gm_name_length(room->names.text + rest.begin, rest.end - rest.begin);
+        const size_t length = gm_name_length(room->text + rest.begin, rest.end - rest.begin);
         int key = GM_ROOM_KEYS - 1;
-        while (key >= 0 && (strncmp(room->names.text + rest.begin, keys[key], length) != 0 ||
-                            keys[key][length] != '\0')) {
+        while (key >= 0 &&
+               (strncmp(room->text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
             key--;
         }
         if (length == 0 || key < 0 || !(words[word].may >> key & 1)) {
@@ -143,17 +315,17 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
                                                                : "; a name with blanks is in double quotes");
         }
         size_t equals = rest.begin + length;
-        equals += strspn(room->names.text + equals, " \t\r\n");
-        if (equals >= rest.end || room->names.text[equals] != '=') {
+        equals += strspn(room->text + equals, " \t\r\n");
+        if (equals >= rest.end || room->text[equals] != '=') {
             return gm_fail(fault, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
                            keys[key]);
         }
         equals++;
-        const size_t end = next_key(room->names.text, (struct gm_span){equals, rest.end});
+        const size_t end = next_key(room->text, (struct gm_span){equals, rest.end});
         if (given >> key & 1) {
             return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
         }
-        const struct gm_span formula = gm_span_trimmed(room->names.text, (struct gm_span){equals, end});
+        const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
         if (!read_formula(room, formula, word, (enum gm_room_key)key, &line->value[key], fault)) {
             return false;
         }
@@ -189,21 +361,21 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
     *line = (struct gm_room_line){.word = word,
                                   .place = value.begin < value.end ? value.begin : text_line.word.begin};
     if (words[word].names < START) {
-        const bool quoted = value.begin < value.end && room->names.text[value.begin] == '"';
+        const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
         struct gm_span name = {value.begin + quoted, value.begin + quoted};
-        while (name.end < value.end && (quoted ? room->names.text[name.end] != '"'
-                                               : !strchr(" \t\r\n", room->names.text[name.end]))) {
+        while (name.end < value.end &&
+               (quoted ? room->text[name.end] != '"' : !strchr(" \t\r\n", room->text[name.end]))) {
             name.end++;
         }
         const size_t length = name.end - name.begin;
         if (quoted && name.end == value.end) {
-            return gm_fail(fault, line->place, "%s: the name has no closing quote", words[word].word);
+            return gm_fail(fault, value.begin, "%s: the name has no closing quote", words[word].word);
         }
         if (length == 0 || length >= GM_ROOM_NAME) {
             return gm_fail(fault, line->place, "%s: needs a name, of at most 63 bytes", words[word].word);
         }
-        memcpy(line->name, room->names.text + name.begin, length);
-        value = gm_span_trimmed(room->names.text, (struct gm_span){name.end + quoted, value.end});
+        memcpy(line->name, room->text + name.begin, length);
+        value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
     }
     for (size_t i = 0; i < room->count; i++) {
         if (words[more[i].word].names == words[word].names && strcmp(more[i].name, line->name) == 0) {
@@ -216,241 +388,432 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
     return read_pairs(room, line, value, fault);
 }
 
-/* Lines that hold for other words of a choice become comments. */
-static bool choose_lines(struct gm_room *room, struct gm_fault *fault)
+/* A number that parameters make, between two others; a whole one where `whole`. */
+static bool read_ranged(const struct gm_room *room, struct gm_span value, const char *name,
+                        struct gm_room_range range, bool whole, double *number, struct gm_fault *fault)
 {
-    char *text = room->names.text;
-    struct gm_text_line line;
-    bool holds = true, always = true;
-    for (size_t at = 0; gm_lines_next(text, room->length, &at, &line, fault);) {
-        const enum gm_statement_word said = gm_statement_word_of(&room->names, line);
-        if (said == GM_LINE_WHEN) {
-            struct gm_span rest = line.value, word;
-            char name[GM_ROOM_NAME];
-            gm_span_take(text, &rest, "=", &word);
-            snprintf(name, sizeof name, "%.*s", (int)(word.end - word.begin), text + word.begin);
-            const struct gm_room_parameter *choice = gm_room_parameter(&room->names, name);
-            holds = always = strcmp(name, "always") == 0;
-            if (!always && !(choice && choice->words[0])) {
-                return gm_fail(fault, line.value.begin, "when: needs a choice and its word: domain = box");
-            }
-            while (gm_span_take(text, &rest, ",", &word)) {
-                if (always || !gm_room_is_listed(&room->names, choice->words, word)) {
-                    return gm_fail(fault, word.begin, "%s has no such word", name);
-                }
-                holds = holds || gm_room_is_word(&room->names, word, choice->text);
-            }
-        } else if (!always && gm_statement_is_fixed(said)) {
-            return gm_fail(
-                fault, line.word.begin,
-                "%s: says the same for every word of a choice; put it before when:", gm_statement_name(said));
-        }
-        for (size_t i = line.word.begin; (said == GM_LINE_WHEN || !holds) && i < line.value.end; i++) {
-            text[i] = (char)(text[i] == '\n' || text[i] == '\r' ? text[i] : '#');
-        }
-    }
-    return !fault->sentence[0];
+    return gm_room_number(room, value, number, fault) &&
+           ((*number >= range.least && *number <= range.most && (!whole || *number == floor(*number))) ||
+            gm_fail(fault, value.begin, "%s: is a %snumber from %g to %g", name, whole ? "whole " : "",
+                    range.least, range.most));
 }
 
-/* rectangle; width F; height F; ... */
-static void make_rectangle(struct gm_room *room)
+/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
+   False without a fault: the line names a file. */
+static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
 {
-    const struct gm_statement *mesh = gm_statement(&room->said, GM_LINE_RECTANGLE, 0);
     struct gm_rectangle *rectangle = &room->rectangle;
-    room->rectangular = mesh != NULL;
-    room->multiple = (long)gm_statement_number(mesh, GM_LINE_RECTANGLE_MULTIPLE, 0);
-    *rectangle = (struct gm_rectangle){
-        .width = gm_statement_number(mesh, GM_LINE_RECTANGLE_WIDTH, 0),
-        .height = gm_statement_number(mesh, GM_LINE_RECTANGLE_HEIGHT, 0),
-        .edges = (long)gm_statement_number(mesh, GM_LINE_RECTANGLE_EDGES, 0),
-        .strips = (long)gm_statement_number(mesh, GM_LINE_RECTANGLE_STRIPS, 0),
-        .transposed = gm_statement_piece(mesh, GM_LINE_RECTANGLE_ALONG) != NULL,
-        .torus = mesh && strcmp(mesh->pieces[0].text, "flat-torus") == 0,
-        .irregular = gm_statement_number(mesh, GM_LINE_RECTANGLE_IRREGULAR, 0),
-        .fixed = room->fixed,
-    };
-    for (size_t i = 0; mesh && i < mesh->count; i++) {
-        if (mesh->pieces[i].row == GM_LINE_RECTANGLE_KEEP) {
-            memcpy(room->fixed + 2 * rectangle->fixed_count++, mesh->pieces[i].numbers,
-                   2 * sizeof *room->fixed);
+    const size_t place = rest.begin;
+    struct gm_span value, piece;
+    double edges = 0, strips = 0, multiple = 0;
+    const struct {
+        const char *word;
+        double *number;
+        struct gm_room_range range;
+        char *key; /* of a whole number; NULL: it is any */
+    } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
+                   {"height", &rectangle->height, {1e-9, 1e9}, NULL},
+                   {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
+                   {"edges", &edges, {1, 100000}, room->edges},
+                   {"strips", &strips, {0, 100000}, room->strips},
+                   {"multiple", &multiple, {1, 100000}, (char[GM_ROOM_NAME]){0}}};
+    gm_span_take(room->text, &rest, ";", &value);
+    rectangle->torus = is_word(room, value, "flat-torus");
+    room->rectangular = rectangle->torus || is_word(room, value, "rectangle");
+    rectangle->fixed = room->fixed;
+    while (room->rectangular && gm_span_take(room->text, &rest, ";", &value)) {
+        const struct gm_span word = take_word(room, &value);
+        size_t i = 0;
+        while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
+            i++;
+        }
+        if (i < GM_COUNT(options)) {
+            if (!read_ranged(room, value, options[i].word, options[i].range, options[i].key,
+                             options[i].number, fault)) {
+                return false;
+            }
+            if (options[i].key) {
+                snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
+                         room->text + value.begin);
+            }
+        } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
+            rectangle->transposed = true;
+        } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
+            double *at = room->fixed + 2 * rectangle->fixed_count++;
+            for (int c = 0; c < 2; c++) {
+                gm_span_take(room->text, &value, ",", &piece);
+                if (!gm_room_number(room, piece, &at[c], fault)) {
+                    return false;
+                }
+            }
+            if (value.begin < value.end) {
+                return gm_fail(fault, value.begin, "keep: has two numbers, x, y");
+            }
+        } else {
+            return gm_fail(fault, word.begin,
+                           "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
+                           "up to %zu keep",
+                           GM_COUNT(room->fixed) / 2);
         }
     }
+    rectangle->edges = (long)edges;
+    rectangle->strips = (long)strips;
+    room->multiple = (long)multiple;
+    return room->rectangular &&
+           ((rectangle->width > 0 && rectangle->height > 0 && edges > 0) ||
+            gm_fail(fault, place, "a rectangle has a width, a height and a number of edges"));
 }
 
-/* The parameter that stands for a line. */
-static const struct gm_room_parameter *parameter_of(const struct gm_room *room, enum gm_statement_word word)
+/* Whether a name means nothing else: in formulas, on a command line but for what the picture shows, or in tables. */
+static bool is_free(const char *name, size_t place, struct gm_fault *fault)
 {
-    return word == GM_LINE_DIFFUSIVITY ? NULL : gm_room_parameter(&room->names, gm_statement_name(word));
-}
-
-/* Where a number is said, by a line or a parameter of that name; false: it is not. */
-static bool find_number(const struct gm_room *room, enum gm_statement_word word, size_t *place)
-{
-    const struct gm_statement *line = gm_statement(&room->said, word, 0);
-    const struct gm_room_parameter *parameter = parameter_of(room, word);
-    *place = line ? line->place : parameter ? parameter->place : 0;
-    return line || parameter;
-}
-
-/* That number, or the one that is given in its place; NAN: it is not said. */
-static bool take_number(const struct gm_room *room, enum gm_statement_word word,
-                        const struct gm_room_given *given, size_t count, double *number,
-                        struct gm_fault *fault)
-{
-    const char *name = gm_statement_name(word);
-    const struct gm_statement *line = gm_statement(&room->said, word, 0);
-    const struct gm_room_parameter *parameter = parameter_of(room, word);
-    const struct gm_room_range range = gm_statement_range(word);
-    *number = parameter ? parameter->value : gm_statement_value(&room->said, word, NAN);
-    if (parameter && line) {
-        return gm_fail(fault, line->place, "%s: is given twice, here and as a parameter", name);
+    bool reserved = strcmp(name, "show") != 0 && gm_reading_reserves(name, strlen(name));
+    for (size_t i = 0; i < VARIABLES; i++) {
+        reserved |= strcmp(name, variables[i]) == 0;
     }
-    if (parameter && !(*number >= range.least && *number <= range.most) &&
-        !(*number == 0 && word == GM_LINE_VISCOSITY)) {
-        return gm_fail(fault, parameter->place, "%s: lies between %g and %g", name, range.least, range.most);
+    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
+        reserved |= strcmp(name, measures[i]) == 0;
     }
-    for (size_t k = 0; k < count && !parameter; k++) {
-        *number = strcmp(given[k].name, name) == 0 ? given[k].value : *number;
+    return !reserved || gm_fail(fault, place, "the name %.60s is reserved", name);
+}
+
+/* NAME = VALUE; low .. high; meaning */
+static bool read_parameter(struct gm_room *room, struct gm_span rest, const struct gm_room_given *given,
+                           size_t count, struct gm_fault *fault)
+{
+    struct gm_room_parameter *more = realloc(room->parameters, (room->parameter_count + 1) * sizeof *more);
+    struct gm_span head, piece, after;
+    struct gm_room_range range = {NAN, NAN};
+    if (!more) {
+        return false;
+    }
+    room->parameters = more;
+    struct gm_room_parameter *parameter = &more[room->parameter_count++];
+    *parameter = (struct gm_room_parameter){.value = NAN, .place = rest.begin};
+    gm_span_take(room->text, &rest, ";", &head);
+    const size_t equals = gm_span_until(room->text, head, "=");
+    const struct gm_span value = {equals < head.end ? equals + 1 : equals, head.end};
+    after = rest;
+    if (gm_span_take(room->text, &after, ";", &piece) && gm_span_until(room->text, piece, "..") < piece.end) {
+        if (!gm_room_range_of(room, piece, &range, fault)) {
+            return false;
+        }
+        rest = after;
+    }
+    parameter->low = range.least;
+    parameter->high = range.most;
+    const struct {
+        char **text;
+        struct gm_span span;
+    } parts[] = {
+        {&parameter->name, {head.begin, equals}}, {&parameter->text, value}, {&parameter->meaning, rest}};
+    for (size_t i = 0; i < GM_COUNT(parts); i++) {
+        *parts[i].text = gm_span_words(room->text, parts[i].span);
+        if (!*parts[i].text) {
+            return false;
+        }
+    }
+    gm_number_parse(parameter->text, &parameter->value);
+    const size_t letters = strlen(parameter->name);
+    if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
+        gm_choice_named(&room->choices, parameter->name) ||
+        gm_name_length(parameter->name, letters) != letters) {
+        return gm_fail(fault, head.begin, "parameter: needs a name that is no other: height = 1");
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(given[i].name, parameter->name) == 0) {
+            char *text = given[i].text ? strdup(given[i].text) : parameter->text;
+            if (given[i].text) {
+                free(parameter->text);
+            }
+            parameter->text = text;
+            parameter->value = given[i].text ? NAN : given[i].value;
+        }
+    }
+    return parameter->text && is_free(parameter->name, head.begin, fault);
+}
+
+static const char reference[] = "reference-temperature";
+
+/* The lines that hold no pairs: those before `parameter` may come once, those from `side` on once with each name. */
+enum { OFTEN = 26, NAMED = 30 };
+static const char *const others[] = {
+    "geomint",     "title",    "about",   "watch",   "reference", "units",       "scalar",
+    "time",        "subtitle", "caption", "mesh",    "viscosity", "diffusivity", "reynolds",
+    "schmidt",     "buoyancy", reference, "dt",      "until",     "colours",     "levels",
+    "exact-while", "schemes",  "lanes",   "work",    "stability", "parameter",   "graph",
+    "table",       "figure",   "side",    "observe", "profile",   NULL};
+enum { OTHERS = GM_COUNT(others) - 1 };
+
+/* Of all lines of several words or formulas. */
+static const char *line_word(size_t i, const void *data)
+{
+    (void)data;
+    return i < WORDS ? words[i].word : others[i - WORDS];
+}
+
+/* Whether what two lines say begins with the same name. */
+static bool share_name(const char *one, const char *other)
+{
+    const size_t letters = strcspn(one, "; \t\r\n");
+    return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
+}
+
+/* Whether a line says something, and no line before the same. */
+static bool check_line(const struct gm_room *room, struct gm_text_line line, size_t other,
+                       struct gm_fault *fault)
+{
+    struct gm_span earlier;
+    for (size_t i = 0; gm_room_said(room, others[other], i, &earlier) && earlier.begin < line.value.begin;
+         i++) {
+        if (other < OFTEN ||
+            (other >= NAMED && share_name(room->text + earlier.begin, room->text + line.value.begin))) {
+            return gm_fail(fault, line.word.begin, "%s: is given twice", others[other]);
+        }
+    }
+    return line.value.begin < line.value.end ||
+           gm_fail(fault, line.word.begin, "%s: says nothing", others[other]);
+}
+
+/* A line that says one thing; others are read by the scene that is made of the room. */
+static bool read_single(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
+{
+    const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
+                               reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
+    const struct {
+        const char *word;
+        char **text;
+        double *number;
+        struct gm_room_range range;
+    } rows[] = {
+        {"title", &room->title, NULL, any},
+        {"about", &room->about, NULL, any},
+        {"mesh", &room->mesh, NULL, any},
+        {"units", &room->units, NULL, any},
+        {"scalar", &room->scalar, NULL, any},
+        {"viscosity", NULL, &room->viscosity, gm_room_viscosity},
+        {"diffusivity", NULL, &room->diffusivity, positive},
+        {"reynolds", NULL, &room->reynolds, reynolds},
+        {"schmidt", NULL, &room->schmidt, gm_room_schmidt},
+        {"buoyancy", NULL, &room->buoyancy, any},
+        {reference, NULL, &room->reference_temperature, any},
+        {"dt", NULL, &room->dt, gm_room_dt},
+        {"until", NULL, &room->until, gm_room_until},
+    };
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_span value = line.value, rest = line.value, piece;
+        if (!is_word(room, line.word, rows[i].word)) {
+            continue;
+        }
+        if (rows[i].text == &room->mesh && (read_rectangle(room, value, fault) || fault->sentence[0])) {
+            return !fault->sentence[0];
+        }
+        if (rows[i].text) {
+            *rows[i].text = gm_span_words(room->text, value);
+            return *rows[i].text != NULL;
+        }
+        char number[64];
+        gm_span_take(room->text, &rest, ";", &value);
+        snprintf(number, sizeof number, "%.*s", (int)(value.end - value.begin), room->text + value.begin);
+        const double least = rows[i].range.least, most = rows[i].range.most;
+        if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
+            (least >= 0 && !(*rows[i].number > 0))) {
+            return gm_fail(fault, value.begin, "%s: is a %s number", rows[i].word,
+                           least >= 0 ? "positive" : "finite");
+        }
+        if (rows[i].number == &room->dt && gm_span_take(room->text, &rest, ";", &piece) &&
+            !gm_room_range_of(room, piece, &room->dt_range, fault)) {
+            return false;
+        }
+        return (*rows[i].number >= least && *rows[i].number <= most) ||
+               gm_fail(fault, value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
     }
     return true;
+}
+
+/* Where the line begins that says this. */
+static size_t place_of(const struct gm_room *room, const char *word)
+{
+    struct gm_text_line line;
+    return find_line(room, word, 0, &line) ? line.word.begin : 0;
 }
 
 /* What is said in one of two ways, and whether all is said. */
 static bool complete(struct gm_room *room, const struct gm_room_given *given, size_t count,
                      struct gm_fault *fault)
 {
-    static const enum gm_statement_word alike[][2] = {{GM_LINE_VISCOSITY, GM_LINE_REYNOLDS},
-                                                      {GM_LINE_DIFFUSIVITY, GM_LINE_SCHMIDT}};
-    double numbers[2][2];
-    size_t place = 0;
-    for (size_t i = 0; i < GM_COUNT(alike); i++) {
-        for (size_t k = 0; k < 2; k++) {
-            if (!take_number(room, alike[i][k], given, count, &numbers[i][k], fault)) {
-                return false;
+    const struct {
+        const char *name;
+        double *number;
+    } numbers[] = {
+        {"viscosity", &room->viscosity}, {"reynolds", &room->reynolds}, {"schmidt", &room->schmidt}};
+    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
+        const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
+        if (parameter && !isnan(*numbers[i].number)) {
+            return gm_fail(fault, place_of(room, numbers[i].name),
+                           "%s: is given twice, here and as a parameter", numbers[i].name);
+        }
+        if (parameter && !(parameter->value > 0 || (i == 0 && parameter->value == 0))) {
+            return gm_fail(fault, parameter->place, "%s: is a positive number", numbers[i].name);
+        }
+        *numbers[i].number = parameter ? parameter->value : *numbers[i].number;
+    }
+    if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
+        return gm_fail(fault, place_of(room, "reynolds"),
+                       "viscosity: and reynolds: say the same; a room has one of them");
+    }
+    if (!isnan(room->diffusivity) && !isnan(room->schmidt)) {
+        return gm_fail(fault, place_of(room, "schmidt"),
+                       "diffusivity: and schmidt: say the same; a room has one of them");
+    }
+    for (size_t k = 0; k < count; k++) {
+        for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, given[k].name); i++) {
+            if (strcmp(given[k].name, numbers[i].name) == 0) {
+                room->reynolds = i == 0 ? NAN : room->reynolds;
+                *numbers[i].number = given[k].value;
             }
         }
-        if (find_number(room, alike[i][0], &place) && find_number(room, alike[i][1], &place)) {
-            return gm_fail(fault, place, "%s: and %s: say the same; a room has one of them",
-                           gm_statement_name(alike[i][0]), gm_statement_name(alike[i][1]));
-        }
     }
-    const struct gm_statement *side = gm_statement(&room->said, GM_LINE_SIDE, 0);
-    const bool meshed = room->rectangular || gm_statement(&room->said, GM_LINE_MESH, 0);
-    room->unsolved = !(gm_statement_value(&room->said, GM_LINE_EXACT_WHILE, 1) > 0);
-    room->viscosity = isnan(numbers[0][0]) ? 1 / numbers[0][1] : numbers[0][0];
-    if (!meshed || isnan(room->viscosity)) {
-        return gm_fail(fault, 0, "a room needs a line %s", meshed ? "viscosity: (or reynolds:)" : "mesh:");
+    struct gm_span side;
+    if (!room->rectangular && gm_room_said(room, "side", 0, &side)) {
+        return gm_fail(fault, side.begin, "side: is of a rectangle; a mesh of Gmsh has physical groups");
     }
-    if (side && !room->rectangular) {
-        return gm_fail(fault, side->place, "side: is of a rectangle; a mesh of Gmsh has physical groups");
+    room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
+    if (!(room->mesh || room->rectangular) || isnan(room->viscosity)) {
+        return gm_fail(fault, 0, "a room needs a line %s",
+                       room->mesh || room->rectangular ? "viscosity: (or reynolds:)" : "mesh:");
     }
-    room->diffusivity = !isnan(numbers[1][1])  ? room->viscosity / numbers[1][1]
-                        : isnan(numbers[1][0]) ? room->viscosity
-                                               : numbers[1][0];
-    const struct gm_room_range schmidt = gm_statement_range(GM_LINE_SCHMIDT);
+    room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
+                        : isnan(room->diffusivity) ? room->viscosity
+                                                   : room->diffusivity;
     const double ratio = room->viscosity / room->diffusivity;
-    if (!(ratio >= schmidt.least && ratio <= schmidt.most) && room->viscosity > 0) {
-        find_number(room, GM_LINE_DIFFUSIVITY, &place);
-        return gm_fail(fault, place, "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
-                       schmidt.least, schmidt.most);
+    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most) && room->viscosity > 0) {
+        return gm_fail(fault, place_of(room, "diffusivity"),
+                       "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
+                       gm_room_schmidt.least, gm_room_schmidt.most);
     }
-    const struct gm_statement *buoyancy = gm_statement(&room->said, GM_LINE_BUOYANCY, 0),
-                              *reference = gm_statement(&room->said, GM_LINE_REFERENCE_TEMPERATURE, 0);
-    size_t warm = 0;
+    size_t warm = 0, place = 0;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_formula *value = room->lines[i].value;
         const size_t here = value[GM_ROOM_TEMPERATURE].place + value[GM_ROOM_HEAT].place; /* one is 0 */
-        warm = here > 0 ? here : warm;
+        warm += here > 0;
+        place = here > 0 ? here : place;
     }
-    if (warm > 0 && !buoyancy) {
+    if (warm > 0 && isnan(room->buoyancy)) {
         return gm_fail(
-            fault, warm,
+            fault, place,
             "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
-    if (warm == 0 && (buoyancy || reference)) {
-        return gm_fail(fault, (buoyancy ? buoyancy : reference)->place,
+    if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
+        const char *word = isnan(room->buoyancy) ? reference : "buoyancy";
+        return gm_fail(fault, place_of(room, word),
                        "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
-                       gm_statement_name((buoyancy ? buoyancy : reference)->word));
+                       word);
     }
-    room->buoyancy = gm_statement_value(&room->said, GM_LINE_BUOYANCY, NAN);
     room->reference_temperature =
-        gm_statement_value(&room->said, GM_LINE_REFERENCE_TEMPERATURE, warm > 0 ? 0 : NAN);
+        isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
     return true;
 }
 
-static const char *line_word(size_t i, const void *data)
+/* A line in a block of a choice replaces one outside where there is one such line. */
+static enum gm_line_identity identity(const char *text, struct gm_span word)
 {
-    (void)data;
-    return i < WORDS ? words[i].word : gm_statement_name(i - WORDS);
+    const char *const single[] = {words[GM_ROOM_START].word, words[GM_ROOM_EXACT].word, NULL};
+    return single[gm_span_among(text, word, single)] || gm_span_among(text, word, others) < OFTEN
+               ? GM_LINE_ONCE
+               : GM_LINE_ADDED;
+}
+
+/* Makes comments of lines that hold for other words of a choice. */
+static bool choose_lines(struct gm_room *room, const struct gm_room_given *given, size_t count,
+                         struct gm_fault *fault)
+{
+    struct gm_written_choices *choices = &room->choices;
+    bool good = gm_choices_read(choices, room->text, room->length, fault);
+    for (size_t i = 0; good && i < choices->count; i++) {
+        good = is_free(choices->list[i].name, choices->list[i].place, fault);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (given[i].text) {
+            gm_choices_take(choices, given[i].name, given[i].text);
+        }
+    }
+    return good && gm_choices_apply(choices, room->text, room->length, identity, fault);
 }
 
 /* A line that declares no parameter. */
 static bool read_any(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
 {
-    const char *text = room->names.text;
-    const enum gm_statement_word said = gm_statement_word_of(&room->names, line);
-    if (said < GM_LINES) {
-        return said == GM_LINE_PARAMETER || said == GM_LINE_CHOICE ||
-               gm_statement_read(&room->said, &room->names, said, line, fault);
+    const size_t other = gm_span_among(room->text, line.word, others);
+    if (other < OTHERS) {
+        return check_line(room, line, other, fault) && read_single(room, line, fault);
     }
     for (int i = 0; i < WORDS; i++) {
-        if (gm_room_is_word(&room->names, line.word, words[i].word)) {
+        if (is_word(room, line.word, words[i].word)) {
             return read_line(room, (enum gm_room_word)i, line, fault);
         }
     }
     char name[41];
     const size_t letters = line.word.end - line.word.begin;
-    snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), text + line.word.begin);
-    const char *near = gm_nearest(name, WORDS + GM_LINES, line_word, NULL);
-    return near ? gm_fail(fault, line.word.begin, "a room has no line %s:; did you mean %s:", name, near)
-                : gm_fail(fault, line.word.begin,
-                          "a room has no line %s:; geomint list office --source prints one that is good",
-                          name);
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), room->text + line.word.begin);
+    const char *near = gm_nearest(name, WORDS + OTHERS, line_word, NULL);
+    return gm_fail(fault, line.word.begin, "a room has no line %s:; %s%s%s", name,
+                   near ? "did you mean " : "geomint list office --source prints a room with its lines",
+                   near ? near : "", near ? ":" : "");
 }
 
 bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
                   size_t count, struct gm_fault *fault)
 {
-    struct gm_room_names *names = &room->names;
-    *room = (struct gm_room){.names = {.text = malloc(length + 1), .measures = {NAN, NAN, NAN, NAN}},
+    *room = (struct gm_room){.text = malloc(length + 1),
                              .length = length,
-                             .outlet = GM_VERTEX_SOFT};
+                             .viscosity = NAN,
+                             .diffusivity = NAN,
+                             .reynolds = NAN,
+                             .schmidt = NAN,
+                             .buoyancy = NAN,
+                             .reference_temperature = NAN,
+                             .dt = NAN,
+                             .until = NAN,
+                             .dt_range = gm_room_dt,
+                             .outlet = GM_VERTEX_SOFT,
+                             .measures = {NAN, NAN, NAN, NAN}};
     *fault = (struct gm_fault){0};
     gm_formula_open(&room->graph);
-    if (!names->text) {
+    if (!room->text) {
         return false;
     }
-    memcpy(names->text, text, length);
-    names->text[length] = '\0';
-    if (!gm_lines_are_text(text, length, fault)) {
+    memcpy(room->text, text, length);
+    room->text[length] = '\0';
+    if (!gm_lines_are_text(text, length, fault) || !choose_lines(room, given, count, fault)) {
         return false;
     }
     struct gm_text_line line;
-    for (size_t at = 0; gm_lines_next(names->text, length, &at, &line, fault);) {
-        const enum gm_statement_word word = gm_statement_word_of(names, line);
-        if ((word == GM_LINE_CHOICE || word == GM_LINE_PARAMETER) &&
-            !gm_room_declare(names, line.value, word == GM_LINE_CHOICE, given, count, fault)) {
+    struct gm_span value;
+    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
+        if (is_word(room, line.word, "parameter") && !read_parameter(room, line.value, given, count, fault)) {
             return false;
         }
     }
-    if (fault->sentence[0] || !choose_lines(room, fault)) {
-        return false;
-    }
-    for (size_t at = 0; gm_lines_next(names->text, length, &at, &line, fault);) {
+    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
         if (!read_any(room, line, fault)) {
             return false;
         }
     }
-    const struct gm_statement *format = gm_statement(&room->said, GM_LINE_GEOMINT, 0);
-    if (!fault->sentence[0] && format && format->pieces[0].numbers[0] != 1) {
-        gm_fail(fault, format->pieces[0].span.begin, "this program reads files of format 1, not %.40s",
-                format->pieces[0].text);
+    if (!fault->sentence[0] && gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
+        return gm_fail(fault, value.begin, "this program reads files of format 1, not %.*s",
+                       (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
+                       room->text + value.begin);
     }
     if (fault->sentence[0] || room->graph.failed) {
         return false;
     }
+    double holds = 1;
+    if (gm_room_said(room, "exact-while", 0, &value) && !gm_room_number(room, value, &holds, fault)) {
+        return false;
+    }
+    room->unsolved = !(holds > 0);
     room->scratch = malloc((room->graph.count + 1) * sizeof *room->scratch);
-    make_rectangle(room);
     return room->scratch && complete(room, given, count, fault);
 }
 
@@ -462,10 +825,20 @@ void gm_room_close(struct gm_room *room)
             free(room->lines[i].value[key].part);
         }
     }
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        free(room->parameters[i].name);
+        free(room->parameters[i].text);
+        free(room->parameters[i].meaning);
+    }
+    free(room->parameters);
     free(room->scratch);
+    free(room->text);
     free(room->lines);
-    gm_statements_close(&room->said);
-    gm_room_names_close(&room->names);
+    free(room->title);
+    free(room->about);
+    free(room->mesh);
+    free(room->units);
+    free(room->scalar);
     *room = (struct gm_room){0};
 }
 
@@ -486,7 +859,7 @@ struct bad {
 static double value_at(const struct profile *profile, enum gm_room_key key, double standard, double s,
                        const double at[2])
 {
-    const double place[GM_ROOM_AT] = {s, at[0], at[1], profile->t},
+    const double place[VARIABLES] = {s, at[0], at[1], profile->t},
                  value = gm_room_value(profile->room, profile->line, key, place, standard);
     if (!isfinite(value) && !profile->bad->line) {
         *profile->bad = (struct bad){profile->line, key, {at[0], at[1]}};
@@ -534,7 +907,7 @@ static bool start_carried(const struct gm_room *room, const struct gm_room_line 
                           struct gm_fault *fault)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
-        const double *p = complex->point + 2 * v, at[GM_ROOM_AT] = {0, p[0], p[1], 0},
+        const double *p = complex->point + 2 * v, at[VARIABLES] = {0, p[0], p[1], 0},
                      here = gm_room_value(room, line, key, at, 0);
         value[v] = fixed[v] ? value[v] : here;
         if (!isfinite(here)) {
@@ -562,11 +935,11 @@ static bool spread_source(const struct gm_room *room, const struct gm_room_line 
 {
     const struct gm_complex *complex = flow->complex;
     for (size_t v = 0; v < complex->vertices; v++) {
-        const double place[GM_ROOM_AT] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
+        const double place[VARIABLES] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
                      rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
         if (!isfinite(rate)) {
             return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite at (%.4g, %.4g)",
-                           place[GM_ROOM_AT_X], place[GM_ROOM_AT_Y]);
+                           place[X], place[Y]);
         }
         flow->source[v] += complex->star0[v] * rate;
     }
@@ -598,7 +971,7 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, struc
         }
         double at[2], w[3];
         gm_room_point(room, line, at);
-        const double place[GM_ROOM_AT] = {0, at[0], at[1], 0},
+        const double place[VARIABLES] = {0, at[0], at[1], 0},
                      rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
         size_t triangle = 0;
         if (!locate(complex, at, &triangle, w)) {
@@ -620,23 +993,31 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, struc
 }
 
 /* Whether conditions of a line `side:`, as in x = 0, y > 4, hold at a place. */
-static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[GM_ROOM_AT],
-                     bool *holds, struct gm_fault *fault)
+static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES], bool *holds,
+                     struct gm_fault *fault)
 {
     const double size = fmax(room->rectangle.width, room->rectangle.height);
-    struct gm_span condition, sides[2];
+    struct gm_span condition;
     *holds = true;
-    while (gm_span_take(room->names.text, &rest, ",", &condition)) {
-        const char sign = gm_condition_sign(room->names.text, condition, sides);
+    while (gm_span_take(room->text, &rest, ",", &condition)) {
+        size_t sign = condition.begin;
+        while (sign + 1 < condition.end && !strchr("=<>", room->text[sign])) {
+            sign++;
+        }
+        const struct gm_span sides[2] = {{condition.begin, sign}, {sign + 1, condition.end}};
         double value[2];
+        if (!strchr("=<>", room->text[sign])) {
+            return gm_fail(fault, condition.begin, "a condition was expected, x = 0");
+        }
         for (int k = 0; k < 2; k++) {
-            if (!gm_room_value_of(&room->names, sides[k], 1u << GM_ROOM_AT_X | 1u << GM_ROOM_AT_Y, at,
-                                  &value[k], fault)) {
+            if (!read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], fault)) {
                 return false;
             }
         }
         const double above = value[0] - value[1];
-        *holds &= sign == '<' ? above < 0 : sign == '>' ? above > 0 : fabs(above) <= 1e-9 * size;
+        *holds &= room->text[sign] == '<'   ? above < 0
+                  : room->text[sign] == '>' ? above > 0
+                                            : fabs(above) <= 1e-9 * size;
     }
     return true;
 }
@@ -647,77 +1028,110 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* The conditions of the line `side:` of that name; NULL: there is none. */
-static const struct gm_piece *find_side(const struct gm_room *room, const char *name)
+/* The conditions of the line `side:` of that name; false: there is none. */
+static bool find_side(const struct gm_room *room, const char *side, struct gm_span *conditions)
 {
-    const struct gm_statement *side;
-    for (size_t i = 0; (side = gm_statement(&room->said, GM_LINE_SIDE, i)); i++) {
-        if (strcmp(side->pieces[0].text, name) == 0) {
-            return gm_statement_piece(side, GM_LINE_SIDE_CONDITIONS);
+    struct gm_text_line line;
+    struct gm_fault fault;
+    struct gm_span name;
+    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, &fault);) {
+        *conditions = line.value;
+        if (is_word(room, line.word, "side") && gm_span_take(room->text, conditions, ";", &name) &&
+            is_word(room, name, side)) {
+            return true;
         }
     }
-    return NULL;
+    return false;
 }
 
 /* The groups of a line: those that the parameter of its name lists. */
 static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
-    const struct gm_room_parameter *other = gm_room_parameter(&room->names, line->name);
+    const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
     return other ? other->text : line->name;
 }
 
-/* Whether a boundary edge is of a line's group, or of one of those that the parameter of its name lists. */
-static bool is_in_group(const struct gm_room *room, const struct gm_room_line *line,
-                        const struct gm_triangulation *mesh, size_t e)
+/* A boundary edge becomes one of line number `i`, from 0; false with a fault where it is one of another line. */
+static bool take_edge(const struct gm_room *room, unsigned char *side, size_t i, struct gm_fault *fault)
 {
-    const struct gm_room_parameter *other = gm_room_parameter(&room->names, line->name);
-    char name[256];
-    bool is_in = false;
-    for (const char *at = other ? other->text : line->name; *at; at += strcspn(at, ","), at += *at == ',') {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, other ? "," : ""), at);
-        const long tag = gm_triangulation_group(mesh, name);
-        is_in |= tag != 0 && gm_triangulation_has(mesh, e, tag);
+    const struct gm_room_line *line = &room->lines[i];
+    if (*side != 0 && *side != i + 1) {
+        return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+                       groups_of(room, line), groups_of(room, &room->lines[*side - 1]));
     }
-    return is_in;
+    *side = (unsigned char)(i + 1);
+    return true;
+}
+
+/* The edges of a line's groups, of which each is on the boundary, and listed once. */
+static bool name_groups(const struct gm_room *room, const struct gm_triangulation *mesh, size_t i,
+                        unsigned char *side_of, struct gm_fault *fault)
+{
+    const struct gm_room_line *line = &room->lines[i];
+    const char *list = groups_of(room, line);
+    char name[256], names[160];
+    for (const char *at = list; *at; at += strlen(name), at += *at == ',') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, list == line->name ? "" : ","), at);
+        const long tag = gm_triangulation_group(mesh, name);
+        bool met = false;
+        for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
+            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
+                met = true;
+                if (!take_edge(room, &side_of[b], i, fault)) {
+                    return false;
+                }
+            }
+        }
+        if (!met) {
+            return gm_fail(fault, line->place,
+                           tag != 0
+                               ? "no edge of the mesh's boundary belongs to \"%.60s\""
+                               : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
+                           name, gm_triangulation_group_names(mesh, names, sizeof names));
+        }
+        for (const char *before = list; before < at; before += strcspn(before, ",") + 1) {
+            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
+                return gm_fail(fault, line->place, "the group \"%.60s\" is named twice", name);
+            }
+        }
+    }
+    return true;
 }
 
 /* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
 static bool name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
                        unsigned char *side_of, struct gm_fault *fault)
 {
-    for (size_t i = 0; i < room->count; i++) {
+    for (size_t i = 0; i < room->count && mesh->complex->boundary > 0; i++) {
         const struct gm_room_line *line = &room->lines[i];
         const bool all = is_rest(room, mesh, line->name);
-        const bool grouped = !all && (!room->rectangular || room->from_file);
-        const struct gm_piece *conditions = all || grouped ? NULL : find_side(room, line->name);
-        bool met = false;
-        for (size_t b = 0; line->word <= GM_ROOM_BOUNDARY && b < mesh->complex->boundary; b++) {
-            const size_t e = (size_t)mesh->complex->boundary_edge[b];
-            double middle[GM_ROOM_AT] = {0};
-            gm_complex_middle(mesh->complex, e, middle + GM_ROOM_AT_X);
-            bool is_on = all || (grouped && is_in_group(room, line, mesh, e));
-            if (conditions && !holds_at(room, conditions->span, middle, &is_on, fault)) {
+        struct gm_span conditions;
+        if (line->word > GM_ROOM_BOUNDARY) {
+            continue;
+        }
+        if (!all && (!room->rectangular || room->from_file)) {
+            if (!name_groups(room, mesh, i, side_of, fault)) {
                 return false;
             }
-            if (is_on && side_of[b] != 0 && !all) {
-                return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
-                               groups_of(room, line), groups_of(room, &room->lines[side_of[b] - 1]));
-            }
-            side_of[b] = is_on && side_of[b] == 0 ? (unsigned char)(i + 1) : side_of[b];
-            met = met || is_on;
+            continue;
         }
-        if (line->word <= GM_ROOM_BOUNDARY && !met && mesh->complex->boundary > 0) {
-            char names[160];
-            if (!grouped) {
-                return gm_fail(fault, line->place,
-                               "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
-                               line->name, line->name);
+        const bool conditional = !all && find_side(room, line->name, &conditions);
+        bool met = false;
+        for (size_t b = 0; b < mesh->complex->boundary && (all || conditional); b++) {
+            double middle[VARIABLES] = {0};
+            gm_complex_middle(mesh->complex, (size_t)mesh->complex->boundary_edge[b], middle + X);
+            bool is_on = side_of[b] == 0;
+            if (!all && (!holds_at(room, conditions, middle, &is_on, fault) ||
+                         (is_on && !take_edge(room, &side_of[b], i, fault)))) {
+                return false;
             }
+            side_of[b] = all && is_on ? (unsigned char)(i + 1) : side_of[b];
+            met = met || all || is_on;
+        }
+        if (!met) {
             return gm_fail(fault, line->place,
-                           gm_triangulation_group(mesh, line->name) != 0
-                               ? "the curves \"%.40s\" are not on the mesh's boundary"
-                               : "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
-                           line->name, gm_triangulation_group_names(mesh, names, sizeof names));
+                           "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
+                           line->name, line->name);
         }
     }
     return true;
@@ -735,7 +1149,7 @@ static double fall(const struct gm_flow *flow)
 static bool make_side(struct profile *profile, struct gm_side *side, struct gm_fault *fault)
 {
     const struct gm_room_line *line = profile->line;
-    const double at[GM_ROOM_AT] = {[GM_ROOM_AT_T] = profile->t};
+    const double at[VARIABLES] = {[TIME] = profile->t};
     const bool inlet = line->word == GM_ROOM_INLET;
     const double slip = gm_room_value(profile->room, line, GM_ROOM_SLIP, at, 0);
     if (slip != 0 && slip != 1) {
@@ -875,7 +1289,7 @@ static void widen(struct gm_flow *flow, const struct gm_flow *now)
 static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
 {
     enum { MOMENTS = 64 };
-    const double until = gm_statement_value(&room->said, GM_LINE_UNTIL, 10);
+    const double until = isnan(room->until) ? 10 : room->until;
     struct gm_flow *now = gm_flow_open_now(flow);
     bool good = now != NULL;
     flow->give = give;
@@ -910,7 +1324,7 @@ struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh
                     gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
     good = good && name_sides(room, mesh, flow->side_of, fault) &&
            set_sides(room, flow->side_of, 0, flow, fault, boundary) && place_things(room, flow, fault);
-    const struct gm_room_parameter *reynolds = gm_room_parameter(&room->names, "reynolds");
+    const struct gm_room_parameter *reynolds = gm_room_parameter(room, "reynolds");
     const double scale = reynolds && flow->inlet_length > 0 ? flow->inlet_length : 1;
     flow->viscosity = room->viscosity * scale;
     flow->diffusivity = room->diffusivity * scale;
@@ -924,12 +1338,12 @@ struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh
         gm_flow_close(flow);
         return NULL;
     }
-    room->names.measures[GM_ROOM_PERIMETER] = 0;
+    room->measures[GM_ROOM_PERIMETER] = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
-        room->names.measures[GM_ROOM_PERIMETER] += complex->length[complex->boundary_edge[b]];
+        room->measures[GM_ROOM_PERIMETER] += complex->length[complex->boundary_edge[b]];
     }
-    room->names.measures[GM_ROOM_AREA] = complex->total_area;
-    room->names.measures[GM_ROOM_INLET_LENGTH] = flow->inlet_length;
+    room->measures[GM_ROOM_AREA] = complex->total_area;
+    room->measures[GM_ROOM_INLET_LENGTH] = flow->inlet_length;
     if (reynolds) {
         flow->reynolds = reynolds->value;
     } else if (room->viscosity > 0) {
@@ -937,8 +1351,7 @@ struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh
             flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
         flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     }
-    const char *scalar = gm_statement_text(&room->said, GM_LINE_SCALAR);
-    flow->scalar = !scalar || strcmp(scalar, "none") != 0;
+    flow->scalar = !room->scalar || strcmp(room->scalar, "none") != 0;
     return flow;
 }
 

@@ -101,8 +101,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                            points[count + 1], published);
         }
     }
-    const char *caption = gm_statement_text(&gm_room_of(&lanes[0]->problem)->said, GM_LINE_CAPTION);
-    picture->caption = caption ? gm_picture_text(picture, "%s", caption) : known ? "Grey, broad: exact." : "";
+    picture->caption = user_room->caption ? user_room->caption : known ? "Grey, broad: exact." : "";
 }
 
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,

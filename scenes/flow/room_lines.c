@@ -14,23 +14,57 @@
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
-/* The text of an option; NULL: it is not given. */
-static const char *option(const struct gm_statement *line, enum gm_statement_row row)
+/* The text of the only line with a word; NULL: there is none. */
+static const char *said(struct gm_user_room *user_room, const char *word)
 {
-    const struct gm_piece *piece = gm_statement_piece(line, row);
-    return piece ? piece->text : NULL;
+    struct gm_span value;
+    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(user_room, value) : NULL;
 }
 
-/* The place at which something is not as it should be. */
-__attribute__((format(printf, 3, 4))) _Noreturn static void refuse(struct gm_user_room *user_room,
-                                                                   size_t place, const char *format, ...)
+/* The text of an option; NULL: it is not given. */
+static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
 {
-    struct gm_fault fault = {.offset = place};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(fault.sentence, sizeof fault.sentence, format, arguments);
-    va_end(arguments);
-    gm_room_refuse(user_room, &fault);
+    struct gm_span value;
+    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(user_room, value) : NULL;
+}
+
+static const char *take(struct gm_user_room *user_room, struct gm_span *rest, const char *separator)
+{
+    struct gm_span piece;
+    gm_span_take(user_room->room.text, rest, separator, &piece);
+    return gm_room_keep(user_room, piece);
+}
+
+static double number(struct gm_user_room *user_room, struct gm_span span)
+{
+    struct gm_fault fault = {0};
+    double value = NAN;
+    if (!gm_room_number(&user_room->room, span, &value, &fault)) {
+        gm_room_refuse(user_room, &fault);
+    }
+    return value;
+}
+
+/* Numbers that are separated by commas; an option's or, where that has no word, all. */
+static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
+{
+    struct gm_span rest = pieces, piece;
+    double *list = NULL;
+    *count = 0;
+    while ((!word || *count > 0 || gm_room_option(&user_room->room, pieces, word, &rest)) &&
+           gm_span_take(user_room->room.text, &rest, ",", &piece)) {
+        list = gm_arena_resize(user_room->arena, list, *count + 1, sizeof *list);
+        list[(*count)++] = number(user_room, piece);
+    }
+    return list;
+}
+
+static double option_number(struct gm_user_room *user_room, struct gm_span pieces, const char *word,
+                            double otherwise)
+{
+    size_t count;
+    const double *list = numbers(user_room, pieces, word, &count);
+    return count > 0 ? list[0] : otherwise;
 }
 
 /* Words that are separated by blanks or commas, NULL behind them; NULL: there is no text. */
@@ -47,55 +81,58 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* Names of schemes; NULL: there is no text. */
-static const char *const *list_schemes(struct gm_user_room *user_room, const struct gm_piece *piece)
+/* The place at which something is not as it should be. */
+__attribute__((format(printf, 3, 4))) _Noreturn static void refuse(struct gm_user_room *user_room,
+                                                                   size_t place, const char *format, ...)
 {
-    const char *const *list = list_words(user_room, piece ? piece->text : NULL);
+    struct gm_fault fault = {.offset = place};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fault.sentence, sizeof fault.sentence, format, arguments);
+    va_end(arguments);
+    gm_room_refuse(user_room, &fault);
+}
+
+/* Names of schemes, NULL behind them; NULL: there is no text. */
+static const char *const *list_schemes(struct gm_user_room *user_room, struct gm_span span, const char *text)
+{
+    const char *const *list = list_words(user_room, text);
     for (const char *const *word = list; word && *word; word++) {
         if (!gm_scheme_find(*word)) {
-            refuse(user_room, piece->span.begin, "%.60s is no scheme", *word);
+            refuse(user_room, span.begin, "%.60s is no scheme", *word);
         }
     }
     return list;
 }
 
-static const char *observable_key(struct gm_user_room *user_room, const struct gm_piece *piece)
+/* Takes words key=value, each with one of the scene's keys, and values that it takes. */
+static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
 {
-    if (gm_scene_observable(&user_room->scene, piece->text) < 0) {
-        refuse(user_room, piece->span.begin, "this is no observable of the room");
-    }
-    return piece->text;
-}
-
-/* Whether every value of a list can be a row's. */
-static bool takes(const struct gm_parameter *row, const char *values)
-{
+    const size_t place = rest->begin;
+    const char *text = take(user_room, rest, ";");
+    const char *const *words = list_words(user_room, text);
     struct gm_flows scratch;
-    char value[GM_TEXT_SIZE];
-    bool good = true;
-    for (const char *at = values; good && *at; at += strcspn(at, ", "), at += *at == ',') {
-        snprintf(value, sizeof value, "%.*s", (int)strcspn(at, ", "), at);
-        good = strstr(value, "..") || gm_parameter_set(row, &scratch, value) == GM_PARSED;
-        if (at[strcspn(at, ", ")] == ' ') {
-            break;
+    for (const struct gm_parameter *row = NULL; words && *words; words++) {
+        const size_t letters = strcspn(*words, "=");
+        const bool more = !(*words)[letters]; /* another value of the list */
+        const char *key = gm_room_format(user_room, "%.*s", (int)letters, *words);
+        row = more ? row : gm_scene_parameter(&user_room->scene, key);
+        const char *value = more ? *words : *words + letters + 1;
+        if (row ? !strstr(value, "..") && gm_parameter_set(row, &scratch, value) != GM_PARSED
+                : more || !gm_reading_reserves(key, letters)) {
+            refuse(user_room, place, "%.60s is no key of this room with a value that it can have", *words);
         }
     }
-    return good;
+    return text;
 }
 
-/* Words key=value of a command line, which the scene's keys take. */
-static const char *arguments(struct gm_user_room *user_room, const struct gm_piece *piece)
+static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
 {
-    for (const char *word = piece->text; *word; word += strcspn(word, " "), word += *word == ' ') {
-        const int letters = (int)strcspn(word, " ");
-        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(word, "="), word);
-        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, key);
-        if (row ? !takes(row, word + strlen(key) + 1) : !gm_reading_reserves(key, strlen(key))) {
-            refuse(user_room, piece->span.begin, "%.*s: the room has no such key, or not with that value",
-                   letters, word);
-        }
+    const char *key = gm_room_keep(user_room, span);
+    if (gm_scene_observable(&user_room->scene, key) < 0) {
+        refuse(user_room, span.begin, "this is no observable of the room");
     }
-    return piece->text;
+    return key;
 }
 
 /* The rows that a file may name; others are its own numbers. */
@@ -160,60 +197,65 @@ static char *format(struct gm_user_room *user_room, double value)
 static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
 {
     struct gm_flows scratch;
-    if (gm_parameter_set(row, &scratch, row->standard) == GM_PARSED) {
-        return;
+    if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
+        refuse(user_room, place, "%s = %.60s is no value that it can have", row->key, row->standard);
     }
-    if (row->type == GM_REAL || row->type == GM_INTEGER) {
-        refuse(user_room, place, "%s = %.60s is no number of its range, %g .. %g", row->key, row->standard,
-               row->lowest, row->highest);
+}
+
+/* Adds choices as long as they stand before a place of the file. */
+static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
+{
+    const struct gm_written_choices *choices = &user_room->room.choices;
+    for (; *count < choices->count && choices->list[*count].place < place; ++*count) {
+        const struct gm_written_choice *choice = &choices->list[*count];
+        const char **words = gm_arena_take(user_room->arena, choice->count + 1, sizeof *words);
+        for (size_t i = 0; i < choice->count; i++) {
+            words[i] = choice->words[i];
+        }
+        if (find_row(choice->name)) {
+            refuse(user_room, choice->place, "the name %s is reserved", choice->name);
+        }
+        const char *meaning =
+            gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
+        struct gm_parameter *row =
+            add_row(user_room, &(const struct gm_parameter)GM_CHOICE_ROW(struct gm_flows, choices[0], "",
+                                                                         words[choice->standard], words,
+                                                                         meaning[0] ? meaning : "a choice"));
+        row->key = choice->name;
+        row->offset += sizeof(int) * *count;
     }
-    refuse(user_room, place, "%s = %.60s is none of its words", row->key, row->standard);
 }
 
 static void make_rows(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
-    const struct gm_statement *step = gm_statement(&room->said, GM_LINE_DT, 0);
-    const struct gm_piece *range = gm_statement_piece(step, GM_LINE_DT_RANGE);
-    const struct gm_room_range steps = gm_statement_range(GM_LINE_DT);
-    const struct gm_parameter timing[] = {
-        GM_DT(format(user_room, gm_statement_value(&room->said, GM_LINE_DT, 0.01)),
-              range ? range->numbers[0] : steps.least, range ? range->numbers[1] : steps.most),
-        GM_UNTIL(format(user_room, gm_statement_value(&room->said, GM_LINE_UNTIL, 10)))};
+    const struct gm_parameter timing[] = {GM_DT(format(user_room, isnan(room->dt) ? 0.01 : room->dt),
+                                                room->dt_range.least, room->dt_range.most),
+                                          GM_UNTIL(format(user_room, isnan(room->until) ? 10 : room->until))};
     size_t own = 0, choices = 0;
-    check_row(user_room, add_row(user_room, &timing[0]), step ? step->pieces[0].span.begin : 0);
+    struct gm_span dt;
+    gm_room_said(room, "dt", 0, &dt);
+    check_row(user_room, add_row(user_room, &timing[0]), dt.begin);
     add_row(user_room, &timing[1]);
-    if (!gm_room_parameter(&room->names, "viscosity") && !gm_room_parameter(&room->names, "reynolds")) {
+    if (!gm_room_parameter(room, "viscosity") && !gm_room_parameter(room, "reynolds")) {
         add_row(user_room, find_row("viscosity"))->standard = format(user_room, room->viscosity);
-        if (!gm_room_parameter(&room->names, "schmidt")) {
+        if (!gm_room_parameter(room, "schmidt")) {
             add_row(user_room, find_row("schmidt"))->standard =
                 format(user_room, room->viscosity / room->diffusivity);
         }
     }
-    for (size_t i = 0; i < room->names.count; i++) {
-        const struct gm_room_parameter *parameter = &room->names.parameters[i];
+    for (size_t i = 0; i < room->parameter_count; i++) {
+        const struct gm_room_parameter *parameter = &room->parameters[i];
         const struct gm_parameter *template = find_row(parameter->name);
-        const struct gm_parameter choice =
-                                      GM_CHOICE_ROW(struct gm_flows, choices[0], "", "", NULL, "a choice"),
-                                  plain = GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300,
-                                                      "a parameter");
-        if (template && parameter->words[0]) {
-            refuse(user_room, parameter->place, "the name %s is reserved", parameter->name);
+        const struct gm_parameter plain =
+            GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
+        if (!template && own == GM_FLOWS_OWN) {
+            refuse(user_room, parameter->place, "a room has at most %d parameters of its own", GM_FLOWS_OWN);
         }
-        if (!template && (parameter->words[0] ? choices : own) == GM_FLOWS_OWN) {
-            refuse(user_room, parameter->place, "a room has at most %d parameters and %d choices of its own",
-                   GM_FLOWS_OWN, GM_FLOWS_OWN);
-        }
-        struct gm_parameter *row = add_row(user_room, template              ? template
-                                                      : parameter->words[0] ? &choice
-                                                                            : &plain);
+        add_choices(user_room, parameter->place, &choices);
+        struct gm_parameter *row = add_row(user_room, template ? template : &plain);
         row->key = parameter->name;
-        if (parameter->words[0]) {
-            row->choices = list_words(user_room, parameter->words);
-            row->offset += sizeof(int) * choices++;
-        } else if (!template) {
-            row->offset += sizeof(double) * own++;
-        }
+        row->offset += template ? 0 : sizeof(double) * own++;
         row->standard = parameter->text[0] ? parameter->text : row->standard;
         row->help = parameter->meaning[0] ? parameter->meaning : row->help;
         if (!isnan(parameter->low)) {
@@ -223,12 +265,13 @@ static void make_rows(struct gm_user_room *user_room)
         }
         check_row(user_room, row, parameter->place);
     }
+    add_choices(user_room, SIZE_MAX, &choices);
     user_room->scene.parameters = user_room->rows;
     for (size_t i = (size_t)(find_row("star") - known); i < GM_COUNT(known); i++) {
         const bool of_file = known[i].offset == offsetof(struct gm_flows, star) ||
                              known[i].offset == offsetof(struct gm_flows, refine) ||
                              known[i].offset == offsetof(struct gm_flows, smoke);
-        if (!gm_room_parameter(&room->names, known[i].key) && !(of_file && room->rectangular)) {
+        if (!gm_room_parameter(room, known[i].key) && !(of_file && room->rectangular)) {
             struct gm_parameter *row = add_row(user_room, &known[i]);
             if (!isnan(room->buoyancy) && strcmp(row->key, "show") == 0) {
                 row->choices = gm_flows_warm_shows;
@@ -239,10 +282,11 @@ static void make_rows(struct gm_user_room *user_room)
 }
 
 /* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new one, or what one that there is is called */
-static void observe(struct gm_user_room *user_room, const struct gm_statement *line)
+static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
-    const char *key = line->pieces[0].text, *along = option(line, GM_LINE_OBSERVE_ALONG),
-               *title = option(line, GM_LINE_OBSERVE_TITLE), *missing = option(line, GM_LINE_OBSERVE_MISSING);
+    const struct gm_span line = rest;
+    const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
+               *title = option(user_room, rest, "title"), *missing = option(user_room, rest, "missing");
     const struct gm_observable *row = gm_room_observable(key, along);
     size_t profile = 0, i = 0;
     while (along && profile < user_room->profile_count &&
@@ -255,7 +299,7 @@ static void observe(struct gm_user_room *user_room, const struct gm_statement *l
     struct gm_observable *observable = &user_room->observables[i];
     if (i == user_room->observable_count) {
         if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
-            refuse(user_room, line->pieces[0].span.begin,
+            refuse(user_room, line.begin,
                    "this is nothing that is observed of a room, or of a profile that it has");
         }
         *observable = *row;
@@ -266,88 +310,147 @@ static void observe(struct gm_user_room *user_room, const struct gm_statement *l
 }
 
 /* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
-static void add_profile(struct gm_user_room *user_room, const struct gm_statement *line)
+static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
 {
     user_room->profiles = gm_arena_resize(user_room->arena, user_room->profiles, user_room->profile_count + 1,
                                           sizeof *user_room->profiles);
     struct gm_room_profile *profile = &user_room->profiles[user_room->profile_count++];
-    const char *const *words = list_words(user_room, line->pieces[0].text);
-    const struct gm_piece *range = gm_statement_piece(line, GM_LINE_PROFILE_RANGE);
-    *profile = (struct gm_room_profile){
-        .line = {.name = words[0], .count = (size_t)gm_statement_number(line, GM_LINE_PROFILE_POINTS, 0)},
-        .label = option(line, GM_LINE_PROFILE_LABEL),
-        .range = {range ? range->numbers[0] : NAN, range ? range->numbers[1] : NAN}};
-    memcpy(profile->line.a, gm_statement_piece(line, GM_LINE_PROFILE_FROM)->numbers, sizeof profile->line.a);
-    memcpy(profile->line.b, gm_statement_piece(line, GM_LINE_PROFILE_TO)->numbers, sizeof profile->line.b);
-    char *quantities = gm_arena_take(user_room->arena, strlen(line->pieces[0].text) + 1, 1);
+    struct gm_span head, piece;
+    const struct gm_span line = rest;
+    gm_span_take(user_room->room.text, &rest, ";", &head);
+    const char *const *words = list_words(user_room, gm_room_keep(user_room, head));
+    *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
+    char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
     profile->quantities = quantities;
-    for (size_t i = 1; words[i]; i++) {
+    for (size_t i = 1; words && words[i]; i++) {
         if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
-            refuse(user_room, line->pieces[0].span.begin, "a profile shows u, v or scalar, not %.60s",
-                   words[i]);
+            refuse(user_room, line.begin, "a profile shows u, v or scalar, not %.60s", words[i]);
         }
         quantities[i - 1] = words[i][0];
     }
+    double *const ends[2] = {profile->line.a, profile->line.b};
+    for (int end = 0; end < 2; end++) {
+        size_t count;
+        gm_span_take(user_room->room.text, &rest, ";", &piece);
+        const double *place = numbers(user_room, piece, NULL, &count);
+        if (count != 2) {
+            refuse(user_room, line.begin,
+                   "a profile has a name and quantities, two places and a number of points");
+        }
+        memcpy(ends[end], place, 2 * sizeof *place);
+    }
+    gm_span_take(user_room->room.text, &rest, ";", &piece);
+    profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
+    struct gm_fault fault = {0};
+    if (gm_span_take(user_room->room.text, &rest, ";", &piece) &&
+        !gm_room_range_of(&user_room->room, piece, &profile->range, &fault)) {
+        gm_room_refuse(user_room, &fault);
+    }
+    profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
 }
 
 /* table: NAME PROFILE; KEY = VALUE; place value, place value ... */
-static void add_table(struct gm_user_room *user_room, const struct gm_statement *line)
+static void add_table(struct gm_user_room *user_room, struct gm_span rest)
 {
     user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
                                         sizeof *user_room->tables);
     struct gm_room_table *table = &user_room->tables[user_room->table_count++];
-    const char *const *words = list_words(user_room, line->pieces[0].text);
-    const struct gm_piece *condition = gm_statement_piece(line, GM_LINE_TABLE_CONDITION),
-                          *points = gm_statement_piece(line, GM_LINE_TABLE_POINTS);
-    *table = (struct gm_room_table){.name = words[0],
-                                    .row = gm_scene_parameter(&user_room->scene, condition->text),
-                                    .value = condition->numbers[0],
-                                    .points = points->numbers,
-                                    .count = points->count / 2};
-    for (size_t i = 0; i < user_room->profile_count && words[1] && !words[2]; i++) {
-        if (strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
+    struct gm_span line = rest, condition, piece;
+    const char *const *words = list_words(user_room, take(user_room, &rest, ";"));
+    gm_span_take(user_room->room.text, &rest, ";", &condition);
+    const char *key = take(user_room, &condition, "=");
+    *table = (struct gm_room_table){.name = words ? words[0] : "",
+                                    .row = gm_scene_parameter(&user_room->scene, key)};
+    for (size_t i = 0; i < user_room->profile_count; i++) {
+        if (words && words[1] && strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
             table->profile = &user_room->profiles[i];
         }
     }
-    if (!table->profile) {
-        refuse(user_room, line->pieces[0].span.begin, "a table has a name and a profile that the room has");
+    if (!table->profile || !table->row) {
+        refuse(user_room, line.begin,
+               "a table has a name and a profile, the value of a parameter, and points");
+    }
+    table->value = number(user_room, condition);
+    while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
+        struct gm_span value;
+        gm_span_take(user_room->room.text, &piece, " ", &value);
+        table->points =
+            gm_arena_resize(user_room->arena, table->points, 2 * (table->count + 1), sizeof *table->points);
+        table->points[2 * table->count] = number(user_room, value);
+        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(user_room, piece) : NAN;
     }
 }
 
-/* Values in braces: the first two real parameters by name, where nothing else comes before, and a remark behind mesh
-   and scheme. */
-static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
-                          struct gm_picture *picture, struct gm_look *look)
+/* The next value in braces: the text before it, and its key; false: there is none, and the text is what is left. */
+static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct gm_span *before,
+                       struct gm_span *key, bool *nonzero)
 {
-    const struct gm_statement *line = gm_statement(&room->said, GM_LINE_SUBTITLE, 0);
-    const char *text = room->names.text, *remark = "";
-    struct gm_span rest = line ? line->pieces[0].span : (struct gm_span){0, 0};
+    const size_t open = gm_span_until(room->text, *rest, "{"),
+                 close = gm_span_until(room->text, (struct gm_span){open, rest->end}, "}"),
+                 colon = gm_span_until(room->text, (struct gm_span){open, close}, ":");
+    *before = (struct gm_span){rest->begin, open};
+    *key = (struct gm_span){open < close ? open + 1 : open, colon};
+    *nonzero = colon < close;
+    rest->begin = close < rest->end ? close + 1 : close;
+    return open < close;
+}
+
+/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme, with values in braces */
+static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
+                          struct gm_span rest, struct gm_picture *picture, struct gm_look *look)
+{
+    struct gm_span before, key;
+    bool nonzero;
+    memset(look->told, 0, sizeof look->told);
+    look->remark = "";
     for (size_t i = 0; rest.begin < rest.end; i++) {
-        const size_t open = gm_span_until(text, rest, "{"),
-                     close = gm_span_until(text, (struct gm_span){open, rest.end}, "}"),
-                     colon = gm_span_until(text, (struct gm_span){open, close}, ":");
-        const struct gm_span key = {open < close ? open + 1 : open, colon};
+        const bool filled = take_brace(room, &rest, &before, &key, &nonzero);
         const struct gm_parameter *row =
-            gm_scene_parameter(&user_room->scene, gm_picture_text(picture, "%.*s", (int)(key.end - key.begin),
-                                                                  text + key.begin));
+            gm_scene_parameter(&user_room->scene, gm_room_text(picture, room, key));
         struct gm_fault fault;
         double value;
-        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !remark[0]) {
-            rest.begin += strspn(text + rest.begin, ", ");
-            const struct gm_span name = gm_span_trimmed(text, (struct gm_span){rest.begin, open});
-            look->told[i].name =
-                gm_picture_text(picture, "%.*s", (int)(name.end - name.begin), text + name.begin);
+        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !look->remark[0]) {
+            before.begin += strspn(room->text + before.begin, ", ");
+            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->text, before));
             look->told[i].offset = row->offset;
-            look->told[i].nonzero = colon < close;
+            look->told[i].nonzero = nonzero;
         } else {
-            remark = gm_picture_text(picture, "%s%.*s", remark, (int)(open - rest.begin), text + rest.begin);
-            if (open < close && gm_room_number(&room->names, key, &value, &fault)) {
-                remark = gm_picture_text(picture, "%s%.4g", remark, value);
+            look->remark =
+                gm_picture_text(picture, "%s%s", look->remark, gm_room_text(picture, room, before));
+            if (filled && gm_room_number(room, key, &value, &fault)) {
+                look->remark = gm_picture_text(picture, "%s%.4g", look->remark, value);
             }
         }
-        rest.begin = close < rest.end ? close + 1 : close;
     }
-    look->remark = remark;
+}
+
+/* colours: vorticity F, speed F; false: there is another word, or a number that is not positive. */
+static bool take_colours(const struct gm_room *room, struct gm_look *look, struct gm_fault *fault)
+{
+    static const char *const words[] = {"vorticity", "speed", NULL};
+    struct gm_span rest, piece;
+    gm_room_said(room, "colours", 0, &rest);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
+        const struct gm_span word = {piece.begin, gm_span_until(room->text, piece, " ")};
+        const size_t which = gm_span_among(room->text, word, words);
+        double *end = which == 0 ? &look->vorticity_range : &look->speed_high;
+        if (!words[which] || !gm_room_number(room, (struct gm_span){word.end, piece.end}, end, fault) ||
+            !(*end > 0)) {
+            return gm_fail(fault, piece.begin, "colours: end at positive numbers: vorticity 5, speed 1");
+        }
+    }
+    return true;
+}
+
+/* graph: KEY; low .. high, which may hold what is known of the flow */
+static bool take_graph(const struct gm_room *room, size_t number, struct gm_span *key,
+                       struct gm_room_range *range, struct gm_fault *fault)
+{
+    struct gm_span rest, piece;
+    const bool said = gm_room_said(room, "graph", number, &rest);
+    gm_span_take(room->text, &rest, ";", key);
+    return said &&
+           (!gm_span_take(room->text, &rest, ";", &piece) || gm_room_range_of(room, piece, range, fault));
 }
 
 void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
@@ -359,38 +462,91 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
                                                   {"velocity_error", "velocity"},
                                                   {"pressure_error", "total pressure"},
                                                   {NULL, NULL}};
-    const struct gm_statement *time = gm_statement(&room->said, GM_LINE_TIME, 0),
-                              *levels = gm_statement(&room->said, GM_LINE_LEVELS, 0),
-                              *colours = gm_statement(&room->said, GM_LINE_COLOURS, 0), *graph;
+    struct gm_span rest, piece;
+    struct gm_fault fault;
     look->errors = gm_room_line(room, GM_ROOM_EXACT) ? errors : NULL;
-    if (time) {
-        const char *unit = option(time, GM_LINE_TIME_TEXT);
-        look->clock_unit = gm_picture_text(picture, "%.*s", unit ? (int)strcspn(unit, ", ") : 0, unit);
+    if (gm_room_said(room, "time", 0, &rest)) {
+        gm_span_take(room->text, &rest, ";", &piece);
+        rest = gm_span_trimmed(room->text, rest);
+        rest.end = rest.begin + strcspn(room->text + rest.begin, ", \r\n");
+        look->clock_unit = gm_room_text(picture, room, rest);
     }
-    if (gm_statement(&room->said, GM_LINE_SUBTITLE, 0)) {
+    if (gm_room_said(room, "subtitle", 0, &rest)) {
+        fill_subtitle(user_room, room, rest, picture, look);
+    } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
         memset(look->told, 0, sizeof look->told);
-        fill_subtitle(user_room, room, picture, look);
     }
-    look->levels = levels ? levels->pieces[0].numbers : NULL;
-    look->level_count = levels ? levels->pieces[0].count : 0;
-    look->vorticity_range = gm_statement_number(colours, GM_LINE_COLOURS_VORTICITY, look->vorticity_range);
-    look->speed_high = gm_statement_number(colours, GM_LINE_COLOURS_SPEED, look->speed_high);
+    take_colours(room, look, &fault);
+    gm_room_said(room, "levels", 0, &rest);
+    double *levels = gm_picture_memory(picture, (rest.end - rest.begin + 1) * sizeof *levels);
+    while (levels && gm_span_take(room->text, &rest, ",", &piece)) {
+        gm_room_number(room, piece, &levels[look->level_count++], &fault);
+    }
+    look->levels = look->level_count > 0 ? levels : NULL;
     for (size_t i = 0; i < user_room->profile_count; i++) {
         look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
     }
-    const bool graphs = gm_statement(&room->said, GM_LINE_GRAPH, 0);
+    const bool graphs = gm_room_said(room, "graph", 0, &rest);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
-    for (size_t i = 0; i < GM_COUNT(look->graphs); i++) {
-        graph = gm_statement(&room->said, GM_LINE_GRAPH, i);
-        const struct gm_piece *range = gm_statement_piece(graph, GM_LINE_GRAPH_RANGE);
+    for (size_t i = 0; i < GM_COUNT(look->graphs) && (graphs || look->profiles_below); i++) {
         struct gm_room_range ends = {0, 0};
-        struct gm_fault fault;
-        if (graphs || look->profiles_below) {
-            look->graphs[i] = graph ? gm_picture_text(picture, "%s", graph->pieces[0].text) : NULL;
-        }
-        if (range && gm_room_range_of(&room->names, range->span, &ends, &fault)) {
-            look->graph_low[i] = ends.least;
-            look->graph_high[i] = ends.most;
+        look->graphs[i] =
+            take_graph(room, i, &piece, &ends, &fault) ? gm_room_text(picture, room, piece) : NULL;
+        look->graph_low[i] = ends.least;
+        look->graph_high[i] = ends.most;
+    }
+}
+
+/* What a picture will show can be read, for each word of a choice. */
+static void check_look(struct gm_user_room *user_room, const struct gm_room *room)
+{
+    struct gm_room measured = *room;
+    struct gm_look look;
+    struct gm_fault fault = {0};
+    struct gm_span rest, piece;
+    struct gm_room_range ends;
+    bool nonzero, good = take_colours(room, &look, &fault);
+    for (int i = 0; i < GM_ROOM_MEASURES; i++) {
+        measured.measures[i] = 1;
+    }
+    gm_room_said(room, "subtitle", 0, &rest);
+    while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
+        double value;
+        good = gm_room_number(&measured, piece, &value, &fault);
+    }
+    gm_room_said(room, "levels", 0, &rest);
+    while (good && gm_span_take(room->text, &rest, ",", &piece)) {
+        good = gm_room_number(room, piece, &look.scalar_high, &fault);
+    }
+    for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
+        good = take_graph(&measured, i, &piece, &ends, &fault);
+        observable_key(user_room, piece);
+    }
+    if (!good) {
+        gm_room_refuse(user_room, &fault);
+    }
+}
+
+static void close_read(void *room)
+{
+    gm_room_close(room);
+}
+
+/* Reads the room with each word of its choices, so that what is wrong with their lines is said at once. */
+static void check_choices(struct gm_user_room *user_room)
+{
+    const struct gm_written_choices *choices = &user_room->room.choices;
+    check_look(user_room, &user_room->room);
+    for (size_t i = 0; i < choices->count; i++) {
+        for (size_t k = 0; k < choices->list[i].count; k++) {
+            const struct gm_room_given given = {choices->list[i].name, choices->list[i].words[k], NAN};
+            struct gm_room *room = gm_arena_take(user_room->arena, 1, sizeof *room);
+            struct gm_fault fault;
+            gm_arena_keep(user_room->arena, room, close_read);
+            if (!gm_room_read(room, user_room->file.text, user_room->file.length, &given, 1, &fault)) {
+                gm_room_refuse(user_room, &fault);
+            }
+            check_look(user_room, room);
         }
     }
 }
@@ -414,98 +570,88 @@ static double courant_time(const void *parameters)
 static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
 static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 
-/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; KEY VALUES */
+/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; reynolds VALUES */
 static void make_studies(struct gm_user_room *user_room)
 {
-    const struct gm_statements *said = &user_room->room.said;
-    const struct gm_statement *work_line = gm_statement(said, GM_LINE_WORK, 0),
-                              *map_line = gm_statement(said, GM_LINE_STABILITY, 0), *line;
     struct gm_scene *scene = &user_room->scene;
     struct gm_figure *figures = NULL;
-    for (; (line = gm_statement(said, GM_LINE_FIGURE, scene->figure_count)); scene->figure_count++) {
+    struct gm_span rest, piece;
+    size_t count = 0;
+    while (gm_room_said(&user_room->room, "figure", scene->figure_count, &rest)) {
         figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
-        figures[scene->figure_count] = (struct gm_figure){
-            .name = line->pieces[0].text,
-            .arguments = arguments(user_room, gm_statement_piece(line, GM_LINE_FIGURE_WORDS)),
-            .statement = option(line, GM_LINE_FIGURE_STATEMENT)};
+        struct gm_figure *figure = &figures[scene->figure_count++];
+        figure->name = take(user_room, &rest, ";");
+        figure->arguments = take_arguments(user_room, &rest);
+        figure->statement = gm_room_keep(user_room, rest);
     }
     scene->figures = figures;
-    if (work_line) {
-        const struct gm_piece *measure = gm_statement_piece(work_line, GM_LINE_WORK_MEASURE),
-                              *errors = gm_statement_piece(work_line, GM_LINE_WORK_ERRORS),
-                              *resolutions = gm_statement_piece(work_line, GM_LINE_WORK_RESOLUTIONS);
-        user_room->work = (struct gm_work){
-            .arguments = arguments(user_room, &work_line->pieces[0]),
-            .measure = measure ? observable_key(user_room, measure) : NULL,
-            .coarsest = gm_statement_number(work_line, GM_LINE_WORK_COARSEST, 0),
-            .halvings = (int)gm_statement_number(work_line, GM_LINE_WORK_HALVINGS, 4),
-            .schemes = list_schemes(user_room, gm_statement_piece(work_line, GM_LINE_WORK_SCHEMES)),
-            .errors = errors ? errors->numbers : NULL,
-            .resolutions = resolutions ? resolutions->numbers : NULL,
-            .resolution_count = resolutions ? resolutions->count : 0,
-            .resolution = resolutions ? resolutions->text : NULL};
-        if (errors && (errors->count != 3 || !(errors->numbers[0] > errors->numbers[1] &&
-                                               errors->numbers[1] > errors->numbers[2]))) {
-            refuse(user_room, errors->span.begin, "work: has three errors that fall");
+    if (gm_room_said(&user_room->room, "work", 0, &rest)) {
+        struct gm_work *work = &user_room->work;
+        *work = (struct gm_work){
+            .arguments = take_arguments(user_room, &rest),
+            .coarsest = option_number(user_room, rest, "coarsest", 0),
+            .halvings = (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31),
+            .schemes = list_schemes(user_room, rest, option(user_room, rest, "schemes"))};
+        if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
+            work->measure = observable_key(user_room, piece);
         }
-        scene->work = &user_room->work;
+        work->errors = numbers(user_room, rest, "errors", &count);
+        work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
+        work->resolution = work->resolutions ? user_room->room.edges : NULL;
+        if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
+            refuse(user_room, rest.begin, "work: has three errors that fall, and 1 to 30 halvings");
+        }
+        scene->work = work;
     }
-    if (map_line) {
-        const struct gm_piece *values = gm_statement_piece(map_line, GM_LINE_STABILITY_VALUES);
-        user_room->stability = (struct gm_stability){.arguments = arguments(user_room, &map_line->pieces[0]),
-                                                     .parameter = values->text,
-                                                     .values = values->numbers,
-                                                     .value_count = values->count,
-                                                     .label = "Courant number",
-                                                     .unit = courant_time,
-                                                     .steps = courant_numbers,
-                                                     .step_count = GM_COUNT(courant_numbers),
-                                                     .kept = "speed_max",
-                                                     .schemes = marching};
-        scene->stability = &user_room->stability;
+    if (gm_room_said(&user_room->room, "stability", 0, &rest)) {
+        struct gm_stability *map = &user_room->stability;
+        *map = (struct gm_stability){.arguments = take_arguments(user_room, &rest),
+                                     .parameter = "reynolds",
+                                     .label = "Courant number",
+                                     .unit = courant_time,
+                                     .steps = courant_numbers,
+                                     .step_count = GM_COUNT(courant_numbers),
+                                     .kept = "speed_max",
+                                     .schemes = marching};
+        map->values = numbers(user_room, rest, map->parameter, &map->value_count);
+        if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
+            refuse(user_room, rest.begin, "stability: needs values of a parameter: reynolds 100, 400");
+        }
+        scene->stability = map;
     } else if (gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
         scene->no_stability =
             "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
 }
 
-static void check_graphs(struct gm_user_room *user_room, const struct gm_room *room)
-{
-    const struct gm_statement *graph;
-    for (size_t i = 0; (graph = gm_statement(&room->said, GM_LINE_GRAPH, i)); i++) {
-        observable_key(user_room, &graph->pieces[0]);
-    }
-}
-
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
-    const struct gm_statements *said = &user_room->room.said;
-    const struct gm_statement *schemes = gm_statement(said, GM_LINE_SCHEMES, 0),
-                              *lanes = gm_statement(said, GM_LINE_LANES, 0),
-                              *time = gm_statement(said, GM_LINE_TIME, 0), *line;
     struct gm_scene *scene = &user_room->scene;
+    struct gm_span rest, piece;
+    const char *watch = said(user_room, "watch"), *time = said(user_room, "time");
     make_rows(user_room);
-    for (size_t i = 0; (line = gm_statement(said, GM_LINE_PROFILE, i)); i++) {
-        add_profile(user_room, line);
+    for (size_t i = 0; gm_room_said(&user_room->room, "profile", i, &rest); i++) {
+        add_profile(user_room, rest);
     }
-    for (size_t i = 0; (line = gm_statement(said, GM_LINE_TABLE, i)); i++) {
-        add_table(user_room, line);
+    for (size_t i = 0; gm_room_said(&user_room->room, "table", i, &rest); i++) {
+        add_table(user_room, rest);
     }
-    for (size_t i = 0; (line = gm_statement(said, GM_LINE_OBSERVE, i)); i++) {
-        observe(user_room, line);
+    for (size_t i = 0; gm_room_said(&user_room->room, "observe", i, &rest); i++) {
+        observe(user_room, rest);
     }
     scene->observable_count = user_room->observable_count;
-    check_graphs(user_room, &user_room->room);
-    for (size_t i = 0; i < user_room->other_count; i++) {
-        check_graphs(user_room, user_room->others[i]);
+    scene->watch = watch ? watch : scene->watch;
+    if (gm_room_said(&user_room->room, "schemes", 0, &rest)) {
+        scene->schemes = list_schemes(user_room, rest, gm_room_keep(user_room, rest));
     }
-    scene->watch = gm_statement_text(said, GM_LINE_WATCH) ? gm_statement_text(said, GM_LINE_WATCH) : "";
-    scene->schemes = schemes ? list_schemes(user_room, &schemes->pieces[0]) : scene->schemes;
-    scene->lanes = lanes ? arguments(user_room, &lanes->pieces[0]) : NULL;
-    if (time) {
-        const char *meaning = option(time, GM_LINE_TIME_TEXT);
-        scene->time = meaning ? meaning : time->pieces[0].text;
+    if (gm_room_said(&user_room->room, "lanes", 0, &rest)) {
+        scene->lanes = take_arguments(user_room, &rest);
     }
+    if (gm_room_said(&user_room->room, "time", 0, &rest) &&
+        gm_span_take(user_room->room.text, &rest, ";", &piece)) {
+        scene->time = rest.begin < rest.end ? gm_room_keep(user_room, rest) : time;
+    }
+    check_choices(user_room);
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }

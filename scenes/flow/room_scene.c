@@ -6,6 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+const char *gm_room_keep(struct gm_user_room *user_room, struct gm_span span)
+{
+    return gm_arena_keep(user_room->arena, gm_span_words(user_room->room.text, span), free);
+}
+
 char *gm_room_format(struct gm_user_room *user_room, const char *format, ...)
 {
     va_list arguments;

@@ -40,8 +40,7 @@ struct gm_room_table {
     const char *name;
     const struct gm_room_profile *profile;
     const struct gm_parameter *row; /* they hold where it has that value; NULL: always */
-    double value;
-    const double *points;
+    double value, *points;
     size_t count;
 };
 
@@ -49,11 +48,8 @@ struct gm_user_room {
     struct gm_scene scene; /* first: a scene is found to be this */
     struct gm_arena *arena;
     struct gm_room_file file;
-    struct gm_fault *wrong;  /* while it is made */
-    struct gm_room room;     /* with its parameters at their defaults */
-    struct gm_room **others; /* with each word of its choices */
-    size_t other_count;
-    bool listed; /* its file lists what is observed */
+    struct gm_fault *wrong; /* while it is made */
+    struct gm_room room;    /* with its parameters at their defaults */
     struct gm_flows initial;
     const char *mesh;
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
@@ -84,9 +80,12 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
-/* A text that lasts as long as the scene. */
+/* Texts that last as long as the scene: words of its file, and others. */
+const char *gm_room_keep(struct gm_user_room *user_room, struct gm_span span);
 __attribute__((format(printf, 2, 3))) char *gm_room_format(struct gm_user_room *user_room, const char *format,
                                                            ...);
+/* A part of a lane's text, for a picture. */
+const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span);
 /* Leaves the arena with what is wrong at a place of the file. */
 _Noreturn void gm_room_refuse(struct gm_user_room *user_room, const struct gm_fault *fault);
 

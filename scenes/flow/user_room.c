@@ -13,7 +13,6 @@
 #include "core/basics.h"
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
-#include "core/memory.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/room_lines.h"
 
@@ -27,10 +26,9 @@ static const char *name_unit(const struct gm_user_room *user_room, struct powers
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
     static const int order[3] = {2, 0, 1};
-    const char *units = gm_statement_text(&user_room->room.said, GM_LINE_UNITS);
     char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
     for (int i = 0; i < 3; i++) {
-        const char *at = units ? units : "";
+        const char *at = user_room->room.units ? user_room->room.units : "";
         const int power = powers.of[order[i]];
         for (int place = order[i]; place > 0 && *at; place--) {
             at += strcspn(at, ", ");
@@ -87,58 +85,40 @@ static double through(const struct gm_view *view, size_t side, bool scalar)
     return sum;
 }
 
-/* The number, from 1, of the line of a lane's room that names a side, or a probe; 0: it has none. */
-static size_t find_line(const struct gm_room *room, const char *name, bool probe)
-{
-    for (size_t i = 0; i < room->count; i++) {
-        const enum gm_room_word word = room->lines[i].word;
-        if ((probe ? word == GM_ROOM_PROBE : word <= GM_ROOM_BOUNDARY) &&
-            strcmp(room->lines[i].name, name) == 0) {
-            return i + 1;
-        }
-    }
-    return 0;
-}
-
 static double observe_local(const struct gm_view *view)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     const struct gm_room_subject *subject = &user_room->subjects[view->observable - user_room->observables];
-    const struct gm_room *room = gm_room_of(view->problem);
     const struct gm_flow *flow = gm_flow_of(view->problem);
-    const bool stepped = view->run && view->run->steps > 0,
-               probe = subject->what >= SCALAR && subject->what <= TEMPERATURE;
-    const size_t line = subject->name ? find_line(room, subject->name, probe) : subject->number;
+    const bool stepped = view->run && view->run->steps > 0;
     struct gm_sample sample;
-    double force[2], pressure, at[2];
-    if (line == 0) {
-        return NAN;
-    }
-    if (probe) {
-        gm_room_point(room, &room->lines[line - 1], at);
-    }
+    double force[2], pressure;
     switch ((enum local)subject->what) {
     case FLOW:
     case SCALAR_FLOW:
-        return through(view, line, subject->what == SCALAR_FLOW);
+        return through(view, subject->number, subject->what == SCALAR_FLOW);
     case SCALAR:
     case SPEED:
     case TEMPERATURE:
-        if (!gm_flow_sample(flow, view->state, at[0], at[1], &sample)) {
+        if (!gm_flow_sample(flow, view->state, subject->at[0], subject->at[1], &sample)) {
             return NAN;
         }
         return subject->what == SCALAR  ? sample.theta
                : subject->what == SPEED ? hypot(sample.u, sample.v)
                                         : sample.temperature;
     case PRESSURE:
-        return stepped && gm_flow_pressure_at(flow, view->state, at[0], at[1], &pressure) ? pressure : NAN;
+        return stepped && gm_flow_pressure_at(flow, view->state, subject->at[0], subject->at[1], &pressure)
+                   ? pressure
+                   : NAN;
     case HEAT:
-        return stepped ? gm_flow_heat(flow, view->state, line) : NAN;
+        return stepped ? gm_flow_heat(flow, view->state, subject->number) : NAN;
     case DRAG:
     case LIFT:
-        return stepped && gm_flow_force(flow, view->state, line, force) ? force[subject->what - DRAG] : NAN;
+        return stepped && gm_flow_force(flow, view->state, subject->number, force)
+                   ? force[subject->what - DRAG]
+                   : NAN;
     default:
-        return gm_flow_circulation(flow, view->state, line);
+        return gm_flow_circulation(flow, view->state, subject->number);
     }
 }
 
@@ -211,26 +191,6 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
     return room;
 }
 
-/* Whether every group of a list, "1,2", that a parameter gives is on the mesh's boundary, and there once. */
-static bool has_groups(const struct gm_triangulation *mesh, const struct gm_room_parameter *list,
-                       char *sentence)
-{
-    char name[GM_TEXT_SIZE];
-    for (const char *at = list->text; *at; at += strcspn(at, ","), at += *at == ',') {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        const long tag = gm_flows_group(mesh, list->name, name, sentence);
-        for (const char *before = list->text; before < at; before += strcspn(before, ",") + 1) {
-            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
-                return gm_refuse(sentence, "the group \"%.60s\" is named twice", name);
-            }
-        }
-        if (tag == 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room *room,
                       const struct gm_flows *chosen, struct gm_triangulation *mesh, char *sentence)
 {
@@ -244,14 +204,6 @@ static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room
     if (!gm_flows_file(path, user_room->inside, (enum gm_star)chosen->star, mesh, sentence)) {
         return false;
     }
-    for (size_t i = 0; room && i < room->count; i++) { /* sides that the command line names */
-        const struct gm_room_line *line = &room->lines[i];
-        const struct gm_room_parameter *other = gm_room_parameter(&room->names, line->name);
-        if (line->word <= GM_ROOM_BOUNDARY && other && !has_groups(mesh, other, sentence)) {
-            gm_triangulation_close(mesh);
-            return false;
-        }
-    }
     return !room || chosen->refine < 2 ||
            gm_flows_refine(path, (enum gm_star)chosen->star, chosen->refine, mesh, sentence);
 }
@@ -260,13 +212,13 @@ static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room
 static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *room,
                           enum gm_vertex_kind *kind, char *group, char *sentence)
 {
-    if (!gm_room_parameter(&room->names, "outlet")) {
+    if (!gm_room_parameter(room, "outlet")) {
         return true;
     }
     if (!gm_flows_outlet(chosen->outlet, kind, group, sentence)) {
         return false;
     }
-    const bool names = gm_room_parameter(&room->names, "inlet");
+    const bool names = gm_room_parameter(room, "inlet");
     if (has_rectangle(chosen) && names &&
         (strcmp(group, "outlet") != 0 || strcmp(chosen->inlet, "inlet") != 0)) {
         return gm_refuse(
@@ -275,12 +227,6 @@ static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *r
     }
     return names || strcmp(group, "outlet") == 0 ||
            gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", chosen->outlet);
-}
-
-/* The parameter that gives the edges of a rectangle. */
-static const char *edges_key(const struct gm_room *room)
-{
-    return gm_statement_piece(gm_statement(&room->said, GM_LINE_RECTANGLE, 0), GM_LINE_RECTANGLE_EDGES)->text;
 }
 
 /* The flow of a lane's room; NULL with a sentence. */
@@ -293,11 +239,10 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     const long edges = room->rectangle.edges, multiple = room->multiple;
     room->from_file = room->rectangular && !has_rectangle(chosen);
     if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
-        const char *key = edges_key(room);
         gm_refuse(
             sentence,
             "%s=%ld: the lips of inlet and outlet are vertices only if %s is a multiple of %ld; the nearest is %ld",
-            key, edges, key, multiple, multiple * ((edges + multiple / 2) / multiple));
+            room->edges, edges, room->edges, multiple, multiple * ((edges + multiple / 2) / multiple));
         return NULL;
     }
     if (!read_mesh(user_room, room, chosen, &mesh, sentence)) {
@@ -310,17 +255,16 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
         tell(user_room, &fault, boundary, sentence);
         return NULL;
     }
-    const struct gm_statement *time = gm_statement(&room->said, GM_LINE_TIME, 0);
-    if (gm_statement_piece(time, GM_LINE_TIME_TEXT)) {
-        const struct gm_span unit = time->pieces[0].span;
-        if (!gm_room_number(&room->names, unit, &flow->time_unit, &fault) ||
-            (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number"))) {
-            gm_flow_close(flow);
-            tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
-            return NULL;
-        }
+    struct gm_span rest, unit;
+    if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &unit) &&
+        rest.begin < rest.end &&
+        (!gm_room_number(room, unit, &flow->time_unit, &fault) ||
+         (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number")))) {
+        gm_flow_close(flow);
+        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        return NULL;
     }
-    room->names.measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
+    room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
     flow->tracers = (size_t)chosen->tracers;
     flow->smoke = chosen->smoke;
     return flow;
@@ -371,26 +315,20 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
     (void)sentence;
     const struct gm_user_room *user_room = gm_user_room_of(self);
     struct gm_fault fault;
-    struct gm_room *room =
-        user_room->room.rectangular ? room_for(user_room, self, user_room->initial.outlet, &fault) : NULL;
-    const struct gm_statement *mesh = room ? gm_statement(&room->said, GM_LINE_RECTANGLE, 0) : NULL;
-    const struct gm_piece *pieces[] = {gm_statement_piece(mesh, GM_LINE_RECTANGLE_EDGES),
-                                       gm_statement_piece(mesh, GM_LINE_RECTANGLE_STRIPS)};
-    const struct gm_parameter *row[2] = {NULL, NULL};
-    for (int i = 0; i < 2; i++) {
-        row[i] = pieces[i] ? gm_scene_parameter(&user_room->scene, pieces[i]->text) : NULL;
-    }
+    struct gm_room *room = room_for(user_room, self, user_room->initial.outlet, &fault);
+    const struct gm_parameter *row[] = {room ? gm_scene_parameter(&user_room->scene, room->edges) : NULL,
+                                        room ? gm_scene_parameter(&user_room->scene, room->strips) : NULL};
     if (row[0] && row[1] && row[0]->type == GM_INTEGER && row[1]->type == GM_INTEGER) {
         const bool by_edges = gm_is_given(row[0]->key, keys, count),
                    by_strips = gm_is_given(row[1]->key, keys, count);
-        struct gm_rectangle box = room->rectangle;
+        const struct gm_rectangle *box = &room->rectangle;
         const long multiple = room->multiple;
         long *edges = (long *)((char *)self + row[0]->offset),
              *strips = (long *)((char *)self + row[1]->offset);
         if (by_edges && !by_strips && *strips > 0) {
-            *strips = gm_rectangle_strips(box.width, box.height, *edges, box.transposed);
+            *strips = gm_rectangle_strips(box->width, box->height, *edges, box->transposed);
         } else if (by_strips && !by_edges && *strips > 0) {
-            *edges = gm_rectangle_edges(&box);
+            *edges = gm_rectangle_edges(box);
         }
         if (multiple > 0 && !by_edges) {
             *edges = (long)fmax(row[0]->lowest, (double)(multiple * ((*edges + multiple / 2) / multiple)));
@@ -403,30 +341,24 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
 static bool start(const void *parameters, const struct gm_problem *problem, const struct gm_scheme *scheme,
                   double *y, char *sentence)
 {
+    (void)parameters;
     (void)scheme;
     const struct gm_room *room = gm_room_of(problem);
     const struct gm_flow *flow = gm_flow_of(problem);
     const struct gm_room_line *line = gm_room_line(room, GM_ROOM_START);
-    const size_t place = line ? line->value[GM_ROOM_VORTICITY].place : 0;
-    const unsigned long refusals = gm_memory_refusals();
-    double *omega = place > 0 ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
-    struct gm_fault fault = {.sentence = "the boundary does not determine the stream function at the start"};
-    bool good = place == 0 || omega;
-    for (size_t v = 0; omega && good && v < flow->complex->vertices; v++) {
-        const double *p = flow->complex->point + 2 * v, at[GM_ROOM_AT] = {0, p[0], p[1], 0};
+    const bool turns = line && line->value[GM_ROOM_VORTICITY].place > 0;
+    double *omega = turns ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
+    bool finite = true;
+    for (size_t v = 0; omega && v < flow->complex->vertices; v++) {
+        const double at[4] = {0, flow->complex->point[2 * v], flow->complex->point[2 * v + 1], 0};
         omega[v] = gm_room_value(room, line, GM_ROOM_VORTICITY, at, 0);
-        good = isfinite(omega[v]) ||
-               gm_fail(&fault, place, "the vorticity is not finite at (%.4g, %.4g)", p[0], p[1]);
+        finite = finite && isfinite(omega[v]);
     }
-    good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
+    const bool good = finite && (turns ? omega && gm_flow_start_vorticity(flow, omega, y)
+                                       : gm_flow_start_irrotational(flow, y));
     free(omega);
-    if (!good && gm_memory_refusals() != refusals) {
-        return gm_refuse(sentence, "not enough memory");
-    }
-    if (!good) {
-        tell(gm_user_room_of(parameters), &fault, GM_BOUNDARY_OK, sentence);
-    }
-    return good;
+    /* where memory was short the lane says so */
+    return good || gm_refuse(sentence, "the room and its boundary determine no stream function at the start");
 }
 
 /* Whether heat is carried that nothing takes away. */
@@ -518,6 +450,44 @@ static double enriched(const struct gm_flow *flow)
     return through > 0 ? 2 * sum / through : 0;
 }
 
+/* colours: vorticity F, speed F */
+static double colours_end(const struct gm_room *room, const char *word, double otherwise)
+{
+    struct gm_span rest, piece, value;
+    struct gm_fault fault = {0};
+    gm_room_said(room, "colours", 0, &rest);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
+        if (gm_room_option(room, piece, word, &value)) {
+            gm_room_number(room, value, &otherwise, &fault);
+        }
+    }
+    return otherwise;
+}
+
+/* What stands behind the parameters of the line `subtitle:`, with values in braces. */
+static const char *remark(struct gm_picture *picture, const struct gm_room *room, size_t parameters)
+{
+    struct gm_span rest;
+    struct gm_fault fault;
+    const char *filled = "";
+    gm_room_said(room, "subtitle", 0, &rest);
+    for (size_t i = 0; rest.begin < rest.end; i++) {
+        const size_t open = gm_span_until(room->text, rest, "{"),
+                     close = gm_span_until(room->text, (struct gm_span){open, rest.end}, "}");
+        double value = NAN;
+        if (i >= parameters) {
+            filled =
+                gm_picture_text(picture, "%s%.*s", filled, (int)(open - rest.begin), room->text + rest.begin);
+        }
+        if (i >= parameters && open < close &&
+            gm_room_number(room, (struct gm_span){open + 1, close}, &value, &fault)) {
+            filled = gm_picture_text(picture, "%s%.4g", filled, value);
+        }
+        rest.begin = close < rest.end ? close + 1 : close;
+    }
+    return filled;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
@@ -543,59 +513,44 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const struct gm_scene *scene = &user_room->scene;
-    const bool named = !room->rectangular, units = gm_statement(&room->said, GM_LINE_UNITS, 0);
-    const char *scalar = gm_statement_text(&user_room->room.said, GM_LINE_SCALAR);
-    const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
-    for (size_t i = 0; sides && i < room->count; i++) {
-        sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
-    }
     struct gm_look look = {
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
                   gm_picture_text(picture, "%s", name_unit(user_room, spread, unit)), false},
                  {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
-        .sides = sides,
-        .graphs = {flow->heat             ? "temperature_mean"
-                   : user_room->forces[0] ? user_room->forces[0]
-                   : scalar               ? "scalar_mean"
-                                          : "scalar_total",
+        .axes = {gm_picture_text(picture, "x%s", beside_unit(user_room, length, unit)),
+                 gm_picture_text(picture, "y%s", beside_unit(user_room, length, unit))},
+        .sides = user_room->sides,
+        .graphs = {flow->heat               ? "temperature_mean"
+                   : user_room->forces[0]   ? user_room->forces[0]
+                   : user_room->room.scalar ? "scalar_mean"
+                                            : "scalar_total",
                    flow->heat             ? "kinetic_energy"
                    : user_room->forces[1] ? user_room->forces[1]
                                           : "scalar_outflow"},
-        .title = scene->title,
-        .scalar_high = high > 0 ? high : 1,
-        .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = scalar},
-        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
-        .speed_high = 1.2 * speed,
     };
-    if (!gm_scene_parameter(scene, "schmidt") || !gm_scene_parameter(scene, "viscosity")) {
-        memset(look.told, 0, sizeof look.told);
-    }
-    for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
-        look.graphs[c] = gm_scene_observable(scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || units) {
-            look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
+    if (user_room->room.rectangular) {
+        const char *const axes[] = {look.axes[0], look.axes[1]};
+        look = user_room->look;
+        for (int c = 0; c < 2 && user_room->room.units; c++) {
+            look.axes[c] = axes[c];
         }
     }
-    for (size_t i = 0; i < GM_COUNT(shown) && units; i++) {
+    look.title = user_room->scene.title;
+    look.scalar_high = high > 0 ? high : 1;
+    memcpy(look.temperature, warm, sizeof warm);
+    look.names[GM_SHOW_SCALAR] = user_room->room.scalar;
+    look.vorticity_range = colours_end(room, "vorticity", 6 * speed / fmax(flow->inlet_length, size / 10));
+    look.speed_high = colours_end(room, "speed", 1.2 * speed);
+    for (size_t i = 0; i < GM_COUNT(look.graphs); i++) {
+        gm_room_graph(room, i, &look);
+    }
+    look.remark = remark(picture, room, (look.told[0].name != NULL) + (look.told[1].name != NULL));
+    for (size_t i = 0; i < GM_COUNT(shown) && user_room->room.units; i++) {
         look.names[shown[i].show] =
             gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
     }
-    gm_room_take_look(user_room, room, picture, &look);
     gm_flows_draw(lanes, count, picture, &look);
-}
-
-/* Whether a room that lists what is observed lists this: what goes through an opening it has to. */
-static bool is_wanted(const struct gm_user_room *user_room, enum local what, const char *key)
-{
-    const struct gm_statement *line;
-    bool wanted = what > SCALAR_FLOW || !user_room->listed;
-    for (size_t i = 0; !wanted && (line = gm_statement(&user_room->room.said, GM_LINE_OBSERVE, i)); i++) {
-        wanted = strcmp(line->pieces[0].text, key) == 0;
-    }
-    return wanted;
 }
 
 /* Adds observables "NAME_what" of a subject, from one to another, with their units; blanks and signs in names become _.
@@ -636,15 +591,10 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
         for (char *at = key; *at; at++) {
             *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
         }
-        size_t k = 0;
-        while (k < i && strcmp(user_room->observables[k].key, key) != 0) {
-            k++;
+        for (size_t k = 0; k < i && !user_room->doubled; k++) {
+            const char *other = user_room->observables[k].key;
+            user_room->doubled = strcmp(other, key) == 0 ? other : NULL;
         }
-        const char *other = k < i ? user_room->subjects[k].name : NULL;
-        if ((other && subject.name && strcmp(other, subject.name) == 0) || !is_wanted(user_room, what, key)) {
-            continue; /* it is there by another word of a choice */
-        }
-        user_room->doubled = k < i ? user_room->observables[k].key : user_room->doubled;
         user_room->observables[i] =
             (struct gm_observable){.key = key,
                                    .title = gm_room_format(user_room, "%s %s%s", name, rows[what].title,
@@ -676,47 +626,41 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
                 {"star_least", NULL, {{0, 0, 0}}},
                 {"scalar_mean", "mean", {{0, 0, 0}}},
                 {"temperature_mean", NULL, {{0, 0, 1}}}};
-    const char *scalar = gm_statement_text(&user_room->room.said, GM_LINE_SCALAR);
     char unit[GM_ROOM_UNIT + 8];
     for (size_t i = 0; i + !heat < GM_COUNT(rows); i++) {
         struct gm_observable *observable = &user_room->observables[user_room->observable_count++];
         *observable = *gm_room_observable(rows[i].key, false);
-        observable->title = rows[i].of_scalar && scalar
-                                ? gm_room_format(user_room, "%s %s", rows[i].of_scalar, scalar)
-                                : gm_room_format(user_room, "%s%s", observable->title,
-                                                 beside_unit(user_room, rows[i].powers, unit));
+        observable->title =
+            rows[i].of_scalar && user_room->room.scalar
+                ? gm_room_format(user_room, "%s %s", rows[i].of_scalar, user_room->room.scalar)
+                : gm_room_format(user_room, "%s%s", observable->title,
+                                 beside_unit(user_room, rows[i].powers, unit));
     }
 }
 
-/* What is named: openings, probes, walls with heat. */
-static void observe_lines(struct gm_user_room *user_room, const struct gm_room *room)
+static void make_observables(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
+    const struct gm_room *room = &user_room->room;
     const bool heat = !isnan(room->buoyancy);
+    bool brought = false;
+    observe_common(user_room, heat);
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        const struct gm_room_subject subject = {.name = line->name};
+        struct gm_room_subject subject = {.number = i + 1};
+        brought |= line->word == GM_ROOM_SOURCE ||
+                   (line->word == GM_ROOM_INLET && line->value[GM_ROOM_SCALAR].place > 0);
         if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
             observe(user_room, line->name, FLOW, SCALAR_FLOW, subject);
         } else if (line->word == GM_ROOM_PROBE) {
+            gm_room_point(room, line, subject.at);
             observe(user_room, line->name, SCALAR, heat ? TEMPERATURE : PRESSURE, subject);
         } else if (line->word == GM_ROOM_WALL &&
                    (line->value[GM_ROOM_TEMPERATURE].place > 0 || line->value[GM_ROOM_HEAT].place > 0)) {
             observe(user_room, line->name, HEAT, HEAT, subject);
         }
     }
-}
-
-static void observe_holes(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
-{
-    const struct gm_room *room = &user_room->room;
     const size_t first = user_room->observable_count;
-    bool brought = false;
-    for (size_t i = 0; i < room->count; i++) {
-        const struct gm_room_line *line = &room->lines[i];
-        brought |= line->word == GM_ROOM_SOURCE ||
-                   (line->word == GM_ROOM_INLET && line->value[GM_ROOM_SCALAR].place > 0);
-    }
-    for (size_t hole = 1; mesh->complex && hole < mesh->complex->loops; hole++) {
+    for (size_t hole = 1; hole < mesh->complex->loops; hole++) {
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
         observe(user_room, name, DRAG, CIRCULATION, (struct gm_room_subject){.number = hole});
@@ -748,11 +692,11 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
     return gm_room_format(user_room, "%s:%08x", user_room->file.name, (unsigned)sum);
 }
 
-/* Where the mesh of a file is. */
-static void find_mesh(struct gm_user_room *user_room, const char *mesh)
+/* Where the mesh is. */
+static void find_mesh(struct gm_user_room *user_room)
 {
     const struct gm_room_file *file = &user_room->file;
-    const char *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
+    const char *mesh = user_room->room.mesh, *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
     user_room->mesh =
         gm_room_format(user_room, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0, file->path, mesh);
     if (file->built_in || access(user_room->mesh, F_OK) != 0) {
@@ -768,41 +712,6 @@ static void close_mesh(void *mesh)
 static void close_read(void *room)
 {
     gm_room_close(room);
-}
-
-/* The room with a word of a choice: what is wrong with its lines is said at once, and what they name is observed. */
-static void try_word(struct gm_user_room *user_room, const struct gm_room_given *given)
-{
-    const char *usual = gm_statement_text(&user_room->room.said, GM_LINE_MESH);
-    struct gm_room *room = gm_arena_take(user_room->arena, 1, sizeof *room);
-    struct gm_fault fault;
-    gm_arena_keep(user_room->arena, room, close_read);
-    if (!gm_room_read(room, user_room->file.text, user_room->file.length, given, 1, &fault)) {
-        gm_room_refuse(user_room, &fault);
-    }
-    const char *mesh = gm_statement_text(&room->said, GM_LINE_MESH);
-    if (!mesh != !usual || (mesh && strcmp(mesh, usual) != 0)) {
-        gm_fail(&fault, gm_statement(&room->said, mesh ? GM_LINE_MESH : GM_LINE_RECTANGLE, 0)->place,
-                "mesh: a file is the mesh for every word of a choice");
-        gm_room_refuse(user_room, &fault);
-    }
-    observe_lines(user_room, room);
-    user_room->others = gm_arena_resize(user_room->arena, user_room->others, user_room->other_count + 1,
-                                        sizeof *user_room->others);
-    user_room->others[user_room->other_count++] = room;
-}
-
-static void try_choices(struct gm_user_room *user_room)
-{
-    const struct gm_room_names *names = &user_room->room.names;
-    for (size_t i = 0; i < names->count; i++) {
-        const char *at = names->parameters[i].words;
-        while (*(at += strspn(at, ", "))) {
-            const char *word = gm_room_format(user_room, "%.*s", (int)strcspn(at, ", "), at);
-            try_word(user_room, &(struct gm_room_given){.name = names->parameters[i].name, .text = word});
-            at += strlen(word);
-        }
-    }
 }
 
 /* A scene that is made, and what is wrong with its file. */
@@ -848,12 +757,10 @@ static void make(struct gm_arena *arena, void *data)
         gm_room_refuse(user_room, &fault);
     }
     const struct gm_room *room = &user_room->room;
-    const char *title = gm_statement_text(&room->said, GM_LINE_TITLE),
-               *about = gm_statement_text(&room->said, GM_LINE_ABOUT);
     user_room->scene = (struct gm_scene){
         .name = user_room->file.name,
-        .title = title ? title : "A room of one’s own",
-        .blurb = about ? about : "A room of one’s own.",
+        .title = room->title ? room->title : "A room of one’s own",
+        .blurb = room->about ? room->about : "A room of one’s own.",
         .watch = "",
         .time = "that of its units",
         .size = sizeof user_room->initial,
@@ -874,22 +781,19 @@ static void make(struct gm_arena *arena, void *data)
     user_room->initial.room = user_room;
     user_room->initial.refine = 1;
     snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "none");
-    user_room->listed = room->rectangular && gm_statement(&room->said, GM_LINE_OBSERVE, 0);
     if (!room->rectangular) {
-        find_mesh(user_room, gm_statement_text(&room->said, GM_LINE_MESH));
+        find_mesh(user_room);
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
         gm_arena_keep(arena, mesh, close_mesh);
         if (!gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }
+        make_observables(user_room, mesh);
     }
-    if (!user_room->listed) {
-        observe_common(user_room, !isnan(room->buoyancy));
+    for (size_t i = 0; i < room->count && i + 1 < GM_ROOM_SIDES; i++) {
+        user_room->sides[i + 1] = room->lines[i].name;
     }
-    observe_lines(user_room, room);
-    observe_holes(user_room, mesh);
-    try_choices(user_room);
     gm_room_take_lines(user_room);
     if (file->word) {
         user_room->words[0] = gm_room_format(user_room, "%s", file->word);
