@@ -18,9 +18,6 @@ struct gm_rectangle {
     size_t fixed_count;
 };
 
-/* More of them make no mesh that a machine holds. */
-enum { GM_MOST_EDGES = 1000000 };
-
 /* Whether the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */
 bool gm_rectangle_is_acute(const struct gm_rectangle *rectangle);
 

@@ -388,16 +388,6 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
     return read_pairs(room, line, value, fault);
 }
 
-/* A number that parameters make, between two others; a whole one where `whole`. */
-static bool read_ranged(const struct gm_room *room, struct gm_span value, const char *name,
-                        struct gm_room_range range, bool whole, double *number, struct gm_fault *fault)
-{
-    return gm_room_number(room, value, number, fault) &&
-           ((*number >= range.least && *number <= range.most && (!whole || *number == floor(*number))) ||
-            gm_fail(fault, value.begin, "%s: is a %snumber from %g to %g", name, whole ? "whole " : "",
-                    range.least, range.most));
-}
-
 /* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
    False without a fault: the line names a file. */
 static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
@@ -428,9 +418,15 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
             i++;
         }
         if (i < GM_COUNT(options)) {
-            if (!read_ranged(room, value, options[i].word, options[i].range, options[i].key,
-                             options[i].number, fault)) {
+            const struct gm_room_range range = options[i].range;
+            double *number = options[i].number;
+            if (!gm_room_number(room, value, number, fault)) {
                 return false;
+            }
+            if (*number < range.least || *number > range.most ||
+                (options[i].key && *number != floor(*number))) {
+                return gm_fail(fault, value.begin, "%s: is a %snumber from %g to %g", options[i].word,
+                               options[i].key ? "whole " : "", range.least, range.most);
             }
             if (options[i].key) {
                 snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
@@ -729,7 +725,18 @@ static bool choose_lines(struct gm_room *room, const struct gm_room_given *given
                          struct gm_fault *fault)
 {
     struct gm_written_choices *choices = &room->choices;
-    bool good = gm_choices_read(choices, room->text, room->length, fault);
+    static const char *const chosen[] = {"time",   "subtitle",    "caption", "mesh", "colours",
+                                         "levels", "exact-while", "graph",   "side", NULL};
+    struct gm_text_line line;
+    bool good = gm_choices_read(choices, room->text, room->length, fault), inside = false;
+    for (size_t at = 0; good && gm_lines_next(room->text, room->length, &at, &line, fault);) {
+        const bool fixed = gm_span_among(room->text, line.word, others) < OTHERS &&
+                           !chosen[gm_span_among(room->text, line.word, chosen)];
+        inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
+        good = !inside || !fixed ||
+               gm_fail(fault, line.word.begin,
+                       "this line is the same for every word: it stands outside of blocks");
+    }
     for (size_t i = 0; good && i < choices->count; i++) {
         good = is_free(choices->list[i].name, choices->list[i].place, fault);
     }

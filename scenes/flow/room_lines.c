@@ -4,13 +4,10 @@
 #include "scenes/flow/room_lines.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/model/scope.h"
-#include "core/schemes.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
@@ -81,46 +78,24 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* The place at which something is not as it should be. */
-__attribute__((format(printf, 3, 4))) _Noreturn static void refuse(struct gm_user_room *user_room,
-                                                                   size_t place, const char *format, ...)
+/* Where something is not as it should be. */
+_Noreturn static void refuse(struct gm_user_room *user_room, size_t place, const char *sentence)
 {
-    struct gm_fault fault = {.offset = place};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(fault.sentence, sizeof fault.sentence, format, arguments);
-    va_end(arguments);
+    struct gm_fault fault;
+    gm_fail(&fault, place, "%s", sentence);
     gm_room_refuse(user_room, &fault);
 }
 
-/* Names of schemes, NULL behind them; NULL: there is no text. */
-static const char *const *list_schemes(struct gm_user_room *user_room, struct gm_span span, const char *text)
-{
-    const char *const *list = list_words(user_room, text);
-    for (const char *const *word = list; word && *word; word++) {
-        if (!gm_scheme_find(*word)) {
-            refuse(user_room, span.begin, "%.60s is no scheme", *word);
-        }
-    }
-    return list;
-}
-
-/* Takes words key=value, each with one of the scene's keys, and values that it takes. */
+/* Takes words key=value, each with one of the scene's keys, or a word that all scenes have. */
 static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
 {
-    const size_t place = rest->begin;
+    const size_t place = gm_span_trimmed(user_room->room.text, *rest).begin;
     const char *text = take(user_room, rest, ";");
-    const char *const *words = list_words(user_room, text);
-    struct gm_flows scratch;
-    for (const struct gm_parameter *row = NULL; words && *words; words++) {
-        const size_t letters = strcspn(*words, "=");
-        const bool more = !(*words)[letters]; /* another value of the list */
-        const char *key = gm_room_format(user_room, "%.*s", (int)letters, *words);
-        row = more ? row : gm_scene_parameter(&user_room->scene, key);
-        const char *value = more ? *words : *words + letters + 1;
-        if (row ? !strstr(value, "..") && gm_parameter_set(row, &scratch, value) != GM_PARSED
-                : more || !gm_reading_reserves(key, letters)) {
-            refuse(user_room, place, "%.60s is no key of this room with a value that it can have", *words);
+    for (const char *word = text; *word; word += strcspn(word, " "), word += *word == ' ') {
+        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(word, "= "), word);
+        if (word[strlen(key)] != '=' ||
+            !(gm_scene_parameter(&user_room->scene, key) || gm_reading_reserves(key, strlen(key)))) {
+            refuse(user_room, place, "words key=value were expected, with keys of the room: until=5");
         }
     }
     return text;
@@ -198,7 +173,7 @@ static void check_row(struct gm_user_room *user_room, const struct gm_parameter 
 {
     struct gm_flows scratch;
     if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
-        refuse(user_room, place, "%s = %.60s is no value that it can have", row->key, row->standard);
+        refuse(user_room, place, "the usual value lies outside of the range, or is none of the words");
     }
 }
 
@@ -213,7 +188,7 @@ static void add_choices(struct gm_user_room *user_room, size_t place, size_t *co
             words[i] = choice->words[i];
         }
         if (find_row(choice->name)) {
-            refuse(user_room, choice->place, "the name %s is reserved", choice->name);
+            refuse(user_room, choice->place, "this name is reserved");
         }
         const char *meaning =
             gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
@@ -250,7 +225,7 @@ static void make_rows(struct gm_user_room *user_room)
         const struct gm_parameter plain =
             GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
         if (!template && own == GM_FLOWS_OWN) {
-            refuse(user_room, parameter->place, "a room has at most %d parameters of its own", GM_FLOWS_OWN);
+            refuse(user_room, parameter->place, "a room has at most 8 parameters of its own");
         }
         add_choices(user_room, parameter->place, &choices);
         struct gm_parameter *row = add_row(user_room, template ? template : &plain);
@@ -281,10 +256,25 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
+/* Whether all pieces behind the first one begin with words that are known, NULL behind them. */
+static void check_options(struct gm_user_room *user_room, struct gm_span rest, const char *const *words)
+{
+    struct gm_span piece, word;
+    gm_span_take(user_room->room.text, &rest, ";", &piece);
+    while (gm_span_take(user_room->room.text, &rest, ";", &piece)) {
+        gm_span_take(user_room->room.text, &piece, " ", &word);
+        if (!words[gm_span_among(user_room->room.text, word, words)]) {
+            refuse(user_room, word.begin, "this line has no such option");
+        }
+    }
+}
+
 /* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new one, or what one that there is is called */
 static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
+    static const char *const options[] = {"along", "title", "missing", NULL};
     const struct gm_span line = rest;
+    check_options(user_room, line, options);
     const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
                *title = option(user_room, rest, "title"), *missing = option(user_room, rest, "missing");
     const struct gm_observable *row = gm_room_observable(key, along);
@@ -324,7 +314,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     profile->quantities = quantities;
     for (size_t i = 1; words && words[i]; i++) {
         if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
-            refuse(user_room, line.begin, "a profile shows u, v or scalar, not %.60s", words[i]);
+            refuse(user_room, line.begin, "a profile shows u, v or scalar");
         }
         quantities[i - 1] = words[i][0];
     }
@@ -497,9 +487,10 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     }
 }
 
-/* What a picture will show can be read, for each word of a choice. */
-static void check_look(struct gm_user_room *user_room, const struct gm_room *room)
+/* What a picture will show can be read. */
+static void check_look(struct gm_user_room *user_room)
 {
+    const struct gm_room *room = &user_room->room;
     struct gm_room measured = *room;
     struct gm_look look;
     struct gm_fault fault = {0};
@@ -512,11 +503,8 @@ static void check_look(struct gm_user_room *user_room, const struct gm_room *roo
     gm_room_said(room, "subtitle", 0, &rest);
     while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
         double value;
-        good = gm_room_number(&measured, piece, &value, &fault);
-    }
-    gm_room_said(room, "levels", 0, &rest);
-    while (good && gm_span_take(room->text, &rest, ",", &piece)) {
-        good = gm_room_number(room, piece, &look.scalar_high, &fault);
+        good = gm_scene_parameter(&user_room->scene, gm_room_keep(user_room, piece)) ||
+               gm_room_number(&measured, piece, &value, &fault);
     }
     for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
         good = take_graph(&measured, i, &piece, &ends, &fault);
@@ -524,30 +512,6 @@ static void check_look(struct gm_user_room *user_room, const struct gm_room *roo
     }
     if (!good) {
         gm_room_refuse(user_room, &fault);
-    }
-}
-
-static void close_read(void *room)
-{
-    gm_room_close(room);
-}
-
-/* Reads the room with each word of its choices, so that what is wrong with their lines is said at once. */
-static void check_choices(struct gm_user_room *user_room)
-{
-    const struct gm_written_choices *choices = &user_room->room.choices;
-    check_look(user_room, &user_room->room);
-    for (size_t i = 0; i < choices->count; i++) {
-        for (size_t k = 0; k < choices->list[i].count; k++) {
-            const struct gm_room_given given = {choices->list[i].name, choices->list[i].words[k], NAN};
-            struct gm_room *room = gm_arena_take(user_room->arena, 1, sizeof *room);
-            struct gm_fault fault;
-            gm_arena_keep(user_room->arena, room, close_read);
-            if (!gm_room_read(room, user_room->file.text, user_room->file.length, &given, 1, &fault)) {
-                gm_room_refuse(user_room, &fault);
-            }
-            check_look(user_room, room);
-        }
     }
 }
 
@@ -586,12 +550,15 @@ static void make_studies(struct gm_user_room *user_room)
     }
     scene->figures = figures;
     if (gm_room_said(&user_room->room, "work", 0, &rest)) {
+        const char *const options[] = {
+            "measure", "coarsest", "halvings", "errors", "schemes", user_room->room.edges, NULL};
         struct gm_work *work = &user_room->work;
-        *work = (struct gm_work){
-            .arguments = take_arguments(user_room, &rest),
-            .coarsest = option_number(user_room, rest, "coarsest", 0),
-            .halvings = (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31),
-            .schemes = list_schemes(user_room, rest, option(user_room, rest, "schemes"))};
+        check_options(user_room, rest, options);
+        *work = (struct gm_work){.arguments = take_arguments(user_room, &rest),
+                                 .coarsest = option_number(user_room, rest, "coarsest", 0),
+                                 .halvings =
+                                     (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31),
+                                 .schemes = list_words(user_room, option(user_room, rest, "schemes"))};
         if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
             work->measure = observable_key(user_room, piece);
         }
@@ -642,7 +609,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     scene->observable_count = user_room->observable_count;
     scene->watch = watch ? watch : scene->watch;
     if (gm_room_said(&user_room->room, "schemes", 0, &rest)) {
-        scene->schemes = list_schemes(user_room, rest, gm_room_keep(user_room, rest));
+        scene->schemes = list_words(user_room, gm_room_keep(user_room, rest));
     }
     if (gm_room_said(&user_room->room, "lanes", 0, &rest)) {
         scene->lanes = take_arguments(user_room, &rest);
@@ -651,7 +618,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
         gm_span_take(user_room->room.text, &rest, ";", &piece)) {
         scene->time = rest.begin < rest.end ? gm_room_keep(user_room, rest) : time;
     }
-    check_choices(user_room);
+    check_look(user_room);
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }
