@@ -278,10 +278,11 @@ void gm_certificate_note_same(struct gm_certificate *certificate, const struct g
     for (size_t c = 0; c < n; c++) {
         size = fmax(size, fabs(ends[c]));
     }
-    const double difference = good ? gm_distance(ends, ends + n, n) / size : INFINITY;
+    const double difference = gm_distance(ends, ends + n, n) / (size > 0 ? size : 1);
     struct gm_sameness *same = &certificate->same;
-    if (!same->other || !(difference <= same->difference)) {
-        *same = (struct gm_sameness){twin.scheme, difference, trial->problem->name, false};
+    if (good && (!same->other || !(difference <= same->difference))) {
+        *same = (struct gm_sameness){
+            .other = twin.scheme, .difference = difference, .problem = trial->problem->name};
     }
     free(ends);
 }
@@ -305,8 +306,10 @@ static void conclude(struct gm_certificate *certificate)
 {
     const double rounding = 1e-11;
     ask_theory(certificate);
-    certificate->same.holds = !certificate->same.other || certificate->same.difference <= rounding;
-    certificate->holds = certificate->order_holds && certificate->theory_holds && certificate->same.holds;
+    struct gm_sameness *same = &certificate->same;
+    same->holds = same->other && same->difference <= rounding;
+    certificate->holds = certificate->order_holds && certificate->theory_holds &&
+                         (!same->other || same->holds || same->undecided);
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *result = &certificate->claims[bit];
         const bool open = !result->measured && (result->undecided || result->reason);
@@ -330,6 +333,7 @@ struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct
 {
     struct gm_certificate certificate = begin(scheme);
     scheme->family->kind->certify_on(scheme, system, &certificate);
+    certificate.same.undecided = true; /* an equation of a long step may have several solutions */
     conclude(&certificate);
     return certificate;
 }

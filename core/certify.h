@@ -36,9 +36,9 @@ struct gm_ladder {
 /* A scheme that makes the same steps on some problems: the largest difference that was seen, as a part of the state. */
 struct gm_sameness {
     const struct gm_scheme *other; /* NULL: there is none on the problems that it is measured on */
-    double difference;             /* the largest after a few steps; INFINITY: a step failed */
+    double difference;             /* the largest after a few steps */
     const char *problem;           /* where */
-    bool holds;
+    bool holds, undecided;         /* undecided: a difference refutes nothing */
 };
 
 /* What was measured, and what the coefficients say: a claim that either refutes is broken. */

@@ -349,11 +349,17 @@ static size_t asked_shown(const struct gm_lane *lane)
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
 }
 
-/* The scheme whose steps a lane's scheme makes, or that one. */
-static const struct gm_scheme *method_of(const struct gm_lane *lane)
+/* Returns true if two schemes make the same steps on the problems of all lanes. */
+static bool are_same(const struct gm_scheme *a, const struct gm_scheme *b, const struct gm_lane *const *lanes,
+                     size_t count)
 {
-    const struct gm_scheme *same = gm_scheme_same_as(lane->scheme, &lane->problem);
-    return same ? same : lane->scheme;
+    bool same = true;
+    for (size_t i = 0; i < count && same; i++) {
+        const struct gm_scheme *other_a = gm_scheme_same_as(a, &lanes[i]->problem),
+                               *other_b = gm_scheme_same_as(b, &lanes[i]->problem);
+        same = (other_a ? other_a : a) == (other_b ? other_b : b);
+    }
+    return same;
 }
 
 /* Adds to the subtitle the first two lanes of schemes with two names that are one method. */
@@ -361,11 +367,11 @@ static void note_same(const struct gm_lane *const *lanes, size_t count, struct g
 {
     for (size_t i = 1; i < count; i++) {
         for (size_t k = 0; k < i; k++) {
-            if (lanes[k]->scheme != lanes[i]->scheme && method_of(lanes[k]) == method_of(lanes[i])) {
+            const struct gm_scheme *a = lanes[k]->scheme, *b = lanes[i]->scheme;
+            if (a != b && are_same(a, b, lanes, count)) {
                 const char *const before = picture->subtitle ? picture->subtitle : "";
-                picture->subtitle =
-                    gm_picture_text(picture, "%s%s%s and %s are the same method here", before,
-                                    before[0] ? ";  " : "", lanes[k]->scheme->title, lanes[i]->scheme->title);
+                picture->subtitle = gm_picture_text(picture, "%s%s%s and %s are the same method here", before,
+                                                    before[0] ? ";  " : "", a->title, b->title);
                 return;
             }
         }

@@ -95,8 +95,9 @@ static void print_certificate(const struct gm_certificate *certificate)
     }
     const struct gm_sameness *same = &certificate->same;
     if (same->other) {
+        const char *refuted = same->undecided ? "not decided" : "BROKEN";
         printf("  the same steps as %s: %s, largest difference %.1e (%s)\n", same->other->name,
-               same->holds ? "holds" : "BROKEN", same->difference, same->problem);
+               same->holds ? "holds" : refuted, same->difference, same->problem);
     }
 }
 
