@@ -41,4 +41,7 @@ extern const struct gm_problem gm_problem_fpu_of[GM_FPU_SPRINGS];
    *(const double *)parameters. */
 extern const struct gm_problem gm_problem_spring_pendulum;
 
+/* The ABC flow, (x, y, z); parameters: A, B, C as three doubles. */
+extern const struct gm_problem gm_problem_abc;
+
 #endif

@@ -14,9 +14,6 @@ extern const struct gm_problem gm_problem_pendulum;   /* (q, p), H = p^2/2 - cos
 extern const struct gm_problem gm_problem_oscillator_tangent;
 extern const struct gm_problem gm_problem_pendulum_tangent;
 
-/* The ABC flow, (x, y, z); parameters: A, B, C as three doubles. */
-extern const struct gm_problem gm_problem_abc;
-
 /* y' = A y in three dimensions; parameters: A, 9 doubles row by row; its trace is zero. */
 extern const struct gm_problem gm_problem_linear;
 

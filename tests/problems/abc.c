@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(abc)
 
