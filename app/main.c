@@ -13,8 +13,9 @@
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
-#include "app/native/sources.h"
+#include "app/native/cache.h"
 #include "app/output/say.h"
+#include "core/arena.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/address_space.h"
@@ -25,7 +26,7 @@
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
-    return i < gm_command_count ? gm_commands[i].name : gm_scene_at(i - gm_command_count)->name;
+    return i < gm_command_count ? gm_commands[i].name : gm_scene_name(i - gm_command_count);
 }
 
 /* Whether a word is one of a few, as --help, -h and help are. */
@@ -110,6 +111,21 @@ static void keep_buffers(void)
     }
 }
 
+/* A command that runs in the body of its arena. */
+struct running {
+    const struct gm_command_row *command;
+    struct gm_options options;
+    int status;
+};
+
+static void obey(struct gm_arena *arena, void *data)
+{
+    struct running *running = data;
+    running->options.arena = arena;
+    running->options.end = &running->status;
+    running->status = running->command->function(&running->options);
+}
+
 static int run(int argc, char *argv[])
 {
     keep_buffers();
@@ -145,20 +161,23 @@ static int run(int argc, char *argv[])
         }
     }
     char message[GM_MESSAGE];
-    struct gm_options options;
-    int status = GM_EXIT_USAGE;
-    if (gm_options_parse(&options, command->bit, argc, argv, first, message) &&
-        (!(command->bit & GM_PAINTS) || gm_canvas_choose(options.painter, message))) {
+    struct running running = {.command = command, .status = GM_EXIT_USAGE};
+    struct gm_options *options = &running.options;
+    if (gm_options_parse(options, command->bit, argc, argv, first, message) &&
+        (!(command->bit & GM_PAINTS) || gm_canvas_choose(options->painter, message))) {
         char kernels[4096];
         gm_kernel_folder(kernels, sizeof kernels);
-        gm_engine_choose(options.engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
-        status = command->function(&options);
+        gm_engine_choose(options->engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
+        struct gm_arena *arena = gm_arena_open();
+        running.status = GM_EXIT_MEMORY; /* unless something else is known */
+        gm_arena_run(arena, obey, &running);
+        gm_arena_close(arena);
         gm_canvas_settle();
     } else {
         gm_complain("%s", message);
     }
-    gm_options_close(&options);
-    return status;
+    gm_options_close(options);
+    return running.status;
 }
 
 int main(int argc, char *argv[])

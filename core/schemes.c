@@ -133,8 +133,8 @@ static bool is_called(const struct gm_scheme *scheme, const char *name)
 
 const struct gm_scheme *gm_scheme_find(const char *name)
 {
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
-        const struct gm_scheme *scheme = gm_scheme_at(i);
+    const struct gm_scheme *scheme;
+    for (size_t i = 0; (scheme = gm_scheme_at(i)); i++) {
         if (is_called(scheme, name)) {
             return scheme;
         }

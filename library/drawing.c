@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/still.h"
+#include "app/output/printer.h"
 #include "core/memory.h"
 #include "library/handle.h"
 #include "library/host.h"
@@ -76,7 +76,7 @@ static void draw(void *data)
     }
 }
 
-/* Whether a picture may look so; false with a sentence. */
+/* Returns true if the sizes of a picture are in range, otherwise false with a message. */
 static bool check(geomint *handle, const struct gm_appearance *look)
 {
     char sentence[GM_MESSAGE];

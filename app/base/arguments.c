@@ -3,6 +3,8 @@
    again. */
 #include "app/base/arguments.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -152,9 +154,16 @@ char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
         fputc(' ', stream);
         gm_arguments_put(stream, arguments->words[i]);
     }
-    if (fclose(stream) != 0) {
-        free(text);
-        return NULL;
-    }
+    fclose(stream);
     return text;
+}
+
+char *gm_text(const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    return length < 0 ? NULL : text;
 }

@@ -39,4 +39,7 @@ void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t si
 /* "FRONT word word"; malloc'ed, NULL when memory is short. */
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 
+/* A text as printf writes it; malloc'ed, NULL when memory is short. */
+__attribute__((format(printf, 1, 2))) char *gm_text(const char *format, ...);
+
 #endif

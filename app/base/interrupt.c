@@ -6,7 +6,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "app/base/exit.h"
 #include "render/files/temporary.h"
 
 enum { PATIENCE = 2 }; /* seconds */

@@ -19,4 +19,16 @@ void gm_interrupts_seen(void);
    and nothing else is unfinished. One that came before counts. */
 void gm_interrupts_end(bool at_once);
 
+/* Exit statuses of the program. */
+enum {
+    GM_EXIT_OK = 0,
+    GM_EXIT_USAGE = 1,
+    GM_EXIT_NUMERICAL = 2,
+    GM_EXIT_FILE = 3,
+    GM_EXIT_CLAIM = 4,
+    GM_EXIT_MEMORY = 5,
+    GM_EXIT_INTERRUPTED = 130,
+    GM_EXIT_PIPE = 141,
+};
+
 #endif

@@ -7,13 +7,16 @@
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
+#include "app/output/printer.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
-#include "app/output/still.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
+#include "core/arena.h"
+#include "core/expression/lines.h"
+#include "core/schemes.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 /* The texts that it reads. */
 enum {
@@ -36,46 +39,56 @@ static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY
                                         GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_PAGE,
                                         GM_KEY_TITLE,   GM_KEY_SYSTEM,    GM_KEY_ROOM,    GM_KEY_PAINTER};
 
-/* Opens every lane and drives it to the step that `steps` names for it. */
-static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
+_Noreturn static void refuse(const struct gm_options *options, const char *why)
 {
+    gm_command_end(options, GM_EXIT_FILE, "%s cannot be made again: %s", options->arguments.words[0], why);
+}
+
+static void close_request(void *request)
+{
+    gm_request_close(request);
+}
+
+static void close_lane(void *lane)
+{
+    gm_lane_close(lane);
+}
+
+/* Opens every lane and drives it to the step that `steps` names for it. */
+static const struct gm_lane *const *drive(const struct gm_options *options, const struct gm_request *request,
+                                          const char *steps)
+{
+    char message[GM_MESSAGE];
+    const struct gm_lane **lanes = gm_arena_take(options->arena, request->count, sizeof *lanes);
     for (size_t i = 0; i < request->count; i++) {
         char *end = NULL;
         const int64_t step = strtoll(steps, &end, 10);
         if (end == steps || step < 0 || step > GM_MOST_STEPS) {
-            return gm_refuse(message, "its steps are damaged");
+            refuse(options, "its steps are damaged");
         }
         steps = end;
-        lanes[i] = gm_request_open_lane(request, i, message);
-        struct gm_drive one = {.lane = lanes[i], .request = request, .index = i};
-        if (!lanes[i] || !gm_drive_to(&one, step, true, message)) {
-            return false;
+        struct gm_lane *lane = gm_request_open_lane(request, i, message);
+        if (!lane) {
+            refuse(options, message);
+        }
+        lanes[i] = gm_arena_keep(options->arena, lane, close_lane);
+        struct gm_drive one = {.lane = lane, .request = request, .index = i};
+        if (!gm_drive_to(&one, step, true, message)) {
+            refuse(options, message);
         }
     }
-    return true;
+    return lanes;
 }
 
-/* Whether the picture has all the texts of a picture of lanes; a sentence if not. */
-static bool is_complete(const char *path, char *const *texts, char *message)
+/* The picture must have all the texts of a picture of lanes. */
+static void check_texts(const struct gm_options *options, char *const *texts)
 {
     for (size_t i = ARGUMENTS; i < NEEDED; i++) {
         if (!texts[i]) {
-            return gm_refuse(message, "%.360s does not tell how it was made (it lacks %s)", path, keys[i]);
+            gm_command_end(options, GM_EXIT_FILE, "%.360s does not tell how it was made (it lacks %s)",
+                           options->arguments.words[0], keys[i]);
         }
     }
-    return true;
-}
-
-static bool parse(struct gm_request *request, const char *arguments, const char *changes, char *message)
-{
-    if (!gm_request_recall(request, arguments, message)) {
-        return false;
-    }
-    if (!gm_changes_parse(request, changes)) {
-        gm_request_close(request);
-        return gm_refuse(message, "its log of changes is damaged");
-    }
-    return true;
 }
 
 /* A room is read from its files, which may be others by now. */
@@ -86,27 +99,25 @@ static bool same_room(const struct gm_request *request, const char *told, char *
            gm_refuse(message, "its room is another one now: it was %.100s, and is %.100s", told, now);
 }
 
-/* The word that named the system means the text that the picture tells. False: no memory. */
-static bool recall_system(char *const *texts)
+/* The word that named the system means the text that the picture tells. */
+static void recall_system(const struct gm_options *options, char *const *texts)
 {
-    struct gm_arguments words = {0};
+    struct gm_arguments *words = gm_arguments_in(options->arena);
     const char *told = texts[COMMAND] ? texts[COMMAND] : texts[ARGUMENTS];
-    bool good = !texts[SYSTEM] || !told || gm_arguments_split(&words, told);
-    const int place = texts[COMMAND] ? gm_provenance_scene_place(&words) : 0;
-    good = good && (words.count <= place || gm_system_recall(words.words[place], texts[SYSTEM]));
-    gm_arguments_close(&words);
-    return good;
+    gm_arena_need(options->arena, !texts[SYSTEM] || !told || gm_arguments_split(words, told));
+    const int place = texts[COMMAND] ? gm_provenance_scene_place(words) : 0;
+    gm_arena_need(options->arena,
+                  words->count <= place || gm_system_recall(words->words[place], texts[SYSTEM]));
 }
 
-/* NAME-again, with `end` after it; malloc'ed */
-static char *output_name(const char *path, const char *end)
+/* NAME-again, with `end` after it. */
+static const char *output_name(const struct gm_options *options, const char *end)
 {
-    const char *slash = strrchr(path, '/');
+    const char *path = options->arguments.words[0], *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path;
     const char *dot = strrchr(base, '.');
-    char *name = NULL;
     const int length = dot ? (int)(dot - base) : (int)strlen(base);
-    return asprintf(&name, "%.*s-again%s", length, base, end) < 0 ? NULL : name;
+    return gm_arena_print(options->arena, "%.*s-again%s", length, base, end);
 }
 
 /* The command that measures a chart; NULL if there is none of that name. */
@@ -120,24 +131,23 @@ static const struct gm_command_row *chart_of(const char *name)
 static int chart_again(const struct gm_options *options, const char *command)
 {
     char message[GM_MESSAGE] = "its command is damaged";
-    struct gm_arguments words = {0};
-    const bool split = gm_arguments_split(&words, command);
-    const struct gm_command_row *chart = split && words.count > 0 ? chart_of(words.words[0]) : NULL;
+    struct gm_arguments *words = gm_arguments_in(options->arena);
+    gm_arena_need(options->arena, gm_arguments_split(words, command));
+    const struct gm_command_row *chart = words->count > 0 ? chart_of(words->words[0]) : NULL;
     struct gm_options again = {0};
-    char *name = output_name(options->arguments.words[0], "");
     int status = GM_EXIT_FILE;
-    if (name && chart && gm_options_parse(&again, chart->bit, words.count, words.words, 1, message)) {
+    if (chart && gm_options_parse(&again, chart->bit, words->count, words->words, 1, message)) {
         again.out = options->out || options->output ? options->out : ".";
         again.output = options->output;
         again.format = options->format;
-        again.name = name;
+        again.name = output_name(options, "");
+        again.arena = options->arena;
+        again.end = options->end;
         status = chart->function(&again);
     } else {
         gm_complain("%s cannot be made again: %s", options->arguments.words[0], message);
     }
     gm_options_close(&again);
-    gm_arguments_close(&words);
-    free(name);
     return status;
 }
 
@@ -177,60 +187,67 @@ static bool take_look(struct gm_appearance *look, char *const *texts)
            take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
 }
 
-/* Where the picture goes; malloc'ed. */
-static char *print_path(const struct gm_options *options)
+/* Where the picture goes. */
+static const char *print_path(const struct gm_options *options)
 {
-    char end[8], *name = NULL;
-    if (options->output) {
-        return strdup(options->output);
+    const char *end = gm_arena_print(options->arena, ".%s", gm_format_name(options->format));
+    return options->output ? options->output
+                           : gm_arena_print(options->arena, "%s/%s", options->out ? options->out : ".",
+                                            output_name(options, end));
+}
+
+/* Says which schemes were named as the program no longer names them. */
+static void tell_aliases(const struct gm_options *options, const char *arguments)
+{
+    static const char key[] = "scheme=";
+    struct gm_arguments *words = gm_arguments_in(options->arena);
+    gm_arena_need(options->arena, gm_arguments_split(words, arguments));
+    for (int i = 1; i < words->count; i++) {
+        const char *list = words->words[i];
+        struct gm_span rest = {sizeof key - 1, strlen(list)}, name;
+        while (strncmp(list, key, sizeof key - 1) == 0 && gm_span_take(list, &rest, ",", &name)) {
+            const char *typed =
+                gm_arena_print(options->arena, "%.*s", (int)(name.end - name.begin), list + name.begin);
+            const struct gm_scheme *scheme = gm_scheme_find(typed);
+            if (scheme && !scheme->word && strcmp(scheme->name, typed) != 0) {
+                gm_complain("%s is %s", typed, scheme->name);
+            }
+        }
     }
-    snprintf(end, sizeof end, ".%s", gm_format_name(options->format));
-    char *base = output_name(options->arguments.words[0], end);
-    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
-        name = NULL;
-    }
-    free(base);
-    return name;
 }
 
 /* Draws a picture of lanes once more. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
-    const char *path = options->arguments.words[0];
-    char message[GM_MESSAGE] = "not enough memory";
-    struct gm_request request = {0};
-    struct gm_lane **lanes = NULL;
-    char *name = print_path(options);
-    struct gm_print print = {.path = name, .format = options->format};
-    int status = GM_EXIT_FILE;
-    if (!name || !is_complete(path, texts, message)) {
-        gm_complain("%s", message);
-    } else if (!take_look(&print.look, texts)) {
-        gm_complain("%s cannot be made again: its size is damaged", path);
-    } else if (!parse(&request, texts[ARGUMENTS], texts[CHANGES], message)) {
-        gm_complain("%s cannot be made again: %s", path, message);
+    char message[GM_MESSAGE];
+    struct gm_print print = {.path = print_path(options), .format = options->format};
+    struct gm_request *request = gm_arena_take(options->arena, 1, sizeof *request);
+    check_texts(options, texts);
+    if (!take_look(&print.look, texts)) {
+        refuse(options, "its size is damaged");
+    }
+    gm_arena_keep(options->arena, request, close_request);
+    if (!gm_request_recall(request, texts[ARGUMENTS], message)) {
+        refuse(options, message);
+    }
+    if (!gm_changes_parse(request, texts[CHANGES])) {
+        refuse(options, "its log of changes is damaged");
+    }
+    tell_aliases(options, texts[ARGUMENTS]);
+    gm_catch_interrupts();
+    gm_printer_expect(print.format);
+    if (!same_room(request, texts[ROOM], message)) {
+        refuse(options, message);
+    }
+    const struct gm_lane *const *lanes = drive(options, request, texts[STEPS]);
+    int status = GM_EXIT_OK;
+    if (gm_interrupted) {
+        status = GM_EXIT_INTERRUPTED;
+    } else if (!gm_still_write(&print, request, lanes, message)) {
+        status = gm_printer_fail(print.path, message);
     } else {
-        gm_catch_interrupts();
-        gm_printer_expect(print.format);
-        lanes = calloc(request.count, sizeof *lanes);
-        if (!lanes || !same_room(&request, texts[ROOM], message) ||
-            !drive(&request, lanes, texts[STEPS], message)) {
-            gm_complain("%s cannot be made again: %s", path, message);
-        } else if (gm_interrupted) {
-            status = GM_EXIT_INTERRUPTED;
-        } else if (!gm_still_write(&print, &request, (const struct gm_lane *const *)lanes, message)) {
-            status = gm_printer_fail(print.path, message);
-        } else {
-            gm_printer_report(&print, "");
-            status = GM_EXIT_OK;
-        }
+        gm_printer_report(&print, "");
     }
-    for (size_t i = 0; lanes && i < request.count; i++) {
-        gm_lane_close(lanes[i]);
-    }
-    free(lanes);
-    gm_request_close(&request);
-    free(name);
     return gm_finish(status);
 }
 
@@ -255,16 +272,14 @@ int gm_command_again(const struct gm_options *options)
     if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
         return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
-    int status = GM_EXIT_USAGE;
-    if (!drawn && !take_painter(options, texts[PAINTER], message)) {
-        gm_complain("%.300s cannot be made again: %s", path, message);
-    } else {
-        status = !recall_system(texts) ? GM_EXIT_MEMORY
-                 : texts[COMMAND]      ? chart_again(options, texts[COMMAND])
-                                       : picture_again(options, texts);
-    }
     for (size_t i = 0; i < TEXTS; i++) {
-        free(texts[i]);
+        if (texts[i]) {
+            gm_arena_keep(options->arena, texts[i], free);
+        }
     }
-    return status;
+    if (!drawn && !take_painter(options, texts[PAINTER], message)) {
+        gm_command_end(options, GM_EXIT_USAGE, "%.300s cannot be made again: %s", path, message);
+    }
+    recall_system(options, texts);
+    return texts[COMMAND] ? chart_again(options, texts[COMMAND]) : picture_again(options, texts);
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/exit.h"
+#include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"

@@ -2,12 +2,14 @@
 /* What commands share: their table, and that what takes very long is asked about first. */
 #include "app/commands/commands.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/output/say.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
+#include "core/arena.h"
 #include "core/basics.h"
 
 const struct gm_command_row gm_commands[] = {
@@ -25,6 +27,17 @@ const struct gm_command_row *gm_command_find(const char *word)
         }
     }
     return gm_scene_find(word) || gm_system_is(word) ? &gm_commands[0] : NULL;
+}
+
+void gm_command_end(const struct gm_options *options, int status, const char *format, ...)
+{
+    char sentence[GM_MESSAGE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    *options->end = gm_give_up(status, "%s", sentence);
+    gm_arena_leave(options->arena);
 }
 
 /* ---- long runs ---- */
@@ -46,20 +59,37 @@ void gm_put_duration(double seconds, char *text, size_t size)
     snprintf(text, size, count < 1e5 ? "%.*f %s" : "%.*g %s", count < 9.5 ? 1 : 0, count, units[unit].name);
 }
 
-bool gm_command_confirmed(const struct gm_options *options, const struct gm_request *request)
+static void close_request(void *request)
+{
+    gm_request_close(request);
+}
+
+struct gm_request *gm_command_parse(const struct gm_options *options, int count, char *const words[],
+                                    size_t schemes)
+{
+    char message[GM_MESSAGE];
+    struct gm_request *request = gm_arena_take(options->arena, 1, sizeof *request);
+    gm_arena_keep(options->arena, request, close_request);
+    if (!gm_request_parse(request, count, words, schemes, message)) {
+        gm_command_end(options, gm_request_refusal(request), "%s", message);
+    }
+    return request;
+}
+
+void gm_command_confirm(const struct gm_options *options, const struct gm_request *request)
 {
     double steps = 0, seconds = 0;
     for (size_t i = 0; i < request->count; i++) {
         steps += gm_request_steps(request, i);
     }
     if (options->yes || steps <= gm_many_steps) {
-        return true;
+        return;
     }
     for (size_t i = 0; i < request->count; i++) {
         seconds += gm_drive_seconds(request, i);
     }
     char duration[64];
     gm_put_duration(seconds, duration, sizeof duration);
-    gm_complain("these are %.3g steps, which take about %s; --yes makes them", steps, duration);
-    return false;
+    gm_command_end(options, GM_EXIT_USAGE, "these are %.3g steps, which take about %s; --yes makes them",
+                   steps, duration);
 }

@@ -3,9 +3,11 @@
 #define GM_APP_COMMANDS_COMMANDS_H
 
 #include "app/base/arguments.h"
+#include "app/base/files.h"
 #include "app/explorer/terminal/device.h"
 #include "app/native/engine.h"
 #include "app/output/printer.h"
+#include "app/output/row.h"
 #include "app/words/request.h"
 
 /* The commands, as bits: an option says which of them take it. */
@@ -45,6 +47,8 @@ struct gm_options {
     bool sized;                    /* a size was given */
     struct gm_overrides terminal;  /* what to believe of it */
     struct gm_arguments arguments; /* what is left: scene, key=value, names */
+    struct gm_arena *arena;        /* in whose body the command runs: refused memory ends it */
+    int *end;                      /* the exit status of gm_command_end */
 };
 
 /* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
@@ -81,19 +85,38 @@ struct gm_command_row {
 #include "app/commands/commands.def"
 #undef GM_COMMAND
 
+/* Ends the command with an exit status and a sentence on standard error. */
+__attribute__((format(printf, 3, 4))) _Noreturn void gm_command_end(const struct gm_options *options,
+                                                                    int status, const char *format, ...);
+
 extern const struct gm_command_row gm_commands[]; /* the first is the explorer */
 extern const size_t gm_command_count;
 /* The command of that name; for the name of a scene the explorer; or NULL. */
 const struct gm_command_row *gm_command_find(const char *word);
 
+/* The request of these words, which closes with the command; one that cannot be ends it. */
+struct gm_request *gm_command_parse(const struct gm_options *options, int count, char *const words[],
+                                    size_t schemes);
+
 /* More steps than these are made if --yes confirms that. */
 extern const double gm_many_steps;
 
-/* Whether the steps of a request are to be made; false with a sentence on how many they are and how long they take. */
-bool gm_command_confirmed(const struct gm_options *options, const struct gm_request *request);
+/* Ends the command with a sentence on how many steps these are, and how long they take, unless they are to be made. */
+void gm_command_confirm(const struct gm_options *options, const struct gm_request *request);
 
 /* "3.2 years" */
 void gm_put_duration(double seconds, char *text, size_t size);
+
+/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
+   parameters other values; without a file they are all there is, "system H=... key=value ...". Returns the
+   exit status. */
+int gm_list_system(const struct gm_options *options, const struct gm_file *file);
+
+/* Puts "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
+void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
+                      const struct gm_scheme *const *same, size_t count);
+/* "file":"systems/toda.system","source":"..."; null both where there is no file. */
+void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 
 /* The tours, as `tour` and `list tours` print them. Returns an exit status. */
 int gm_list_tours(const struct gm_options *options);

@@ -11,10 +11,11 @@
 #include "app/commands/reference/reference.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
-#include "app/words/fitting.h"
+#include "app/words/names.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -59,7 +60,7 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 /* A system or a room; those that are scenes are offered as scenes. */
 static void offer_other(const struct gm_listed *listed, const void *stem)
 {
-    if (!gm_scene_find(listed->name)) {
+    if (gm_scene_number(listed->name) == gm_scene_count()) {
         offer_file(listed, stem);
     }
 }
@@ -74,7 +75,7 @@ static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 static void offer_scenes(const struct stem *stem)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        offer(stem, gm_scene_at(i)->name, gm_scene_at(i)->title);
+        offer(stem, gm_scene_name(i), gm_scene_title(i));
     }
     offer_files(stem, GM_FILE_SYSTEM);
     offer_files(stem, GM_FILE_ROOM);
@@ -209,8 +210,7 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
     char key[64];
     snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
     const struct gm_common_key *common = gm_common_key_find(key);
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, key),
-                              *row = parameter ? parameter : gm_setting_find(key);
+    const struct gm_parameter *row = gm_word_parameter(scene, key);
     if (strcmp(key, "scheme") == 0) {
         offer_schemes(&stem, scene);
     } else if (common) {
@@ -271,15 +271,14 @@ static void offer_options(const struct gm_command_row *command, const char *word
 /* What a command takes that is no option. */
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
+    static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
     const struct stem stem = whole(word);
     switch (command->bit) {
     case GM_LIST:
-        offer(&stem, "scenes", "");
-        offer(&stem, "systems", "");
-        offer(&stem, "rooms", "");
-        offer(&stem, "schemes", "");
-        offer(&stem, "figures", "");
-        offer(&stem, "tours", "");
+        for (size_t i = 0; i < GM_COUNT(lists); i++) {
+            offer(&stem, lists[i], "");
+        }
+        offer_schemes(&stem, NULL);
         offer_scenes(&stem);
         return;
     case GM_FIGURES:

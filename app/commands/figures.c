@@ -2,7 +2,6 @@
 /* geomint figures: published figures made again by as many processes as there are processors, on one page
    with what the documents say and whether it holds; beside them, or alone, systems of somebody's own. */
 #include <errno.h>
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,10 +15,11 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/figures/page.h"
+#include "app/figures/figure.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
+#include "core/arena.h"
 #include "core/expression/number.h"
 #include "render/clock.h"
 #include "render/message.h"
@@ -101,54 +101,59 @@ static const struct gm_scene *own_scene(char *word, int *status, char *message)
     return scene;
 }
 
-/* The figures of systems of somebody's own among the words. Returns an exit status. */
-static int plan_user_figures(struct series *series, const struct gm_arguments *words)
+/* The figures of systems of somebody's own among the words. */
+static void plan_user_figures(struct series *series, const struct gm_arguments *words)
 {
     char message[GM_MESSAGE];
     int status = GM_EXIT_OK;
     for (int i = 0; i < words->count; i++) {
-        const struct gm_scene *scene =
-            is_published(words->words[i]) ? NULL : own_scene(words->words[i], &status, message);
-        if (!scene && !is_published(words->words[i])) {
-            return gm_give_up(status, "%s", message);
+        if (is_published(words->words[i])) {
+            continue;
         }
-        for (int k = 0; scene && k < i; k++) {
+        const struct gm_scene *scene = own_scene(words->words[i], &status, message);
+        if (!scene) {
+            gm_command_end(series->options, status, "%s", message);
+        }
+        for (int k = 0; k < i; k++) {
             if (series->user[k].name && strcmp(series->user[k].name, scene->name) == 0) {
-                return gm_give_up(GM_EXIT_USAGE, "the pictures of %.200s and %.200s would have one name",
-                                  words->words[k], words->words[i]);
+                gm_command_end(series->options, GM_EXIT_USAGE,
+                               "the pictures of %.200s and %.200s would have one name", words->words[k],
+                               words->words[i]);
             }
         }
-        if (scene) {
-            series->user[i] =
-                (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
-            gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
-        }
+        series->user[i] = (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
+        gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
     }
-    return GM_EXIT_OK;
 }
 
-/* Returns an exit status. */
-static int open_series(struct series *series, const struct gm_options *options)
+static void unmap_outcomes(void *data)
+{
+    struct series *series = data;
+    munmap(series->outcomes, all_figures(series->options) * sizeof *series->outcomes);
+}
+
+static struct series *open_series(const struct gm_options *options)
 {
     const size_t most = all_figures(options);
-    const bool small = options->quick && !options->sized;
-    *series = (struct series){.options = options,
-                              .output = {.folder = options->out ? options->out : ".",
-                                         .look = options->look,
-                                         .format = options->format,
-                                         .quick = options->quick},
-                              .user = calloc((size_t)options->arguments.count + 1, sizeof *series->user),
-                              .jobs = calloc(most, sizeof *series->jobs)};
-    if (small) {
+    struct series *series = gm_arena_take(options->arena, 1, sizeof *series);
+    *series = (struct series){
+        .options = options,
+        .output = {.folder = options->out ? options->out : ".",
+                   .look = options->look,
+                   .format = options->format,
+                   .quick = options->quick},
+        .user = gm_arena_take(options->arena, (size_t)options->arguments.count + 1, sizeof *series->user),
+        .jobs = gm_arena_take(options->arena, most, sizeof *series->jobs)};
+    if (options->quick && !options->sized) {
         series->output.look.width = QUICK_WIDTH;
         series->output.look.height = QUICK_HEIGHT;
     }
-    void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
-                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    series->outcomes = shared == MAP_FAILED ? NULL : shared;
-    if (!series->user || !series->jobs || !series->outcomes) {
-        return gm_give_up(GM_EXIT_FILE, "not enough memory");
+    series->outcomes = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (series->outcomes == MAP_FAILED) {
+        gm_command_end(options, GM_EXIT_FILE, "not enough memory");
     }
+    gm_arena_keep(options->arena, series, unmap_outcomes);
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
         for (size_t f = 0; f < scene->figure_count; f++) {
@@ -157,22 +162,13 @@ static int open_series(struct series *series, const struct gm_options *options)
             }
         }
     }
-    const int status = plan_user_figures(series, &options->arguments);
+    plan_user_figures(series, &options->arguments);
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
     const size_t cores = gm_pool_cores();
     series->worker_count = cores > MOST_WORKERS ? MOST_WORKERS : cores;
     series->progress = isatty(STDERR_FILENO);
     series->started = series->page_written = gm_clock_seconds();
-    return status;
-}
-
-static void close_series(struct series *series)
-{
-    if (series->outcomes) {
-        munmap(series->outcomes, all_figures(series->options) * sizeof *series->outcomes);
-    }
-    free(series->user);
-    free(series->jobs);
+    return series;
 }
 
 static void show_progress(const struct series *series)
@@ -433,33 +429,30 @@ static void print_sum(const struct series *series, bool page)
 int gm_command_figures(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
-    struct series series;
-    int status = open_series(&series, options);
-    if (status == GM_EXIT_OK && !gm_folder_make(options->out, message)) {
-        status = gm_give_up(GM_EXIT_FILE, "%s", message);
+    int status = GM_EXIT_OK;
+    struct series *series = open_series(options);
+    if (!gm_folder_make(options->out, message)) {
+        gm_command_end(options, GM_EXIT_FILE, "%s", message);
     }
-    if (status == GM_EXIT_OK) {
-        gm_catch_interrupts();
-        run(&series, &status);
-        /* finished ones behind one that was interrupted */
-        for (size_t i = series.printed; i < series.count; i++) {
-            if (series.outcomes[i].progress == GM_MADE) {
-                print_outcome(&series, i);
-            }
-        }
-        const bool page = write_page(&series, &status);
-        if (!options->json) {
-            print_sum(&series, page);
-        }
-        if (page) {
-            gm_complain("wrote %s/figures.html and its pictures", series.output.folder);
-        }
-        for (size_t i = 0; i < series.count; i++) {
-            if (series.outcomes[i].progress == GM_NOT_MADE && series.outcomes[i].status > status) {
-                status = series.outcomes[i].status;
-            }
+    gm_catch_interrupts();
+    run(series, &status);
+    /* finished ones behind one that was interrupted */
+    for (size_t i = series->printed; i < series->count; i++) {
+        if (series->outcomes[i].progress == GM_MADE) {
+            print_outcome(series, i);
         }
     }
-    close_series(&series);
+    const bool page = write_page(series, &status);
+    if (!options->json) {
+        print_sum(series, page);
+    }
+    if (page) {
+        gm_complain("wrote %s/figures.html and its pictures", series->output.folder);
+    }
+    for (size_t i = 0; i < series->count; i++) {
+        if (series->outcomes[i].progress == GM_NOT_MADE && series->outcomes[i].status > status) {
+            status = series->outcomes[i].status;
+        }
+    }
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }

@@ -10,10 +10,10 @@
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
-#include "app/output/wrapped.h"
-#include "app/words/fitting.h"
-#include "app/words/lookup.h"
+#include "app/words/names.h"
+#include "app/words/scheme.h"
 #include "app/words/system.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
@@ -44,12 +44,12 @@ static void list_texts(const struct gm_options *options, const char *const texts
 static int list_scenes(const struct gm_options *options)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        const struct gm_scene *scene = gm_scene_at(i);
-        const char *const texts[][2] = {{"scene", scene->name},
-                                        {"title", scene->title},
-                                        {"blurb", scene->blurb},
-                                        {"watch", scene->watch},
-                                        {"time_unit", scene->time}};
+        const struct gm_scene *scene = options->json || options->longer ? gm_scene_at(i) : NULL;
+        const char *const texts[][2] = {{"scene", gm_scene_name(i)},
+                                        {"title", gm_scene_title(i)},
+                                        {"blurb", scene ? scene->blurb : ""},
+                                        {"watch", scene ? scene->watch : ""},
+                                        {"time_unit", scene ? scene->time : ""}};
         list_texts(options, texts, GM_COUNT(texts), GM_COUNT(texts) - 1, 16);
     }
     return gm_finish(GM_EXIT_OK);
@@ -128,18 +128,31 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
     gm_print_wrapped(claims ? text : "claims: none", 0, 8);
 }
 
-static int list_schemes(const struct gm_options *options)
+/* A scheme with all that have its name, for other kinds of problems; NULL: all schemes of the program. */
+static int list_schemes_like(const struct gm_scheme *like, const struct gm_options *options)
 {
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
     size_t count = 0;
-    for (; count < gm_scheme_count() && count < GM_FITTING_SCHEMES; count++) {
-        schemes[count] = gm_scheme_at(count);
-        list_scheme(schemes[count], options, true, NULL);
+    if (like && like->word) {
+        schemes[count++] = like;
+    }
+    for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
+        if (!like || strcmp(gm_scheme_at(i)->name, like->name) == 0) {
+            schemes[count++] = gm_scheme_at(i);
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        list_scheme(schemes[i], options, true, NULL);
     }
     if (!options->json) {
         print_legend(schemes, count);
     }
     return gm_finish(GM_EXIT_OK);
+}
+
+static int list_schemes(const struct gm_options *options)
+{
+    return list_schemes_like(NULL, options);
 }
 
 static int list_figures(const struct gm_options *options)
@@ -202,18 +215,12 @@ static void put_keys(struct gm_row *row, const char *key, const struct gm_observ
 }
 
 /* What a command takes where nothing is said but the scene, by its name or the path of its file:
-   "scheme=rk4,verlet"; malloc'ed, NULL with a sentence, or when memory is short. */
-static char *default_lanes(const char *name, size_t schemes, char *message)
+   "scheme=rk4,verlet". */
+static const char *default_lanes(const struct gm_options *options, const char *name, size_t schemes)
 {
-    char *words[] = {strdup(name)}, *text = NULL;
-    struct gm_request request;
-    if (words[0] && gm_request_parse(&request, 1, words, schemes, message)) {
-        const char *lanes = strstr(request.arguments, " scheme=");
-        text = strdup(lanes ? lanes + 1 : "");
-        gm_request_close(&request);
-    }
-    free(words[0]);
-    return text;
+    char *words[] = {gm_arena_print(options->arena, "%s", name)};
+    const char *lanes = strstr(gm_command_parse(options, 1, words, schemes)->arguments, " scheme=");
+    return lanes ? lanes + 1 : "";
 }
 
 /* All that is known of a scene. */
@@ -224,18 +231,17 @@ struct entry {
     size_t scheme_count;
     const struct gm_parameter **rows; /* those of the scene, and those that a fitting scheme brings */
     size_t row_count;
-    char *run, *render; /* their lanes */
+    const char *run, *render; /* their lanes */
 };
 
-static bool open_entry(struct entry *entry, const struct gm_scene *scene, const char *name, char *message)
+static void open_entry(struct entry *entry, const struct gm_scene *scene, const char *name,
+                       const struct gm_options *options)
 {
     *entry = (struct entry){.scene = scene};
-    entry->rows = calloc(scene->parameter_count + gm_settings_parameter_count, sizeof *entry->rows);
-    entry->run = default_lanes(name, GM_RUN_SCHEMES, message);
-    entry->render = entry->run ? default_lanes(name, GM_RENDER_SCHEMES, message) : NULL;
-    if (!entry->rows) {
-        return gm_refuse(message, "not enough memory");
-    }
+    entry->rows = gm_arena_take(options->arena, scene->parameter_count + gm_settings_parameter_count,
+                                sizeof *entry->rows);
+    entry->run = default_lanes(options, name, GM_RUN_SCHEMES);
+    entry->render = default_lanes(options, name, GM_RENDER_SCHEMES);
     for (size_t i = 0; i < scene->parameter_count; i++) {
         entry->rows[entry->row_count++] = &scene->parameters[i];
     }
@@ -247,17 +253,7 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, const 
         }
     }
     /* half a list would be taken for a whole one */
-    if (gm_memory_was_short()) {
-        return gm_refuse(message, "not enough memory");
-    }
-    return entry->render != NULL;
-}
-
-static void close_entry(struct entry *entry)
-{
-    free(entry->rows);
-    free(entry->run);
-    free(entry->render);
+    gm_arena_need(options->arena, !gm_memory_was_short());
 }
 
 static void print_entry(const struct entry *entry, const struct gm_options *options)
@@ -321,21 +317,17 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
 }
 
 /* `file`: that of the scene; NULL: it has none. */
-static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
-                       const struct gm_options *options)
+static int list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
+                      const struct gm_options *options)
 {
-    char message[GM_MESSAGE];
     struct entry entry;
-    const bool good = open_entry(&entry, scene, name, message);
-    if (!good) {
-        gm_complain("%s", message);
-    } else if (options->json) {
+    open_entry(&entry, scene, name, options);
+    if (options->json) {
         print_entry_json(&entry, file);
     } else {
         print_entry(&entry, options);
     }
-    close_entry(&entry);
-    return good;
+    return gm_finish(GM_EXIT_OK);
 }
 
 /* The lists beside those of a scene. */
@@ -402,18 +394,18 @@ static int refuse_name(const char *word)
 {
     char near[GM_NEAR], folder[GM_MESSAGE] = "";
     const char *list = gm_nearest(word, GM_COUNT(lists), list_name, NULL);
-    const bool found = list || gm_system_near(word, near, folder);
+    const char *found = list                                 ? list
+                        : gm_system_near(word, near, folder) ? near
+                        : folder[0]                          ? NULL
+                                                             : gm_scheme_near(word);
     if (!found && folder[0]) {
         return gm_give_up(GM_EXIT_FILE, "%s", folder);
     }
     return gm_give_up(
         GM_EXIT_USAGE,
-        "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems and "
-        "rooms, not \"%.60s\"%s%s",
-        word, found ? "; did you mean " : "",
-        list    ? list
-        : found ? near
-                : "");
+        "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems, "
+        "rooms and schemes, not \"%.60s\"%s%s",
+        word, found ? "; did you mean " : "", found ? found : "");
 }
 
 /* Whether a word means a file: a scene of the program hides a file of its name, unless it is made of it. */
@@ -447,6 +439,18 @@ static int list_source(const char *word)
     return gm_finish(GM_EXIT_OK);
 }
 
+/* The scheme that a name, the path of a file or a word means. */
+static int list_named_scheme(const char *name, const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    bool unreadable;
+    const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
+    if (!scheme && message[0]) {
+        return gm_give_up(unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    }
+    return scheme ? list_schemes_like(scheme, options) : refuse_name(name);
+}
+
 int gm_command_list(const struct gm_options *options)
 {
     struct gm_file file;
@@ -455,11 +459,7 @@ int gm_command_list(const struct gm_options *options)
     const bool is_system =
         *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
-        const enum gm_telling telling = options->json     ? GM_TELL_JSON
-                                        : options->latex  ? GM_TELL_LATEX
-                                        : options->longer ? GM_TELL_ALL
-                                                          : GM_TELL_SHORT;
-        return gm_list_system(&options->arguments, typed ? NULL : &file, telling);
+        return gm_list_system(options, typed ? NULL : &file);
     }
     if (options->latex) {
         return gm_give_up(GM_EXIT_USAGE,
@@ -468,7 +468,7 @@ int gm_command_list(const struct gm_options *options)
     if (options->arguments.count > 1) {
         return gm_give_up(
             GM_EXIT_USAGE,
-            "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system or a room");
+            "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system, a room or a scheme");
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->source) {
@@ -493,8 +493,6 @@ int gm_command_list(const struct gm_options *options)
             return gm_give_up(status, "%s", message);
         }
     }
-    if (!scene) {
-        return refuse_name(what);
-    }
-    return list_scene(scene, what, from_file ? &file : NULL, options) ? gm_finish(GM_EXIT_OK) : GM_EXIT_USAGE;
+    return scene ? list_scene(scene, what, from_file ? &file : NULL, options)
+                 : list_named_scheme(what, options);
 }

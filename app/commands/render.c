@@ -8,11 +8,12 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/output/checkpoint.h"
 #include "app/output/folder.h"
+#include "app/output/frames.h"
+#include "app/output/printer.h"
 #include "app/output/say.h"
-#include "app/output/still.h"
 #include "app/words/drive.h"
+#include "core/arena.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/clock.h"
@@ -35,7 +36,6 @@ struct work {
     struct gm_provenance provenance;
     /* of a sequence */
     struct gm_frames frames;
-    char *folder;                     /* of the frames */
     char *checkpoint;                 /* its path; NULL: the lanes cannot be continued from a snapshot */
     long done;                        /* frames that are there */
     struct gm_sink *pictures, *movie; /* NULL: not wanted */
@@ -175,6 +175,9 @@ static bool resume(struct work *work, char *message)
     }
     const bool read = gm_checkpoint_read(work->checkpoint, &work->frames, &frame, work->lanes,
                                          work->request->count, &spoilt);
+    if (gm_memory_was_short()) {
+        return gm_refuse(message, "not enough memory to read %.300s", work->checkpoint);
+    }
     if (read && frame < first) {
         return true;
     }
@@ -240,13 +243,11 @@ static bool make_frames(struct work *work, char *message)
 }
 
 /* Where the frames go: --out, or beside the movie until it is complete. */
-static char *folder_of(const struct gm_options *options)
+static const char *folder_of(const struct gm_options *options)
 {
-    char *text = NULL;
-    if (options->movie && !options->out) {
-        return asprintf(&text, "%s.frames", options->movie) < 0 ? NULL : text;
-    }
-    return strdup(options->out ? options->out : ".");
+    const char *named = options->out ? options->out : ".";
+    return options->movie && !options->out ? gm_arena_print(options->arena, "%s.frames", options->movie)
+                                           : named;
 }
 
 static bool open_sinks(struct work *work, const char *name, char *message)
@@ -266,11 +267,8 @@ static bool open_sinks(struct work *work, const char *name, char *message)
                            !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
         return false;
     }
-    work->folder = folder_of(options);
-    if (!work->folder) {
-        return gm_refuse(message, "not enough memory");
-    }
-    if (!gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
+    if (!gm_frames_open(&work->frames, &work->schedule, folder_of(options), name, &work->provenance,
+                        message)) {
         return false;
     }
     if (gm_checkpoint_fits(work->request)) {
@@ -416,37 +414,31 @@ static bool write_still(struct gm_print *print, struct work *work, char *message
 /* One picture: of no sequence, so that nothing of it is kept to go on from. */
 static int paint_still(struct work *work, const char *name)
 {
-    char message[GM_MESSAGE] = "not enough memory", *path = NULL;
+    char message[GM_MESSAGE];
     const struct gm_options *options = work->options;
-    if (options->output) {
-        path = strdup(options->output);
-    } else if (asprintf(&path, "%s/%s.%s", options->out ? options->out : ".", name,
-                        gm_format_name(options->format)) < 0) {
-        path = NULL;
-    }
+    const char *path = options->output
+                           ? options->output
+                           : gm_arena_print(options->arena, "%s/%s.%s", options->out ? options->out : ".",
+                                            name, gm_format_name(options->format));
     struct gm_print print = {.path = path, .format = options->format, .look = options->look};
-    int status = GM_EXIT_FILE;
     gm_printer_expect(print.format);
-    const bool driven = path && drive_to(work, 0, message);
+    const bool driven = drive_to(work, 0, message);
     if (gm_interrupted) {
-        status = GM_EXIT_INTERRUPTED;
-    } else if (!driven || !write_still(&print, work, message)) {
-        status = gm_printer_fail(path, message);
-        status = gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
-    } else {
-        status = tell_end(work);
-        gm_printer_report(&print, "");
+        return GM_EXIT_INTERRUPTED;
     }
-    free(path);
+    if (!driven || !write_still(&print, work, message)) {
+        const int status = gm_printer_fail(path, message);
+        return gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
+    }
+    const int status = tell_end(work);
+    gm_printer_report(&print, "");
     return status;
 }
 
-static void close_work(struct work *work)
+static void close_work(void *data)
 {
+    struct work *work = data;
     close_lanes(work);
-    free(work->drives);
-    free(work->lanes);
-    free(work->folder);
     free(work->checkpoint);
     gm_frames_close(&work->frames);
     gm_provenance_close(&work->provenance);
@@ -465,14 +457,15 @@ static bool takes_format(const struct work *work, char *message)
 /* Renders a request; output files below options->out begin with `name`. */
 static int render(struct gm_request *request, const struct gm_options *options, const char *name)
 {
-    char message[GM_MESSAGE] = "not enough memory";
-    struct work work = {
-        .request = request,
-        .options = options,
-        .drives = calloc(request->count, sizeof *work.drives),
-        .lanes = calloc(request->count, sizeof *work.lanes),
-        .picture = gm_picture_open(),
-    };
+    char message[GM_MESSAGE];
+    struct work *work = gm_arena_take(options->arena, 1, sizeof *work);
+    work->request = request;
+    work->options = options;
+    work->drives = gm_arena_take(options->arena, request->count, sizeof *work->drives);
+    work->lanes = gm_arena_take(options->arena, request->count, sizeof *work->lanes);
+    gm_arena_keep(options->arena, work, close_work);
+    work->picture = gm_picture_open();
+    gm_arena_need(options->arena, work->picture);
     const struct gm_pace pace = {.movie = options->movie != NULL,
                                  .frames = options->frames,
                                  .every = options->every,
@@ -482,29 +475,23 @@ static int render(struct gm_request *request, const struct gm_options *options, 
                                  .at = options->at,
                                  .shard = options->shard,
                                  .shards = options->shards};
-    int status = GM_EXIT_USAGE;
-    if (!work.drives || !work.lanes || !work.picture ||
-        !gm_schedule_make(&work.schedule, request, &pace, message) || !takes_format(&work, message) ||
-        !open_lanes(&work, message)) {
-        gm_complain("%s", message);
-    } else {
-        gm_lane_note(work.lanes[0], message);
-        if (message[0]) {
-            gm_complain("%s", message);
-        }
-        status = work.schedule.still ? paint_still(&work, name) : paint_all(&work, name);
+    if (!gm_schedule_make(&work->schedule, request, &pace, message) || !takes_format(work, message) ||
+        !open_lanes(work, message)) {
+        gm_command_end(options, GM_EXIT_USAGE, "%s", message);
     }
-    close_work(&work);
-    return status;
+    gm_lane_note(work->lanes[0], message);
+    if (message[0]) {
+        gm_complain("%s", message);
+    }
+    return (work->schedule.still ? paint_still : paint_all)(work, name);
 }
 
-/* "LANE:STEP:KEY=VALUE,...", as the explorer writes them; closes the request and returns false with a
-   sentence if they are not understood. */
-static bool take_changes(struct gm_request *request, const char *list, char *message)
+/* "LANE:STEP:KEY=VALUE,...", as the explorer writes them. */
+static void take_changes(const struct gm_options *options, struct gm_request *request)
 {
-    char *text = list ? strdup(list) : NULL;
+    char sentence[GM_MESSAGE], *text = gm_arena_print(options->arena, "%s", options->changes);
     int colons = 0, depth = 0; /* a scheme may be a word with commas in its parentheses */
-    for (char *at = text; at && *at; at++) {
+    for (char *at = text; *at; at++) {
         depth += (*at == '(') - (*at == ')');
         if (*at == ',' && depth == 0) {
             *at = '\n';
@@ -514,39 +501,27 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
             colons++;
         }
     }
-    bool good = !list || (text && gm_changes_parse(request, text));
-    free(text);
-    if (!good) {
-        gm_refuse(message, "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
+    if (!gm_changes_parse(request, text)) {
+        gm_command_end(options, GM_EXIT_USAGE,
+                       "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are",
+                       options->changes);
     }
-    for (size_t i = 0; good && i < request->change_count; i++) {
-        char sentence[GM_MESSAGE];
+    for (size_t i = 0; i < request->change_count; i++) {
         if (!gm_change_check(request, &request->changes[i], sentence)) {
-            good = gm_refuse(message, "--changes %.60s: %.400s", list, sentence);
+            gm_command_end(options, GM_EXIT_USAGE, "--changes %.60s: %.400s", options->changes, sentence);
         }
     }
-    if (!good) {
-        gm_request_close(request);
-    }
-    return good;
 }
 
 int gm_command_render(const struct gm_options *options)
 {
-    char message[GM_MESSAGE], name[128];
-    struct gm_request request;
-    if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RENDER_SCHEMES,
-                          message) ||
-        !take_changes(&request, options->changes, message)) {
-        return gm_give_up(gm_request_refusal(&request), "%s", message);
+    struct gm_request *request =
+        gm_command_parse(options, options->arguments.count, options->arguments.words, GM_RENDER_SCHEMES);
+    if (options->changes) {
+        take_changes(options, request);
     }
-    if (!gm_command_confirmed(options, &request)) {
-        gm_request_close(&request);
-        return GM_EXIT_USAGE;
-    }
+    gm_command_confirm(options, request);
     gm_catch_interrupts();
-    snprintf(name, sizeof name, "%s-render", request.scene->name);
-    const int status = render(&request, options, name);
-    gm_request_close(&request);
-    return gm_finish(status);
+    return gm_finish(
+        render(request, options, gm_arena_print(options->arena, "%s-render", request->scene->name)));
 }

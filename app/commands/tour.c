@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint tour: lists tours, opens one in the explorer, or renders it without a screen. */
+/* What opens the explorer: geomint tui and geomint tour, which also lists tours and renders them without a screen; and
+   geomint terminal, what the explorer found out. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +11,6 @@
 #include "app/explorer/explorer.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
-#include "app/tours/movie.h"
 #include "app/tours/tour.h"
 #include "core/expression/number.h"
 
@@ -111,4 +111,20 @@ int gm_command_tour(const struct gm_options *options)
     }
     gm_tour_close(&tour);
     return status;
+}
+
+int gm_command_terminal(const struct gm_options *options)
+{
+    if (options->arguments.count > 0) {
+        return gm_give_up(GM_EXIT_USAGE, "terminal takes no arguments");
+    }
+    return gm_finish(gm_terminal_report(&options->terminal));
+}
+
+int gm_command_tui(const struct gm_options *options)
+{
+    const struct gm_arguments *words = &options->arguments;
+    const struct gm_request *request =
+        words->count > 0 ? gm_command_parse(options, words->count, words->words, GM_RENDER_SCHEMES) : NULL;
+    return gm_explorer(request, NULL, &options->terminal);
 }

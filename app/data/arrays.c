@@ -8,7 +8,6 @@
 #include <errno.h>
 #include <unistd.h>
 
-#include "app/data/bytes.h"
 #include "app/data/format.h"
 #include "core/run.h"
 

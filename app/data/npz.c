@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* NumPy's archives. APPNOTE.TXT 6.3.10 of PKWARE (the ZIP format), and numpy/lib/format.py (the .npy
    format). */
-#include "app/data/npz.h"
+#include "app/data/format.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -11,8 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/base/text.h"
-#include "app/data/bytes.h"
+#include "app/base/arguments.h"
 #include "render/cells/text.h"
 
 enum { TYPE = 24, NPY_HEAD = 256 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file in the making: a folder beside it. */
-#include "app/data/part.h"
+#include "app/data/format.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -15,8 +15,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "app/base/text.h"
-#include "app/data/bytes.h"
+#include "app/base/arguments.h"
 #include "app/output/folder.h"
 #include "render/message.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fields on a line as CSV. */
-#include "app/data/profile.h"
+#include "app/data/save.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which steps have a row. */
-#include "app/data/rows.h"
+#include "app/data/save.h"
 
 #include <math.h>
 

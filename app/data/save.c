@@ -8,7 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/data/bytes.h"
 #include "app/data/format.h"
 #include "core/basics.h"
 #include "core/expression/reader.h"

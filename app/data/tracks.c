@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tracks as an .npz file. */
-#include "app/data/tracks.h"
+#include "app/data/save.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/data/npz.h"
+#include "app/data/format.h"
 #include "app/output/folder.h"
 #include "core/expression/reader.h"
 #include "render/files/temporary.h"

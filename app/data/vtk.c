@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/base/text.h"
+#include "app/base/arguments.h"
 #include "app/data/format.h"
 #include "app/output/folder.h"
 #include "core/basics.h"

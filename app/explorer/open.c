@@ -12,6 +12,7 @@
 #include "app/explorer/surface/surface.h"
 #include "app/explorer/view/view.h"
 #include "app/grid/grid.h"
+#include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/schemes.h"

@@ -120,4 +120,9 @@ const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_out
 void gm_statement_expectation(const struct gm_statement *statement, double scale, char *text, size_t size);
 void gm_verdict_number(double low, double high, char *text, size_t size);
 
+/* Writes FOLDER/figures.html: one file with everything in it, pictures too, that needs neither net nor
+   script. Figures that are not made are listed as such. By way of a temporary name. False with a sentence. */
+bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
+                           const struct gm_outcome *outcomes, size_t count, char *message);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page of figures: one file of HTML with everything in it. */
-#include "app/figures/page.h"
+#include "app/figures/figure.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/text.h"
+#include "app/base/arguments.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
-#include "render/files/base64.h"
+#include "render/files/images.h"
 
 /* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
 static const char style[] =

@@ -3,11 +3,9 @@
 #include "app/grid/certified_lane.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "app/base/arguments.h"
-#include "app/base/text.h"
 #include "app/words/request.h"
 #include "core/field/field.h"
 #include "core/memory.h"

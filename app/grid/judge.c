@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Verdicts on steps; fronts and what an error costs on them; slopes. */
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Who listens to long work: a line on standard error, or nobody. */
-#include "app/grid/listener.h"
+#include "app/grid/sweep.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -2,11 +2,29 @@
 #ifndef GM_APP_GRID_SWEEP_H
 #define GM_APP_GRID_SWEEP_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "app/base/arguments.h"
-#include "app/grid/listener.h"
-#include "app/words/chosen.h"
+#include "app/words/names.h"
 #include "app/words/request.h"
 #include "app/words/words.h"
+
+/* Long work tells how far it is, and asks whether to go on. */
+struct gm_listener {
+    bool (*stopped)(void *self); /* NULL: never */
+    /* `what` is under way, `done` of `all` parts are finished and may be looked at; NULL: nobody listens */
+    void (*report)(void *self, const char *what, size_t done, size_t all);
+    void *self;
+};
+
+/* Whether to stop: asked for by the listener, or by a signal. `listener` may be NULL. */
+bool gm_listener_stops(const struct gm_listener *listener);
+void gm_listener_hears(const struct gm_listener *listener, const char *what, size_t done, size_t all);
+
+/* For commands: a line on standard error if that is a terminal, which gm_terminal_listener_clear removes. */
+extern const struct gm_listener gm_terminal_listener;
+void gm_terminal_listener_clear(void);
 
 /* A sweep: a run for every combination of the values of its keys, and a row of a table for every run. Runs
    are numbered from 0, the first list changes slowest, and made from their number alone: nothing is stored of

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a command that measures puts its diagram and its table. */
-#include "app/output/chart.h"
+#include "app/output/printer.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "app/base/arguments.h"
-#include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
+#include "app/output/row.h"
 #include "app/words/request.h"
 #include "render/files/temporary.h"
 #include "render/message.h"

@@ -11,13 +11,14 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "app/output/folder.h"
+#include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "render/drawing/glyphs.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/pdf.h"
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 struct gm_printer {
     struct gm_canvas *canvas; /* of PNG */
@@ -164,4 +165,31 @@ void gm_printer_report(const struct gm_print *print, const char *table)
                     print->fields > 1 ? "the fields of colours" : "the field of colours",
                     print->fields > 1 ? "are images" : "is an image");
     }
+}
+
+bool gm_still_write(struct gm_print *print, const struct gm_request *request,
+                    const struct gm_lane *const *lanes, char *message)
+{
+    if (!gm_folder_make_for(print->path, message)) {
+        return false;
+    }
+    struct gm_printer *press = gm_printer_open(print, message);
+    if (!press) {
+        return false;
+    }
+    struct gm_picture *picture = gm_picture_open();
+    struct gm_provenance provenance = {0};
+    bool good = picture &&
+                gm_provenance_make(&provenance, request, &print->look, gm_printer_backend(press)) &&
+                gm_provenance_take_lanes(&provenance, lanes, request->count, true);
+    if (good) {
+        gm_lanes_draw(lanes, request->count, picture);
+        good = gm_printer_write(press, print, picture, provenance.texts, provenance.count, message);
+    } else {
+        gm_refuse(message, "not enough memory for a picture");
+    }
+    gm_provenance_close(&provenance);
+    gm_picture_close(picture);
+    gm_printer_close(press);
+    return good;
 }

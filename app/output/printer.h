@@ -2,7 +2,8 @@
 #ifndef GM_APP_OUTPUT_PRINTER_H
 #define GM_APP_OUTPUT_PRINTER_H
 
-#include "render/files/png.h"
+#include "app/words/request.h"
+#include "render/files/images.h"
 #include "render/layout/appearance.h"
 #include "render/picture/picture.h"
 
@@ -46,5 +47,28 @@ int gm_printer_fail(const char *path, const char *message);
 /* Says on standard error what was written, of a file, with the table beside it ("": none); and once what of
    it is an image. */
 void gm_printer_report(const struct gm_print *print, const char *table);
+
+/* Paints lanes as they are now into one file that `geomint again` can redo, and makes the folders that it
+   lies in. `request` holds the lanes' start and the changes since. False with a sentence (GM_MESSAGE
+   bytes). */
+bool gm_still_write(struct gm_print *print, const struct gm_request *request,
+                    const struct gm_lane *const *lanes, char *message);
+
+/* The diagram of a study and its numbers, beside each other: FOLDER/NAME.png and FOLDER/NAME.csv. */
+struct gm_chart {
+    const char *path;   /* of the picture; NULL: FOLDER/NAME with the format's ending; "-": no numbers then */
+    const char *folder; /* NULL: the present one */
+    const char *name;   /* of both files, without their endings */
+    const char *command;           /* the words that `again` measures it with, escaped; the look is added */
+    struct gm_print print;         /* its path is set here */
+    char picture[4096], csv[4096]; /* where they are, when they are written; the second is "" for none */
+};
+
+/* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno (NULL: the
+   numbers are somewhere already); makes the folders that they lie in. False with a sentence (GM_MESSAGE
+   bytes). */
+bool gm_chart_write(struct gm_chart *chart, const void *data,
+                    void (*draw)(const void *data, struct gm_picture *picture),
+                    bool (*write)(const void *data, const char *path), char *message);
 
 #endif

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
-#include "app/base/text.h"
 #include "app/words/drive.h"
 #include "core/schemes.h"
 

@@ -1,11 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Named cells as CSV or as JSON. */
+/* Cells one after the other: tables in CSV (RFC 4180), and JSON. */
 #include "app/output/row.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "app/output/csv.h"
-#include "app/output/json.h"
+#include "render/cells/text.h"
+
+/* A string of JSON. */
+static void put_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    while (*text) {
+        const char *letter = text;
+        const uint32_t code = gm_text_next(&text);
+        if (code == '\n') {
+            fputs("\\n", stream);
+        } else if (code < ' ') {
+            fprintf(stream, "\\u%04x", (unsigned)code);
+        } else if (code == 0xFFFD) { /* malformed bytes, too */
+            fputs("\\ufffd", stream);
+        } else {
+            fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
+        }
+    }
+    fputc('"', stream);
+}
+
+/* What is no number is null. */
+static void put_number(FILE *stream, double value)
+{
+    if (isfinite(value)) {
+        fprintf(stream, "%.17g", value);
+    } else {
+        fputs("null", stream);
+    }
+}
 
 static void begin(struct gm_row *row, const char *key)
 {
@@ -14,7 +47,7 @@ static void begin(struct gm_row *row, const char *key)
     if (row->form == GM_ROW_HEAD) {
         fputs(key, row->stream);
     } else if (row->form == GM_ROW_JSON && key) {
-        gm_json_put_text(row->stream, key);
+        put_text(row->stream, key);
         fputc(':', row->stream);
     }
 }
@@ -25,7 +58,7 @@ void gm_row_text(struct gm_row *row, const char *key, const char *text)
     if (!text) {
         fputs("null", row->stream);
     } else if (row->form == GM_ROW_JSON) {
-        gm_json_put_text(row->stream, text);
+        put_text(row->stream, text);
     } else if (row->form == GM_ROW_CSV) {
         gm_csv_put_text(row->stream, text);
     }
@@ -35,7 +68,7 @@ void gm_row_number(struct gm_row *row, const char *key, double value, int digits
 {
     begin(row, key);
     if (row->form == GM_ROW_JSON) {
-        gm_json_put_number(row->stream, value);
+        put_number(row->stream, value);
     } else if (row->form == GM_ROW_CSV && !isnan(value)) {
         fprintf(row->stream, "%.*g", digits, value);
     }
@@ -60,7 +93,7 @@ void gm_row_list(struct gm_row *row, const char *key, const double *values, size
     begin(row, key);
     for (size_t i = 0; i < count; i++) {
         fputc(i ? ',' : '[', row->stream);
-        gm_json_put_number(row->stream, values[i]);
+        put_number(row->stream, values[i]);
     }
     fputc(']', row->stream);
 }
@@ -81,4 +114,56 @@ struct gm_row gm_row_open(struct gm_row *row, const char *key, char end)
 void gm_row_close(const struct gm_row *row)
 {
     fputc(row->end, row->stream);
+}
+
+void gm_csv_put_quoted(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (; *text; text++) {
+        fputs(*text == '"' ? "\"" : "", stream);
+        fputc(*text, stream);
+    }
+    fputc('"', stream);
+}
+
+void gm_csv_put_text(FILE *stream, const char *text)
+{
+    if (strpbrk(text, ",\"")) {
+        gm_csv_put_quoted(stream, text);
+    } else {
+        fputs(text, stream);
+    }
+}
+
+const char *gm_csv_cell(const char *row, size_t index)
+{
+    for (bool quoted = false; index > 0; row++) {
+        if (*row == '\0') {
+            return row;
+        }
+        quoted ^= *row == '"';
+        index -= !quoted && *row == ',';
+    }
+    return row;
+}
+
+const char *gm_csv_next(struct gm_csv_lines *lines)
+{
+    const ssize_t length = lines->stream ? getline(&lines->line, &lines->room, lines->stream) : -1;
+    if (length > 0 && lines->line[length - 1] == '\n') {
+        return lines->line;
+    }
+    if (length <= 0 && lines->line) {
+        lines->line[0] = '\0';
+    }
+    return NULL;
+}
+
+void gm_csv_close(struct gm_csv_lines *lines)
+{
+    if (lines->stream) {
+        fclose(lines->stream);
+    }
+    free(lines->line);
+    *lines = (struct gm_csv_lines){0};
 }

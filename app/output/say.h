@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "app/base/exit.h"
+#include "app/base/interrupt.h"
 
 /* What commands say, line by line. */
 
@@ -21,5 +21,13 @@ __attribute__((format(printf, 1, 2))) void gm_say(const char *format, ...);
 /* Flushes standard output. The status to exit with: `status`, or 3 with a complaint if it could not be
    written. */
 int gm_finish(int status);
+
+/* Text on standard output, as wide as that is. */
+
+/* Prints text and a newline; between its words, and behind commas in words longer than a line, it goes on in
+   further lines that are indented by so many columns, fewer where that would leave no room. `before` columns
+   of the first line are filled already, the last with a blank; the text stands behind them, or at the indent
+   if that is farther. */
+void gm_print_wrapped(const char *text, int before, int indent);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A finished look at a session: everything that the screen shows, copied. */
-#include "app/runs/shot.h"
+#include "app/runs/session.h"
 
 #include <math.h>
 #include <stdlib.h>

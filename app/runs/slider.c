@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Round values for a parameter that keys move. */
-#include "app/runs/slider.h"
+#include "app/runs/session.h"
 #include "core/basics.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes that a tour has arranged for a session, made at their time. */
-#include "app/tours/agenda.h"
+#include "app/tours/tour.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A tour as a movie or as pictures: what the explorer shows, with the texts below. */
-#include "app/tours/movie.h"
+#include "app/tours/tour.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,9 +12,8 @@
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
-#include "app/tours/agenda.h"
 #include "core/memory.h"
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "render/files/sink.h"
 #include "render/pixels/canvas.h"
 

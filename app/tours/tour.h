@@ -3,7 +3,9 @@
 #define GM_APP_TOURS_TOUR_H
 
 #include "app/grid/grid.h"
+#include "app/runs/session.h"
 #include "app/words/request.h"
+#include "render/layout/appearance.h"
 
 /* A tour: steps that a class is led through, read from a text file that a teacher can write (docs/tours.md).
    Texts of one paragraph are without line breaks. */
@@ -67,5 +69,39 @@ bool gm_tour_find(const char *word, struct gm_file *file, bool *unreadable, char
    them, or of a folder that cannot be opened, in message, which is otherwise empty. malloc'ed; free with gm_tours_close. */
 struct gm_tour *gm_tours_read(size_t *count, char *message);
 void gm_tours_close(struct gm_tour *tours, size_t count);
+
+/* What a step of a tour has arranged for a session: changes in flight, and where to stop. Without a tour
+   there is nothing on it. */
+struct gm_agenda {
+    const struct gm_tour *tour; /* NULL: none; outlives the agenda */
+    size_t step;
+    size_t at_step, at_change; /* the next change */
+    bool over;                 /* the stop was reached; the user goes on at will */
+};
+
+/* The agenda of a step for a session that begins where step `from` <= step does. */
+struct gm_agenda gm_agenda_of(const struct gm_tour *tour, size_t step, size_t from);
+
+/* The model time that a session must not pass before gm_agenda_keep; infinite if there is none. */
+double gm_agenda_limit(const struct gm_agenda *agenda);
+
+/* Makes the changes that are due. True when the stop has just been reached. A change that cannot be made is
+   left out, with a sentence in message (GM_MESSAGE bytes, else empty). */
+bool gm_agenda_keep(struct gm_agenda *agenda, struct gm_session *session, char *message);
+
+/* The session went back to the time t: what comes later is due again. */
+void gm_agenda_rewind(struct gm_agenda *agenda, double t);
+
+/* What is made of a tour without a screen, with its texts: a movie, or pictures, one for every question and
+   one for the end of every step. */
+struct gm_tour_output {
+    const char *movie;  /* the file; NULL: pictures */
+    const char *folder; /* of the pictures, made if it is missing; NULL: the present one */
+    double fps;         /* of the movie */
+    struct gm_appearance look;
+};
+
+/* Returns the exit status. */
+int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *output);
 
 #endif

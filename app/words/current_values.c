@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system as it is now, with the values that its keys have. */
-#include "app/words/current_values.h"
+#include "app/words/system.h"
 
 #include <stdio.h>
 #include <string.h>

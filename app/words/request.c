@@ -9,8 +9,7 @@
 
 #include "app/base/arguments.h"
 #include "app/native/engine.h"
-#include "app/words/fitting.h"
-#include "app/words/lookup.h"
+#include "app/words/names.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"

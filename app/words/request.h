@@ -2,7 +2,7 @@
 #ifndef GM_APP_WORDS_REQUEST_H
 #define GM_APP_WORDS_REQUEST_H
 
-#include "app/base/exit.h"
+#include "app/base/interrupt.h"
 #include "render/message.h"
 #include "scenes/common/lane.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes that are made of systems and rooms, of files and of formulas. */
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -9,10 +10,9 @@
 #include <sys/stat.h>
 
 #include "app/base/arguments.h"
-#include "app/base/exit.h"
 #include "app/base/files.h"
-#include "app/words/range.h"
-#include "app/words/typed_file.h"
+#include "app/base/interrupt.h"
+#include "app/words/words.h"
 #include "core/expression/lines.h"
 #include "core/memory.h"
 #include "core/model/equations.h"

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
-   text, a caret below the place. */
 #ifndef GM_APP_WORDS_SYSTEM_H
 #define GM_APP_WORDS_SYSTEM_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "app/base/place.h"
+#include "app/base/files.h"
+
+/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
+   text, a caret below the place. */
 
 struct gm_arguments;
 struct gm_file;
@@ -50,5 +51,9 @@ void gm_system_trial_close(struct gm_system_trial *trial);
 /* From now on that word means this text, and no file: as where a picture tells how it was made. False: no
    memory. */
 bool gm_system_recall(const char *word, const char *text);
+
+/* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no
+   memory. */
+char *gm_system_now(const struct gm_scene *scene, const void *parameters);
 
 #endif

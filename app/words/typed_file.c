@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
-#include "app/base/exit.h"
-#include "app/words/range.h"
+#include "app/base/interrupt.h"
+#include "app/words/words.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
 #include "render/message.h"

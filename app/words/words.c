@@ -1,16 +1,123 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The words behind a scene's name: keys with lists of values, and their product. */
+/* The words behind a scene's name: keys with lists of values, which may be ranges, and their product. */
 #include "app/words/words.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/parameter.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 #include "render/message.h"
+
+size_t gm_word_first(const char *value)
+{
+    int depth = 0;
+    size_t length = 0;
+    for (; value[length]; length++) {
+        const char here = value[length];
+        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
+        if (depth == 0 && (here == ',' || (here == '.' && value[length + 1] == '.'))) {
+            break;
+        }
+    }
+    return length;
+}
+
+/* Whether a text is to be read as a range: ".." is read before numbers. */
+static bool is_range(const char *text)
+{
+    return text[gm_word_first(text)] == '.';
+}
+
+static double to_15_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.15g", value);
+    return strtod(text, NULL);
+}
+
+/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is what "0.3" is read as, not
+   its neighbour, and values by equal factors have 15 digits: so what is printed is what one would type. */
+static double value_in(const struct gm_range *range, size_t index)
+{
+    const double last = (double)(range->count - 1), at = (double)index;
+    if (index == 0 || index + 1 == range->count) {
+        return index == 0 ? range->first : range->last;
+    }
+    if (range->logarithmic) {
+        return to_15_digits(range->first * pow(range->last / range->first, at / last));
+    }
+    const double value = (range->first * (last - at) + range->last * at) / last;
+    const double shorter = to_15_digits(value);
+    return shorter == nextafter(value, shorter) ? shorter : value;
+}
+
+/* A piece of the text as a finite number. */
+static bool read_end(const char *from, const char *to, double *value)
+{
+    char text[256];
+    const size_t length = (size_t)(to - from);
+    if (length >= sizeof text) {
+        return false;
+    }
+    memcpy(text, from, length);
+    text[length] = '\0';
+    return gm_number_parse(text, value) && isfinite(*value);
+}
+
+/* What is wrong with it; NULL: nothing. */
+static const char *fault_of(const struct gm_range *range, bool whole)
+{
+    if (!(range->first < range->last)) {
+        return "a range ends above its start";
+    }
+    if (range->logarithmic && !(range->first > 0 || range->last < 0)) {
+        return "a range of equal factors does not lead through 0";
+    }
+    if (whole) {
+        /* evenly, all are whole if two neighbours are; by equal factors, few can be */
+        const size_t tried = range->logarithmic ? range->count : 2;
+        for (size_t i = 0; i < tried; i++) {
+            const double value = value_in(range, i);
+            if (value != floor(value)) {
+                return "not all values of this range are whole numbers";
+            }
+        }
+    }
+    return NULL;
+}
+
+/* Reads "END..END:COUNT" or "END..END:logCOUNT", the ends numbers as gm_number_parse takes them. False with a
+   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values have to be whole numbers. */
+static bool parse_range(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
+{
+    const char *between = strstr(text, ".."), *colon = strrchr(text, ':');
+    const char *fault = "a range is START..END:COUNT, or START..END:logCOUNT for equal factors";
+    double count = NAN;
+    *range = (struct gm_range){0};
+    if (between && colon && colon > between) {
+        range->logarithmic = strncmp(colon + 1, "log", 3) == 0;
+        const char *number = colon + 1 + (range->logarithmic ? 3 : 0);
+        if (!read_end(text, between, &range->first) || !read_end(between + 2, colon, &range->last)) {
+            fault = "the ends of a range are numbers";
+        } else if (!gm_number_parse(number, &count) || !(count >= 2 && count <= 1e15) ||
+                   count != floor(count)) {
+            fault = "a range has a whole number of values, from 2 to 1e15";
+        } else {
+            range->count = (size_t)count;
+            fault = fault_of(range, whole);
+        }
+    }
+    if (fault) {
+        snprintf(message, GM_MESSAGE, "%s=%.80s: %s", key, text, fault);
+    }
+    return !fault;
+}
 
 const struct gm_common_key gm_common_keys[] = {
     {"scheme", "NAME,...", "a scheme or several; without it the scene's preferred ones", {NULL}},
@@ -73,18 +180,28 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     return piece->text != NULL;
 }
 
+const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    return row ? row : gm_setting_find(key);
+}
+
+bool gm_word_is_number(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = gm_word_parameter(scene, key);
+    return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
+}
+
 /* Where the last piece of a number's list is a range, it stands for its values. */
 static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
 {
     struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, list->key);
-    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
-    const bool steps = strcmp(list->key, "steps") == 0;
-    if (!gm_range_is(piece->text) || !(steps || (row && (row->type == GM_REAL || row->type == GM_INTEGER)))) {
+    if (!is_range(piece->text) || !gm_word_is_number(scene, list->key)) {
         return true;
     }
-    const bool whole = steps || row->type == GM_INTEGER;
-    if (!gm_range_read(&piece->range, list->key, piece->text, whole, message)) {
+    const struct gm_parameter *row = gm_word_parameter(scene, list->key);
+    const bool whole = !row || row->type == GM_INTEGER; /* steps= has no row */
+    if (!parse_range(&piece->range, list->key, piece->text, whole, message)) {
         return false;
     }
     list->count += piece->range.count - 1;
@@ -110,7 +227,7 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
     if (piece->range.count == 0) {
         return piece->text;
     }
-    const double value = gm_range_at(&piece->range, index);
+    const double value = value_in(&piece->range, index);
     for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
         snprintf(text, GM_TEXT_SIZE, "%.*g", digits, value);
         if (strtod(text, NULL) == value) {
@@ -127,7 +244,7 @@ const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
     if (piece->range.count == 0) {
         return piece->text;
     }
-    const double value = gm_range_at(&piece->range, index);
+    const double value = value_in(&piece->range, index);
     if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
         snprintf(text, GM_TEXT_SIZE, "%.6g", value);
     }
@@ -164,7 +281,7 @@ bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *numb
 
 static bool known_key(const struct gm_scene *scene, const char *key)
 {
-    return gm_common_key_find(key) || gm_scene_parameter(scene, key) || gm_setting_find(key);
+    return gm_common_key_find(key) || gm_word_parameter(scene, key);
 }
 
 /* Whether a terminal would obey some of it. Bytes that are no UTF-8 (U+FFFD here) are not among that: a file

@@ -2,9 +2,22 @@
 #ifndef GM_APP_WORDS_WORDS_H
 #define GM_APP_WORDS_WORDS_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "app/base/arguments.h"
-#include "app/words/range.h"
 #include "scenes/common/scene.h"
+
+/* Values between two ends, both included: "0..0.9:10" evenly, "1e-4..1e-1:log7" by equal factors. */
+
+struct gm_range {
+    double first, last; /* first < last; of equal factors: of one sign */
+    size_t count;       /* at least 2, at most 1e15 */
+    bool logarithmic;
+};
+
+/* How long the first value of a list, or of a range, is: the sum in sum(i = 1 .. 3, q[i]) is one. */
+size_t gm_word_first(const char *value);
 
 /* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
 
@@ -49,6 +62,11 @@ void gm_words_close(struct gm_words *words);
    typed ones replace or leave without effect, and the typed ones. False when memory is short. */
 bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
                        const struct gm_arguments *typed, const char *usual);
+
+/* The parameter of that key, of the scene or of schemes; NULL: there is none. */
+const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key);
+/* Whether the values of a key are numbers. */
+bool gm_word_is_number(const struct gm_scene *scene, const char *key);
 
 /* NULL if the key was not typed. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);

@@ -1277,7 +1277,7 @@ bool gm_equations_open(struct gm_user_system *system, const char *text, size_t l
         const struct gm_written_choice *choice = &system->choices.list[i - 1];
         const struct gm_fault plain = *fault;
         if (choice->chosen != choice->standard) {
-            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s: %s", choice->name,
+            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s: %.240s", choice->name,
                      choice->words[choice->chosen], plain.sentence);
         }
     }

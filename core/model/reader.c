@@ -53,10 +53,11 @@ static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item
     return !reading->fault.failed;
 }
 
-/* What a line assigns, and the range and meaning behind it. */
+/* What a line assigns, and the range and meaning behind it, or that starts are derived. */
 struct assignment {
     enum gm_system_word word;
     struct gm_written_range range;
+    bool derived;
 };
 
 /* where a component keeps what a line assigns to it */
@@ -92,6 +93,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
         variable->start_place = target->name.begin;
         variable->low = assignment->range.low;
         variable->high = assignment->range.high;
+        variable->derived = assignment->derived;
         variable->meaning = gm_reading_text(reading, assignment->range.meaning);
         variable->unit = gm_reading_text(reading, assignment->range.unit);
     }
@@ -105,7 +107,11 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
     if (word == GM_WORD_START && !gm_system_is_field(reading->system)) {
         gm_span_take(reading->text, &all, ";", &rest);
-        gm_reading_range(reading, all, &assignment.range);
+        all = gm_span_trimmed(reading->text, all);
+        assignment.derived = gm_span_among(reading->text, all, (const char *const[]){"derived", NULL}) == 0;
+        if (!assignment.derived) {
+            gm_reading_range(reading, all, &assignment.range);
+        }
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
@@ -322,7 +328,8 @@ static char *take_words(struct gm_reading *reading, struct gm_span *rest)
     struct gm_span piece;
     gm_span_take(reading->text, rest, ";", &piece);
     char *words = gm_reading_text(reading, piece);
-    for (const char *word = words; word && *word; word += strcspn(word, " "), word += *word == ' ') {
+    const bool none = words && strcmp(words, "none") == 0;
+    for (const char *word = words; word && *word && !none; word += strcspn(word, " "), word += *word == ' ') {
         if (strcspn(word, "=") >= strcspn(word, " ")) {
             gm_fail_first(&reading->fault, piece.begin, "%.60s is no word key=value: until=100", word);
             break;
@@ -526,7 +533,8 @@ static bool read_angles(struct gm_reading *reading, const struct gm_system_line 
         if (!entry) {
             return false;
         }
-        if (entry->role != GM_ENTRY_COMPONENT || entry->number >= system->n / 2) {
+        if (entry->role != GM_ENTRY_COMPONENT ||
+            (system->kind != GM_RATES && entry->number >= system->n / 2)) {
             return gm_fail_first(&reading->fault, target.name.begin, "an angle is one of the coordinates");
         }
         system->variables[entry->number].angle = true;
@@ -614,13 +622,9 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
         return true;
     }
     if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
-        const struct gm_written_choice *choice = gm_choice_named(&system->choices, entry->name);
+        struct gm_written_choices tried = system->choices;
         char *word = gm_reading_text(reading, value);
-        size_t k = 0;
-        while (word && k < choice->count && strcmp(choice->words[k], word) != 0) {
-            k++;
-        }
-        if (word && k == choice->count) {
+        if (word && !gm_choices_take(&tried, entry->name, word)) {
             gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
         }
         free(word);
@@ -729,6 +733,7 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_SCHEMES:
     case GM_WORD_LANES:
     case GM_WORD_MEMBERS:
+    case GM_WORD_HOOK:
         system->texts[line->word] = gm_reading_text(reading, line->value);
         return true;
     case GM_WORD_COMPILE:

@@ -46,6 +46,7 @@ struct gm_system_variable {
     char *meaning, *unit; /* "" or NULL: none is given */
     bool fixed;           /* it is in an index or a bound: another value is another graph */
     bool angle;           /* periodic */
+    bool derived;         /* its start follows from parameters and other starts, and is not a key */
     /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
        was given. Else GM_NO_NODE. */
     gm_node_id start;

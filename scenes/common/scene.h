@@ -278,6 +278,11 @@ bool gm_is_given(const char *key, const char *const *keys, size_t count);
 void gm_choose(struct gm_choice *choice, const char *key, double value);
 
 size_t gm_scene_count(void);
+/* Name and title of a scene, whose file is not opened for them. */
+const char *gm_scene_name(size_t index);
+const char *gm_scene_title(size_t index);
+/* The index of the scene of that name; gm_scene_count(): there is none. */
+size_t gm_scene_number(const char *name);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters);

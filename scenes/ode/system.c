@@ -34,7 +34,14 @@
 #include "scenes/ode/system/variants.h"
 
 enum { DT, UNTIL };
-enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS = 1 << 14, REMEMBERED = 256 };
+enum {
+    MOST_OBSERVED = 60,
+    MOST_LINEARISED = 200,
+    MOST_FOLLOWED = 32,
+    CROSSINGS = 1 << 14,
+    REMEMBERED = 256,
+    MOST_RECORDED = 1 << 22 /* numbers of a track: of many components there are fewer entries */
+};
 
 /* Whether each row was given, bytes behind the values. */
 static char *given_of(struct gm_system_lane *lane)
@@ -44,25 +51,13 @@ static char *given_of(struct gm_system_lane *lane)
 
 /* ---- what is remembered ---- */
 
-static size_t sight_width(const struct gm_view *view)
+/* The state of the last member, of which every sight is made: another one may be chosen during the run. */
+static void record_state(const struct gm_view *view, double *entry)
 {
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    return sight->dimensions * sight->bodies;
-}
-
-static void record_sight(const struct gm_view *view, double *entry)
-{
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    if (sight->rods == 0) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, entry);
-        return;
+    const size_t m = view->problem->m, centre = gm_system_centre(view);
+    for (size_t c = 0; c < gm_system_scene_of(view)->system.n; c++) {
+        entry[c] = view->state[c * m + centre];
     }
-    double *all = malloc(gm_sight_numbers(sight) * sizeof *all);
-    if (all) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, all);
-        memcpy(entry, all, sight->dimensions * sight->bodies * sizeof *entry);
-    }
-    free(all);
 }
 
 static double step_of(const void *parameters)
@@ -251,7 +246,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
         gm_user_problem_close(problem);
         return false;
     }
-    problem->m = (size_t)lane->members;
+    problem->m = system_scene->hook ? system_scene->hook->members : (size_t)lane->members;
     return true;
 }
 
@@ -306,8 +301,10 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     }
     free(values);
     for (size_t i = 0; i < m; i++) {
-        double from_centre[2];
-        place_member(lane, i, m, from_centre);
+        double from_centre[2] = {0, 0};
+        if (!system_scene->hook) {
+            place_member(lane, i, m, from_centre);
+        }
         for (size_t c = 0; c < problem->n; c++) {
             y[c * m + i] = c < n ? centre[c] : 0;
         }
@@ -319,6 +316,9 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
         }
     }
     free(centre);
+    if (system_scene->hook) {
+        system_scene->hook->place(y);
+    }
 }
 
 static void close_problem(struct gm_problem *problem)
@@ -394,7 +394,8 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
-/* Where a plane is shown there is nothing to go around; and other words of a choice have values of their own. */
+/* Where a plane is shown there is nothing to go around; a hook places its members; and other words of a choice have values
+   of their own. */
 static const char *idle(const void *parameters, const char *key)
 {
     const struct gm_system_lane *lane = parameters;
@@ -403,6 +404,12 @@ static const char *idle(const void *parameters, const char *key)
         if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
             lane->owner->variables[row] == GM_NO_VARIABLE) {
             return lane->owner->lacks;
+        }
+    }
+    for (const struct gm_parameter *row = lane->owner->common;
+         lane->owner->hook && row < lane->owner->common + GM_ROW_SHOW; row++) {
+        if (strcmp(row->key, key) == 0) {
+            return "the file's hook places the members";
         }
     }
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
@@ -428,19 +435,33 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
     return 0;
 }
 
+/* The variable that says where a component starts: a parameter that is its start, or itself. */
+static size_t start_of(const struct gm_user_system *system, long component)
+{
+    if (component < 0 || (size_t)component >= system->n) {
+        return GM_NO_VARIABLE;
+    }
+    const gm_node_id start = system->variables[component].start;
+    const struct gm_node *node = start == GM_NO_NODE ? NULL : &system->graph.nodes[start];
+    const bool given = node && node->operation == GM_VARIABLE && node->a >= system->parameters &&
+                       node->a < system->velocities;
+    return given ? node->a : (size_t)component;
+}
+
 static size_t point(const void *parameters, double x, double y, struct gm_choice *choices)
 {
     const struct gm_system_lane *lane = parameters;
     const struct gm_sight *sight = gm_system_sight(lane);
     size_t count = 0;
     for (size_t k = 0; k < 2; k++) {
+        const size_t number = start_of(&lane->owner->system, sight->components[k]);
         for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
-            if (sight->components[k] >= 0 && lane->owner->variables[row] == (size_t)sight->components[k]) {
+            if (number != GM_NO_VARIABLE && lane->owner->variables[row] == number) {
                 gm_choose(&choices[count++], lane->owner->rows[row].key, k ? y : x);
             }
         }
     }
-    if (count == 2) {
+    if (count == (sight->over_time ? 1 : 2)) {
         return count + on_section(lane, sight, &choices[count]);
     }
     double *start = gm_system_start_values(lane, NULL);
@@ -477,14 +498,10 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    const size_t choices = system->choices.count, first_start = GM_SYSTEM_ROWS + choices + parameters;
-    system_scene->row_count = first_start + n;
-    system_scene->rows =
-        calloc(system_scene->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
-    system_scene->common = system_scene->rows ? system_scene->rows + system_scene->row_count : NULL;
-    system_scene->variables = calloc(system_scene->row_count, sizeof *system_scene->variables);
-    system_scene->initial =
-        calloc(1, sizeof *system_scene->initial + (system_scene->row_count) * (sizeof(double) + 1));
+    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
+    system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->variables = calloc(most, sizeof *system_scene->variables);
+    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
@@ -499,47 +516,37 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
         [GM_ROW_SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
                                        "of the members: on a disc's edge, in a grid, on a line"),
         [GM_ROW_SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
-                                      "all, the section, or a plane of two components"),
+                                      "all, or a plane of two components", .live = true),
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
-    if (good) {
-        memcpy(system_scene->rows, timing, sizeof timing);
-        memcpy(system_scene->common, common, sizeof common);
-        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
-        system_scene->initial->owner = system_scene;
-    }
     for (size_t i = 0; good && i < choices; i++) {
         good = make_choice(system_scene, i);
     }
-    for (size_t row = GM_SYSTEM_ROWS + choices; good && row < system_scene->row_count; row++) {
-        const bool is_start = row >= first_start;
-        size_t number = is_start ? row - first_start : system->parameters + row - GM_SYSTEM_ROWS - choices;
+    size_t row = GM_SYSTEM_ROWS + choices;
+    for (size_t i = 0; good && i < parameters + n; i++) {
+        const bool is_start = i >= parameters;
+        size_t number = is_start ? i - parameters : system->parameters + i;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
         const struct gm_system_variable *variable = &system->variables[number];
-        const char *unit = variable->unit, *help = variable->meaning;
-        const double value = start[number], reach = 1e300; /* sliders find their usual size themselves */
-        const bool ranged = !isnan(variable->low);
+        if (variable->derived) {
+            continue;
+        }
         system_scene->variables[row] = number;
-        system_scene->rows[row] = (struct gm_parameter){
-            .key = variable->name,
-            .unit = unit ? unit : "",
-            .help = help && help[0] ? help
-                    : is_start      ? "where it starts"
-                                    : "a parameter",
-            .type = GM_REAL,
-            .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
-            .lowest = variable->fixed ? value
-                      : ranged        ? variable->low
-                                      : -reach,
-            .highest = variable->fixed ? value
-                       : ranged        ? variable->high
-                                       : reach,
-            .required = typed,
-        };
-        good = system_scene->rows[row].standard != NULL;
+        system_scene->rows[row] = gm_written_row(
+            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
+            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].required = typed;
+        good = system_scene->rows[row++].standard != NULL;
+    }
+    system_scene->row_count = row;
+    if (good) {
+        system_scene->common = system_scene->rows + row;
+        memcpy(system_scene->rows, timing, sizeof timing);
+        memcpy(system_scene->common, common, sizeof common);
+        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
+        system_scene->initial->owner = system_scene;
     }
     free(start);
     return good;
@@ -588,18 +595,28 @@ static bool make_shows(struct gm_system_scene *system_scene)
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
     system_scene->common[GM_ROW_SHOW].choices = system_scene->shows;
-    if (system_scene->has_section && gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
-        system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+    if (system_scene->has_section) {
+        system_scene->common[GM_ROW_SHOW].help = "all, the section, or a plane of two components";
+        if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
+            system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+        }
     }
     return true;
 }
 
 static void make_tracks(struct gm_system_scene *system_scene)
 {
-    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){
-        .key = "past", .width = sight_width, .interval = step_of, .bound = 8192, .record = record_sight};
-    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){
-        .key = "trail", .width = sight_width, .bound = 2048, .recent = true, .record = record_sight};
+    const size_t n = system_scene->system.n, bound = 2 + MOST_RECORDED / n;
+    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){.key = "past",
+                                                            .numbers = n,
+                                                            .interval = step_of,
+                                                            .bound = bound < 8192 ? bound : 8192,
+                                                            .record = record_state};
+    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){.key = "trail",
+                                                             .numbers = n,
+                                                             .bound = bound < 2048 ? bound : 2048,
+                                                             .recent = true,
+                                                             .record = record_state};
     system_scene->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
                                                               .width = shape_width,
                                                               .interval = shape_interval,
@@ -610,7 +627,7 @@ static void make_tracks(struct gm_system_scene *system_scene)
                                                                .section = section,
                                                                .admits = is_admitted,
                                                                .again = true,
-                                                               .each = true,
+                                                               .each = !system_scene->hook,
                                                                .bound = CROSSINGS,
                                                                .record = record_crossing};
     system_scene->scene.tracks = system_scene->tracks;
@@ -675,6 +692,26 @@ static const char *title_of(struct gm_system_scene *system_scene)
     return kept ? kept : "A system of one’s own";
 }
 
+/* Finds the hook that the file names, if it does. False with a sentence: there is none, or it suits other systems. */
+static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
+{
+    static const struct gm_hook *const hooks[] = {
+#define GM_HOOK(name) &gm_hook_##name,
+#include "scenes/hooks.def"
+#undef GM_HOOK
+    };
+    const char *name = system_scene->system.texts[GM_WORD_HOOK];
+    for (size_t i = 0; name && i < GM_COUNT(hooks); i++) {
+        system_scene->hook = strcmp(hooks[i]->name, name) == 0 ? hooks[i] : system_scene->hook;
+    }
+    const struct gm_hook *hook = system_scene->hook;
+    if (name && !hook) {
+        return gm_refuse(sentence, "hook: there is no hook \"%.60s\"", name);
+    }
+    return !hook || hook->suits(&system_scene->system) ||
+           gm_refuse(sentence, "the hook \"%s\" is for %s", hook->name, hook->needs);
+}
+
 static const struct gm_scene *variant(const void *parameters)
 {
     return &((const struct gm_system_lane *)parameters)->owner->scene;
@@ -685,7 +722,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
 {
     struct gm_user_system *system = &system_scene->system;
     gm_refuse(sentence, "not enough memory");
-    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed)) {
+    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed) ||
+        !find_hook(system_scene, sentence)) {
         return false;
     }
     system_scene->scene = (struct gm_scene){
@@ -785,7 +823,13 @@ static struct gm_system_scene *make_other(const struct gm_system_scene *first,
     } else if (gm_system_is_field(&system)) {
         gm_refuse(sentence, "choice: %s=%s is a field, and other words are none", values->name, values->text);
     } else {
-        return open_one(&system, first->scene.name, first->scene.words, false, sentence);
+        struct gm_system_scene *made =
+            open_one(&system, first->scene.name, first->scene.words, false, sentence);
+        if (made && !gm_system_lack(made, values[count - 1].name, values[count - 1].text)) {
+            gm_system_scene_close(&made->scene);
+            made = NULL;
+        }
+        return made;
     }
     gm_system_close(&system);
     return NULL;

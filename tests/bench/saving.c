@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "app/data/rows.h"
 #include "app/data/save.h"
 #include "app/words/drive.h"
 #include "tests/bench/timing.h"

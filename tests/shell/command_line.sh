@@ -439,6 +439,23 @@ for what in '' scenes schemes figures disc 'schemes --long' 'disc --json'; do
     [ -s out ] || fail "list $what prints nothing"
 done
 
+# a scheme is listed by its name, by another name of it, and by a word; all schemes of a name are
+status 0 list gauss4
+grep -q '^gauss4  .* 4  .*Gauss 4$' out || fail "list gauss4: $(cat out)"
+status 0 list gauss-box2 --json
+[ "$(grep -c '^{"scheme":"box",' out)" = 2 ] || fail "list gauss-box2: $(cat out)"
+status 0 list 'composition(verlet; 0.5, 0.5)' --json
+grep -q '^{"scheme":"composition(verlet; 0.5, 0.5)",' out || fail "list of a word: $(cat out)"
+refused 1 'did you mean gauss4$' list gaus4
+
+# a picture whose scheme was named by another name says which scheme is drawn
+status 0 render klein-gordon scheme=box until=0.1 -o named.svg
+sed 's/scheme=box/scheme=gauss-box2/' named.svg >older.svg
+status 0 again older.svg -o newer.svg
+grep -q '^geomint: gauss-box2 is box$' err || fail "no word on an older name: $(cat err)"
+status 0 again named.svg -o newer.svg
+grep -q ' is box' err && fail "a name is told to be itself: $(cat err)"
+
 # list names the parameters that something takes, and what is taken by default; as wide as it is told
 status 0 list scenes --json
 python3 - "$geomint" <<'END' || fail 'list SCENE'

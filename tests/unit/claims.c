@@ -28,6 +28,7 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 static bool all;
 
@@ -541,11 +542,12 @@ static void names_find_the_row_that_fits(void **unused)
 
 /* Leapfrog with a little friction, which no law survives. */
 static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next,
                              struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
-    const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
+    const enum gm_status status = leapfrog->step(work, problem, dt, progress);
     for (size_t i = 0; i < work->points; i++) {
         next[i] -= 1e-4 * (now[i] - past[i]);
     }

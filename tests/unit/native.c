@@ -22,7 +22,6 @@
 #include <cmocka.h>
 
 #include "app/native/cache.h"
-#include "app/native/compiler.h"
 #include "app/native/engine.h"
 #include "app/words/request.h"
 #include "core/basics.h"

@@ -21,7 +21,6 @@
 #include "app/explorer/surface/surface.h"
 #include "app/explorer/view/view.h"
 #include "app/runs/session.h"
-#include "app/runs/slider.h"
 #include "app/words/drive.h"
 #include "core/basics.h"
 #include "core/schemes.h"

@@ -182,6 +182,50 @@ static struct gm_picture *picture_of(struct gm_lane *const *lanes, size_t count)
     return picture;
 }
 
+static void derived_starts_follow(void **unused)
+{
+    (void)unused;
+    static const char text[] = "coordinates: q\nmomenta: p\nparameter: E = 2; 0 .. 9\nH: (p^2 + q^2)/2\n"
+                               "start: q = 1; -2 .. 2\nstart: p = sqrt(2*E - q^2); derived\n";
+    const struct gm_scene *scene = scene_of(text);
+    assert_non_null(gm_scene_parameter(scene, "q"));
+    assert_null(gm_scene_parameter(scene, "p"));
+    struct gm_lane *lane = running(scene, "q=1.5 E=3", "rk4", 0);
+    assert_true(lane->start[0] == 1.5 && lane->start[1] == sqrt(6 - 2.25));
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+}
+
+/* A sight that is chosen during a run shows all of it, as if it had been chosen before. */
+static void sights_are_live(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of("coordinates: x y\nmomenta: u v\nH: (u^2 + v^2 + x^2)/2 + 2*y^2\n"
+                 "start: x = 1, y = 0.5, u = 0, v = 1\nview: x, x*y\nrod: 0, 0; x, y\ndt: 0.1\n");
+    const struct gm_parameter *show = gm_scene_parameter(scene, "show");
+    assert_true(show->live);
+    assert_null(strstr(show->help, "section"));
+    struct gm_lane *before = running(scene, "show=x:u", "rk4", 5), *now = running(scene, "", "rk4", 5);
+    assert_int_equal(gm_parameter_set(show, now->parameters, "x:u"), GM_PARSED);
+    struct gm_picture *pictures[] = {picture_of(&before, 1), picture_of(&now, 1)};
+    const struct gm_panel *panels[] = {pictures[0]->first, pictures[1]->first};
+    assert_true(panels[0]->x.low == panels[1]->x.low && panels[0]->y.high == panels[1]->y.high);
+    const struct gm_mark *mark = panels[0]->first, *other = panels[1]->first;
+    size_t most = 0;
+    for (; mark && other; mark = mark->next, other = other->next) {
+        assert_int_equal(mark->count, other->count);
+        assert_memory_equal(mark->points, other->points, 2 * mark->count * sizeof *mark->points);
+        most = mark->count > most ? mark->count : most;
+    }
+    assert_true(!mark && !other && most >= 50);
+    gm_picture_close(pictures[0]);
+    gm_picture_close(pictures[1]);
+    gm_lane_close(before);
+    gm_lane_close(now);
+    gm_system_scene_close(scene);
+}
+
 static void texts_hold_values(void **unused)
 {
     (void)unused;
@@ -324,6 +368,37 @@ static void studies_are_those_of_the_file(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* A cell of a flow without divergence has one volume, and of one that shrinks every length by exp(-t) that of exp(-3 t). */
+static void hooks_join(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"rate: x = sin(z), y = sin(x), z = sin(y)\n",
+                                        "rate: x = -x, y = -y, z = -z\n"};
+    for (int i = 0; i < 2; i++) {
+        char text[300];
+        snprintf(
+            text, sizeof text, "components: x y z\n%sstart: x = 0.5, y = 1, z = -0.4\ndt: 0.1\n%s", texts[i],
+            "hook: cell\nobserve: place = x\ngraph: log_volume; log; to-last\nstability: none; missing it ends\n");
+        const struct gm_scene *scene = scene_of(text);
+        assert_null(scene->stability);
+        assert_non_null(strstr(scene->no_stability, "it ends; "));
+        assert_non_null(gm_scene_idle(scene, scene->initial, "members"));
+        assert_null(gm_scene_idle(scene, scene->initial, "show"));
+        struct gm_lane *lane = running(scene, "", "gauss8", 1);
+        assert_float_equal(test_observed(lane, "log_volume"), i == 0 ? 0 : -3, 1e-6);
+        assert_true(test_observed(lane, "place") == gm_run_state(lane->run)[0]);
+        struct gm_picture *picture = picture_of(&lane, 1);
+        gm_picture_close(picture);
+        gm_lane_close(lane);
+        gm_system_scene_close(scene);
+    }
+    char sentence[GM_MESSAGE];
+    assert_null(open_scene(OSCILLATOR "hook: cell\n", sentence));
+    assert_string_equal(sentence, "the hook \"cell\" is for three components without the time");
+    assert_null(open_scene(OSCILLATOR "hook: no\n", sentence));
+    assert_string_equal(sentence, "hook: there is no hook \"no\"");
+}
+
 /* What a file claims about its scene, and what is wrong with it. */
 static void what_is_wrong_is_named(void **unused)
 {
@@ -361,10 +436,13 @@ int main(void)
         cmocka_unit_test(options_describe_observables),
         cmocka_unit_test(exact_solutions_are_values),
         cmocka_unit_test(requirements_refuse),
+        cmocka_unit_test(derived_starts_follow),
+        cmocka_unit_test(sights_are_live),
         cmocka_unit_test(texts_hold_values),
         cmocka_unit_test(levels_are_drawn),
         cmocka_unit_test(graphs_are_those_of_the_file),
         cmocka_unit_test(studies_are_those_of_the_file),
+        cmocka_unit_test(hooks_join),
         cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

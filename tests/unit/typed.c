@@ -9,11 +9,10 @@
 
 #include <cmocka.h>
 
-#include "app/words/current_values.h"
 #include "app/words/request.h"
 #include "app/words/system.h"
-#include "app/words/typed.h"
 #include "app/words/typed_file.h"
+#include "app/words/typed.h"
 #include "core/basics.h"
 #include "core/run.h"
 

@@ -13,13 +13,14 @@
 #include "app/commands/reference/reference.h"
 #include "app/grid/certified_lane.h"
 #include "app/grid/chart.h"
-#include "app/grid/listener.h"
-#include "app/output/csv.h"
+#include "app/grid/grid.h"
+#include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
+#include "core/arena.h"
 #include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
@@ -243,16 +244,13 @@ static int chart(const struct gm_options *options, const struct gm_certificate *
     /* `again` needs no file of the scheme */
     struct gm_options told = *options;
     const char *const word = certificates[0].scheme->word;
-    told.arguments = (struct gm_arguments){0};
-    int written = GM_EXIT_MEMORY;
-    bool good = gm_arguments_add(&told.arguments, word ? word : options->arguments.words[0]);
-    for (int i = 1; good && i < options->arguments.count; i++) {
-        good = gm_arguments_add(&told.arguments, options->arguments.words[i]);
+    struct gm_arguments *words = gm_arguments_in(options->arena);
+    gm_arena_need(options->arena, gm_arguments_add(words, word ? word : options->arguments.words[0]));
+    for (int i = 1; i < options->arguments.count; i++) {
+        gm_arena_need(options->arena, gm_arguments_add(words, options->arguments.words[i]));
     }
-    if (good) {
-        written = gm_command_chart(&told, "certify", "order", &orders, draw_orders, write_orders);
-    }
-    gm_arguments_close(&told.arguments);
+    told.arguments = *words;
+    const int written = gm_command_chart(&told, "certify", "order", &orders, draw_orders, write_orders);
     return written == GM_EXIT_OK ? status : written;
 }
 
@@ -394,41 +392,36 @@ int gm_command_certify(const struct gm_options *options)
         return gm_give_up(status, "%s", message);
     }
     const size_t most = gm_scheme_count();
-    struct certifying all = {.schemes = calloc(most, sizeof *all.schemes),
+    struct certifying all = {.schemes = gm_arena_take(options->arena, most, sizeof *all.schemes),
                              .options = options,
-                             .certificates = calloc(most, sizeof *all.certificates),
-                             .lost = calloc(most, sizeof *all.lost)};
-    status = GM_EXIT_MEMORY;
-    if (all.schemes && all.certificates && all.lost) {
-        if (found && found->word) {
-            all.schemes[all.count++] = found;
-        }
-        for (size_t i = 0; i < most; i++) {
-            const struct gm_scheme *scheme = gm_scheme_at(i);
-            if (every || strcmp(scheme->name, found->name) == 0) {
-                all.schemes[all.count++] = scheme;
-            }
-        }
-        const struct gm_pool pool = {.count = all.count,
-                                     .window = most,
-                                     .work = certify,
-                                     .take = tell,
-                                     .stopped = is_interrupted,
-                                     .self = &all};
-        gm_catch_interrupts();
-        gm_listener_hears(&gm_terminal_listener, all.schemes[0]->name, 0, all.count);
-        if (gm_pool_run(&pool) == all.count) {
-            if (!options->json && !gm_options_take_stdout(options)) {
-                printf("%zu certified, %zu broken\n", all.certified, all.broken);
-            }
-            status = chart(options, all.certificates, all.count, all.broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
-        } else if (gm_interrupted) {
-            gm_terminal_listener_clear();
-            status = GM_EXIT_INTERRUPTED;
+                             .certificates = gm_arena_take(options->arena, most, sizeof *all.certificates),
+                             .lost = gm_arena_take(options->arena, most, sizeof *all.lost)};
+    if (found && found->word) {
+        all.schemes[all.count++] = found;
+    }
+    for (size_t i = 0; i < most; i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (every || strcmp(scheme->name, found->name) == 0) {
+            all.schemes[all.count++] = scheme;
         }
     }
-    free(all.schemes);
-    free(all.certificates);
-    free(all.lost);
+    const struct gm_pool pool = {.count = all.count,
+                                 .window = most,
+                                 .work = certify,
+                                 .take = tell,
+                                 .stopped = is_interrupted,
+                                 .self = &all};
+    gm_catch_interrupts();
+    gm_listener_hears(&gm_terminal_listener, all.schemes[0]->name, 0, all.count);
+    status = GM_EXIT_MEMORY;
+    if (gm_pool_run(&pool) == all.count) {
+        if (!options->json && !gm_options_take_stdout(options)) {
+            printf("%zu certified, %zu broken\n", all.certified, all.broken);
+        }
+        status = chart(options, all.certificates, all.count, all.broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
+    } else if (gm_interrupted) {
+        gm_terminal_listener_clear();
+        status = GM_EXIT_INTERRUPTED;
+    }
     return gm_finish(status);
 }

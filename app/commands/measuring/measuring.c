@@ -9,46 +9,44 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/output/chart.h"
+#include "app/output/printer.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
+#include "core/arena.h"
+#include "core/basics.h"
 #include "core/memory.h"
 
-/* "stability kepler dt=0.1": what `again` reads; malloc'ed, NULL when memory is short. */
-static char *command_line(const char *command, const struct gm_options *options)
+/* "stability kepler dt=0.1": what `again` reads. */
+static const char *command_line(const char *command, const struct gm_options *options)
 {
-    struct gm_arguments all = {0};
-    char *words = NULL, *text = NULL;
-    bool good = !options->on || (gm_arguments_add(&all, GM_ON) && gm_arguments_add(&all, options->on));
-    for (int i = 0; good && i < options->arguments.count; i++) {
-        good = gm_arguments_add(&all, options->arguments.words[i]);
+    struct gm_arena *arena = options->arena;
+    const struct {
+        const char *name, *value;
+    } rows[] = {{"--measure", options->measure}, {"--region", options->region}, {"--judge", options->judge}};
+    struct gm_arguments *all = gm_arguments_in(arena);
+    gm_arena_need(arena,
+                  !options->on || (gm_arguments_add(all, GM_ON) && gm_arguments_add(all, options->on)));
+    for (int i = 0; i < options->arguments.count; i++) {
+        gm_arena_need(arena, gm_arguments_add(all, options->arguments.words[i]));
     }
-    words = good ? gm_arguments_join(command, &all) : NULL;
-    if (words && asprintf(&text, "%s%s%s%s%s%s%s", words, options->measure ? " --measure " : "",
-                          options->measure ? options->measure : "", options->region ? " --region " : "",
-                          options->region ? options->region : "", options->judge ? " --judge " : "",
-                          options->judge ? options->judge : "") < 0) {
-        text = NULL;
+    const char *words = gm_arena_keep(arena, gm_arguments_join(command, all), free);
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        words = rows[i].value ? gm_arena_print(arena, "%s %s %s", words, rows[i].name, rows[i].value) : words;
     }
-    gm_arguments_close(&all);
-    free(words);
-    return text;
+    return words;
 }
 
 int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
                      const void *data, void (*draw)(const void *data, struct gm_picture *picture),
                      bool (*write)(const void *data, const char *path))
 {
-    char message[GM_MESSAGE] = "not enough memory";
-    char *words = command_line(command, options);
+    char message[GM_MESSAGE];
     struct gm_chart chart = {.path = options->output,
                              .folder = options->out,
                              .name = options->name ? options->name : name,
-                             .command = words,
+                             .command = command_line(command, options),
                              .print = {.format = options->format, .look = options->look}};
-    const bool good = words && gm_chart_write(&chart, data, draw, write, message);
-    free(words);
-    if (!good) {
+    if (!gm_chart_write(&chart, data, draw, write, message)) {
         return gm_printer_fail(options->output, message);
     }
     gm_printer_report(&chart.print, write ? chart.csv : "");
@@ -74,38 +72,40 @@ static void print_json(const struct gm_grid *grid, const struct gm_study_printer
     }
 }
 
+static void close_grid(void *grid)
+{
+    gm_grid_close(grid);
+}
+
 int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
                      const struct gm_study_printer *printer)
 {
     char message[GM_MESSAGE], name[128];
     const struct gm_study_row *study = gm_study_rows[kind];
-    struct gm_grid grid;
-    if (!gm_grid_open(&grid, kind, &options->arguments, options->judge ? options->judge : options->measure,
+    struct gm_grid *grid = gm_arena_take(options->arena, 1, sizeof *grid);
+    if (!gm_grid_open(grid, kind, &options->arguments, options->judge ? options->judge : options->measure,
                       message)) {
-        return gm_give_up(gm_request_refusal(&grid.request), "%s", message);
+        gm_command_end(options, gm_request_refusal(&grid->request), "%s", message);
     }
-    if (!gm_command_confirmed(options, &grid.request)) {
-        gm_grid_close(&grid);
-        return GM_EXIT_USAGE;
-    }
-    grid.jobs = options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
+    gm_arena_keep(options->arena, grid, close_grid);
+    gm_command_confirm(options, &grid->request);
+    grid->jobs = options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    const bool measured = gm_grid_measure(&grid, &gm_terminal_listener, message);
+    const bool measured = gm_grid_measure(grid, &gm_terminal_listener, message);
     gm_terminal_listener_clear();
     if (gm_memory_was_short()) {
-        status = gm_give_up(GM_EXIT_MEMORY, "not enough memory to measure what was asked for");
+        gm_command_end(options, GM_EXIT_MEMORY, "not enough memory to measure what was asked for");
     } else if (measured) {
         if (options->json) {
-            print_json(&grid, printer);
+            print_json(grid, printer);
         } else if (!gm_options_take_stdout(options)) {
-            printer->print(&grid);
+            printer->print(grid);
         }
-        snprintf(name, sizeof name, "%s-%s", grid.request.scene->name, study->name);
-        status = gm_command_chart(options, study->name, name, &grid, gm_grid_draw, gm_grid_write);
+        snprintf(name, sizeof name, "%s-%s", grid->request.scene->name, study->name);
+        status = gm_command_chart(options, study->name, name, grid, gm_grid_draw, gm_grid_write);
     } else if (!gm_interrupted) {
         status = gm_give_up(study->refusal, "%s", message);
     }
-    gm_grid_close(&grid);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }

@@ -4,18 +4,17 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/measuring/measuring.h"
 #include "app/grid/chart.h"
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"
-#include "core/expression/number.h"
+#include "core/arena.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"
@@ -242,7 +241,10 @@ static int find_region(const struct gm_options *options)
 {
     char name[128], message[GM_MESSAGE];
     int status = GM_EXIT_OK;
-    struct region region = {.scheme = gm_scheme_sought(options->region, &status, message)};
+    struct region region = {
+        .scheme = gm_scheme_sought(options->region, &status, message),
+        .measured = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.measured),
+        .known = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.known)};
     if (!region.scheme) {
         return gm_give_up(status, "%s", message);
     }
@@ -254,29 +256,17 @@ static int find_region(const struct gm_options *options)
     }
     gm_catch_interrupts();
     region.reach = region.test == GM_TEST_PLANE ? 6 : 2 * M_PI;
-    region.measured = calloc((size_t)SIDE * SIDE, sizeof *region.measured);
-    region.known = calloc((size_t)SIDE * SIDE, sizeof *region.known);
     char own[41];
     snprintf(own, sizeof own, "%s", region.scheme->word ? region.scheme->title : "");
     for (char *at = own; *at; at++) {
         *at = isalnum((unsigned char)*at) ? *at : '-';
     }
     snprintf(name, sizeof name, "%s-stability", own[0] ? own : region.scheme->name);
-    if (!region.measured || !region.known) {
-        status = gm_give_up(GM_EXIT_FILE, "not enough memory");
-    } else {
-        if (region.test == GM_TEST_PLANE) {
-            measure_plane(&region);
-        } else {
-            measure_line(&region);
-        }
-        if (!gm_options_take_stdout(options)) {
-            print_limits(&region, options->json);
-        }
-        status = gm_command_chart(options, "stability", name, &region, draw_region, write_region);
+    (region.test == GM_TEST_PLANE ? measure_plane : measure_line)(&region);
+    if (!gm_options_take_stdout(options)) {
+        print_limits(&region, options->json);
     }
-    free(region.measured);
-    free(region.known);
+    status = gm_command_chart(options, "stability", name, &region, draw_region, write_region);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
 

@@ -5,7 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/measuring/measuring.h"
-#include "app/grid/judge.h"
+#include "app/grid/grid.h"
 
 static void print_cell(double value)
 {

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/json.h"
-#include "app/words/fitting.h"
+#include "app/words/names.h"
 #include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"

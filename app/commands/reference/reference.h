@@ -2,9 +2,6 @@
 #ifndef GM_APP_COMMANDS_REFERENCE_REFERENCE_H
 #define GM_APP_COMMANDS_REFERENCE_REFERENCE_H
 
-#include "app/base/arguments.h"
-#include "app/base/files.h"
-#include "app/output/row.h"
 #include "core/theory/theory.h"
 #include "scenes/common/lane.h"
 
@@ -22,19 +19,6 @@ void gm_catalogue_scenes_markdown(void);
 
 /* What theory says of a scheme, on standard output, as lines that begin with `indent`. */
 void gm_theory_print(const struct gm_theory *theory, const char *indent);
-
-enum gm_telling { GM_TELL_SHORT, GM_TELL_ALL, GM_TELL_LATEX, GM_TELL_JSON };
-
-/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
-   parameters other values; without a file they are all there is, "system H=... key=value ...". Returns the
-   exit status. */
-int gm_list_system(const struct gm_arguments *arguments, const struct gm_file *file, enum gm_telling telling);
-
-/* Puts "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
-void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
-                      const struct gm_scheme *const *same, size_t count);
-/* "file":"systems/toda.system","source":"..."; null both where there is no file. */
-void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 
 /* --version: the program and the libraries. Returns the exit status. */
 int gm_version(void);

@@ -13,13 +13,13 @@
 #include <suitesparse/cholmod.h>
 
 #include "app/commands/reference/reference.h"
-#include "app/native/compiler.h"
-#include "app/native/sources.h"
+#include "app/native/cache.h"
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "render/pixels/canvas.h"
 #include "render/vector/cairo.h"
+#include "render/vector/vector.h"
 
 static void print_libraries(void)
 {

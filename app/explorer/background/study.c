@@ -13,8 +13,8 @@
 
 #include "app/base/arguments.h"
 #include "app/grid/grid.h"
-#include "app/output/chart.h"
 #include "app/output/folder.h"
+#include "app/output/printer.h"
 #include "render/clock.h"
 
 enum { NICE = 10 };

@@ -4,7 +4,7 @@
 
 #include "app/explorer/background/background.h"
 #include "app/explorer/surface/surface.h"
-#include "app/runs/shot.h"
+#include "app/runs/session.h"
 #include "app/tours/tour.h"
 #include "app/words/typed.h"
 

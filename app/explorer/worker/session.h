@@ -2,9 +2,9 @@
 #ifndef GM_APP_EXPLORER_WORKER_SESSION_H
 #define GM_APP_EXPLORER_WORKER_SESSION_H
 
-#include "app/runs/shot.h"
-#include "app/tours/agenda.h"
-#include "render/layout/theme.h"
+#include "app/runs/session.h"
+#include "app/tours/tour.h"
+#include "render/layout/appearance.h"
 
 /* A session that is played: model time goes on with the clock on the wall, stops, runs ahead or back home. No
    thread: whoever plays calls in turn. */

@@ -7,7 +7,7 @@
 
 #include "app/grid/chart.h"
 #include "app/grid/hooks.h"
-#include "app/words/fitting.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 
 /* ---- layout ---- */

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/grid/hooks.h"
-#include "app/grid/judge.h"
 #include "core/arena.h"
 #include "core/expression/number.h"
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/grid/grid.h"
 #include "app/grid/hooks.h"
-#include "app/grid/judge.h"
-#include "app/words/chosen.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/certify.h"

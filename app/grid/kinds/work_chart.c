@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/grid/hooks.h"
-#include "app/grid/judge.h"
 #include "core/expression/number.h"
 #include "render/cells/text.h"
 

@@ -8,10 +8,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/base/text.h"
+#include "app/base/arguments.h"
 #include "app/grid/sweep.h"
-#include "app/output/csv.h"
 #include "app/output/folder.h"
+#include "app/output/row.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 

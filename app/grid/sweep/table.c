@@ -10,12 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
-#include "app/base/text.h"
 #include "app/grid/sweep.h"
-#include "app/output/csv.h"
 #include "app/output/folder.h"
+#include "app/output/row.h"
 #include "core/expression/reader.h"
 #include "render/clock.h"
 

@@ -24,6 +24,8 @@ struct gm_loops {
        strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
     void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,
                     double *velocity_x, double *velocity_y, double *strain, size_t count);
+    /* x_piece := x_piece + h times its rate, which holds the other components alone; NULL: it is not compiled */
+    void (*shear)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
     /* H where it is a sum as long as the field's; NULL: only the Hamiltonian knows it */
     double (*energy)(const struct gm_problem *problem, const double *y);
     gm_loop *over_kernels[GM_OVER_COUNT]; /* NULL: the problem lacks what the family needs */

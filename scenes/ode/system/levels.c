@@ -100,7 +100,7 @@ static bool open_level(struct level *level, const struct gm_lane *lane, const st
     double *all = malloc((variables * (most + 1) + 2 * most + most * most) * sizeof *all);
     *level = (struct level){.variables = all, .variable_count = variables, .sight = sight};
     if (all) {
-        gm_system_variables(&view, view.problem->m - 1, true, all);
+        gm_system_variables(&view, gm_system_centre(&view), true, all);
         level->row = all + variables;
         level->outputs = level->row + variables * most;
         level->corners = level->outputs + 2 * most;
@@ -207,14 +207,15 @@ static bool follow(const struct level *level, struct box *found, const struct bo
 void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range)
 {
     struct level level;
-    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+    if (sight->over_time || !gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
         return;
     }
     for (size_t number = 0; take_level(&level, lane, &number);) {
-        const size_t m = lane->problem.m;
+        const struct gm_view view = gm_lane_view(lane);
+        const size_t m = lane->problem.m, centre = gm_system_centre(&view);
         double reach[2], middle[2];
         for (int axis = 0; axis < 2; axis++) {
-            middle[axis] = lane->start[(size_t)sight->components[axis] * m + m - 1];
+            middle[axis] = lane->start[(size_t)sight->components[axis] * m + centre];
             reach[axis] = fmax(fabs(middle[axis]), 0.1);
         }
         const double size = fmax(reach[0], reach[1]);
@@ -290,7 +291,7 @@ static bool is_drawn(const struct gm_system_scene *system_scene, const struct gm
             continue;
         }
         gm_system_values(&system_scene->of_items[item - system_scene->system.items], &view,
-                         view.problem->m - 1, values);
+                         gm_system_centre(&view), values);
         if (values[1] > 0) {
             return true;
         }

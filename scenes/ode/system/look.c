@@ -14,6 +14,11 @@ const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
     return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
+size_t gm_system_centre(const struct gm_view *view)
+{
+    return gm_system_scene_of(view)->hook ? 0 : view->problem->m - 1;
+}
+
 size_t gm_sight_numbers(const struct gm_sight *sight)
 {
     return sight->dimensions * (sight->bodies + 2 * sight->rods);
@@ -33,9 +38,10 @@ size_t gm_system_bright_from(const struct gm_lane *lane)
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
-    const struct gm_system_scene *system_scene = lane->owner;
-    const size_t pairs = system_scene->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
-                 show = (size_t)lane->show;
+    const struct gm_system_scene *system_scene = lane->owner,
+                                 *first = system_scene->first ? system_scene->first : system_scene;
+    const size_t pairs = first->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
+                 show = (size_t)lane->show; /* a word of the first system */
     if (system_scene->has_section && show == GM_SHOW_SECTION) {
         return &system_scene->section;
     }
@@ -157,7 +163,7 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     memcpy(variables, states, n * count * sizeof *variables);
     memcpy(variables + n * count, times, count * sizeof *variables);
     for (size_t i = 0; i < n; i++) {
-        fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
+        fill(variables + (system->initial + i) * count, view->start[i * m + gm_system_centre(view)], count);
     }
     for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
         if (gm_system_is_parameter(lane->owner, row)) {
@@ -169,4 +175,27 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     }
     gm_tape_values(tape, variables, values, count);
     free(variables);
+}
+
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight)
+{
+    enum { BATCH = 256 };
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_entries *entries = &lane->entries[track];
+    const size_t n = entries->width, width = sight->dimensions * sight->bodies;
+    double *points = gm_picture_memory(picture, (entries->count * width + 1) * sizeof *points),
+           *states = gm_picture_memory(picture, BATCH * (n + gm_sight_numbers(sight)) * sizeof *states);
+    for (size_t first = 0, count; points && states && first < entries->count; first += count) {
+        count = entries->count - first < BATCH ? entries->count - first : BATCH;
+        for (size_t i = 0; i < n * count; i++) {
+            states[i] = entries->values[(first + i % count) * n + i / count];
+        }
+        double *values = states + n * count;
+        gm_system_values_of(&sight->tape, &view, states, entries->times + first, count, values);
+        for (size_t i = 0; i < width * count; i++) {
+            points[first * width + i] = values[i % width * count + i / width];
+        }
+    }
+    return (struct gm_path){points, points && states ? entries->count : 0, width};
 }

@@ -10,6 +10,7 @@
 #include "scenes/common/camera.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/written.h"
+#include "scenes/ode/hook.h"
 
 /* Of a row that is no variable of the system: a choice, or a row of others. */
 #define GM_NO_VARIABLE SIZE_MAX
@@ -22,6 +23,7 @@ struct gm_sight {
     struct gm_tape tape;   /* of all variables to these numbers */
     bool *fixed;           /* of each body: it does not move */
     const char *labels[3]; /* of the axes; NULL: they have no names */
+    bool over_time;        /* the first axis is the time */
     bool angles[2];        /* an axis is an angle */
     long components[2];    /* an axis is this component of the state; -1: it is none */
 };
@@ -42,6 +44,7 @@ struct gm_system_scene {
     struct gm_scene scene;
     struct gm_user_system system;
     struct gm_user_model model;
+    const struct gm_hook *hook;           /* NULL: the file names none */
     struct gm_parameter *rows, *common;   /* all of them, and those behind the system's own */
     size_t *variables;                    /* of each row: its number among the system's, or GM_NO_VARIABLE */
     size_t row_count;                     /* where the system's own end */
@@ -94,6 +97,9 @@ void gm_system_put_parameters(const struct gm_system_lane *lane, double *variabl
 /* The scene that a view is of. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
 
+/* The number of the member that is looked at. */
+size_t gm_system_centre(const struct gm_view *view);
+
 /* The values of all variables for one member of a view's state; velocities are NaN, and so is the exact solution, if it
    is not asked for or not known. */
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
@@ -102,6 +108,18 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
                          const double *times, size_t count, double *values);
+/* The numbers of a sight's bodies in every entry of a track: `width` of each entry. */
+struct gm_path {
+    const double *points;
+    size_t count, width;
+};
+/* The path of a lane's last member in a track of states; it lies in the picture's memory, and is empty if that is short. */
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight);
+/* Both of a lane. */
+struct gm_paths {
+    struct gm_path past, trail;
+};
 /* How many numbers a sight tells of a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
 /* From which entry of the past on the path of a body is bright: a part of the whole run. */

@@ -10,8 +10,11 @@
 
 #include "core/linear/curve.h"
 #include "core/model/scope.h"
+#include "core/ode/families/adaptive/variational_time.h"
+#include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
+#include "core/schemes.h"
 #include "scenes/common/rows.h"
 #include "scenes/ode/system/pieces.h"
 
@@ -20,7 +23,7 @@
 static double value_of(const struct gm_tape *tape, const struct gm_view *view)
 {
     double value;
-    gm_system_values(tape, view, view->problem->m - 1, &value);
+    gm_system_values(tape, view, gm_system_centre(view), &value);
     return value;
 }
 
@@ -30,7 +33,7 @@ static double observed(const struct gm_view *view)
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[2] = {0, 1};
     gm_system_values(&system_scene->formulas[view->observable - system_scene->observables], view,
-                     view->problem->m - 1, values);
+                     gm_system_centre(view), values);
     return values[1] > 0 ? values[0] : NAN;
 }
 
@@ -46,7 +49,7 @@ static double legendre(const struct gm_view *view, bool magnitudes)
     const size_t n = view->problem->n, m = view->problem->m;
     double *centre = malloc(2 * n * sizeof *centre), value = NAN, sum = 0, size = 0;
     for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + m - 1];
+        centre[i] = view->state[i * m + gm_system_centre(view)];
     }
     if (centre) {
         gm_ode_of(view->problem)->hamiltonian->energy(view->problem, centre, &value, 1);
@@ -80,7 +83,7 @@ static struct gm_manifold_defects defects_of(const struct gm_view *view)
     struct gm_manifold_defects defects = {NAN, NAN};
     double *centre = malloc(n * sizeof *centre);
     for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + m - 1];
+        centre[i] = view->state[i * m + gm_system_centre(view)];
     }
     defects = centre ? gm_manifold_defects(view->problem, centre) : defects;
     free(centre);
@@ -104,10 +107,10 @@ static double solution_error(const struct gm_view *view)
     const size_t n = system_scene->system.n, m = view->problem->m;
     double *exact = malloc(n * sizeof *exact), error = exact ? 0 : NAN;
     if (exact) {
-        gm_system_values(&system_scene->exact, view, m - 1, exact);
+        gm_system_values(&system_scene->exact, view, gm_system_centre(view), exact);
     }
     for (size_t i = 0; exact && i < n; i++) {
-        const double away = fabs(view->state[i * m + m - 1] - exact[i]);
+        const double away = fabs(view->state[i * m + gm_system_centre(view)] - exact[i]);
         if (system_scene->system.variables[i].exact != GM_NO_NODE) {
             error = away > error || isnan(away) ? away : error;
         }
@@ -352,10 +355,44 @@ static bool add_observed(struct gm_system_scene *system_scene, const struct gm_s
     struct gm_observable row = GM_OBSERVABLE(item->name, observed, item->name);
     const struct gm_system_option *condition = gm_system_option(item, GM_OPTION_WHILE);
     gm_written_options(&row, item);
+    row.symbol = gm_system_option_text(item, GM_OPTION_ERROR, NULL);
+    row.error = row.symbol != NULL;
+    row.logarithmic |= row.error;
     if (row.period > 0 && system_scene->scene.follow == 0) {
         system_scene->scene.follow = FOLLOWED; /* so that an angle is seen in every part of a turn */
     }
     return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
+}
+
+/* The step of a scheme that chooses it by the discrete energy balance, and of others dt. */
+static double tau(const struct gm_view *view)
+{
+    const bool chosen = view->scheme->family->parameters == gm_settings_of_variational_time;
+    return view->memory && chosen ? view->memory[GM_VARIATIONAL_TAU] : view->dt;
+}
+
+static double restarts(const struct gm_view *view)
+{
+    const bool counted = view->scheme->family == &gm_family_variational_time;
+    return view->memory && counted ? view->memory[GM_VARIATIONAL_RESTARTS] : 0;
+}
+
+/* What the file's schemes choose, if one of them is such. */
+static bool add_steps(struct gm_system_scene *system_scene)
+{
+    const char *list = system_scene->system.texts[GM_WORD_SCHEMES];
+    char name[64];
+    bool chosen = false;
+    while (gm_listed_word(&list, name, sizeof name)) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        chosen = chosen || (scheme && scheme->family->parameters == gm_settings_of_variational_time);
+    }
+    return !chosen ||
+           (add_observable(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE("tau", tau, "time step τ"),
+                           GM_NO_NODE, GM_NO_NODE) &&
+            add_observable(system_scene,
+                           (struct gm_observable)GM_OBSERVABLE("restarts", restarts, "restarts"), GM_NO_NODE,
+                           GM_NO_NODE));
 }
 
 /* What the file names: observe:, invariant:, casimir:, symmetry:. */
@@ -457,14 +494,18 @@ static bool refuse_twice(const struct gm_system_scene *system_scene, const char 
 bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                                 char *sentence)
 {
-    const size_t most = system_scene->system.item_count + 7;
+    const struct gm_hook *hook = system_scene->hook;
+    const size_t of_hook = hook ? hook->observable_count : 0,
+                 most = system_scene->system.item_count + 9 + of_hook;
     system_scene->observables = calloc(most, sizeof *system_scene->observables);
     system_scene->formulas = calloc(most, sizeof *system_scene->formulas);
     system_scene->terms = calloc(most, sizeof *system_scene->terms);
-    bool good = system_scene->observables && system_scene->formulas && system_scene->terms &&
-                add_energy(system_scene, problem) && add_named(system_scene) &&
-                add_defects(system_scene, problem) && add_solution_error(system_scene) &&
-                add_area(system_scene);
+    bool good = system_scene->observables && system_scene->formulas && system_scene->terms;
+    for (size_t i = 0; good && i < of_hook; i++) {
+        good = add_observable(system_scene, hook->observables[i], GM_NO_NODE, GM_NO_NODE);
+    }
+    good = good && add_energy(system_scene, problem) && add_steps(system_scene) && add_named(system_scene) &&
+           add_defects(system_scene, problem) && add_solution_error(system_scene) && add_area(system_scene);
     system_scene->scene.observables = system_scene->observables;
     system_scene->scene.observable_count = system_scene->observable_count;
     for (size_t i = 0; i < system_scene->observable_count && good; i++) {

@@ -202,6 +202,13 @@ bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct g
             return gm_refuse(sentence, "graph: %.60s is no observable", graph->name);
         }
     }
+    const char *missing = item ? gm_system_option_text(item, GM_OPTION_MISSING, NULL) : NULL;
+    if (missing) {
+        system_scene->scene.no_stability = gm_system_kept_text(
+            system_scene, "%s; stability --region SCHEME shows the limit of a scheme", missing);
+        return system_scene->scene.no_stability && make_figures(system_scene) &&
+               make_work(system_scene, problem, sentence);
+    }
     system_scene->scene.stability = &system_scene->stability;
     return make_figures(system_scene) && make_work(system_scene, problem, sentence) &&
            make_usual_map(system_scene, radian) && (!item || read_map(system_scene, problem, item, sentence));

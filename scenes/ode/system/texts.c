@@ -197,7 +197,7 @@ static struct values values_of(struct gm_picture *picture, const struct gm_lane 
     const struct gm_view view = gm_lane_view(lanes[i]);
     double *numbers = gm_picture_memory(picture, (item->count + 1) * sizeof *numbers);
     if (numbers) {
-        gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, view.problem->m - 1, numbers);
+        gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, gm_system_centre(&view), numbers);
     }
     return (struct values){numbers, lanes[i]->parameters,
                            one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count), "−"};

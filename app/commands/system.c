@@ -1,0 +1,758 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is known of somebody's own system: its equations as they were derived, its structure with reasons, and
+   the schemes that fit it. */
+#include "app/commands/commands.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/output/say.h"
+#include "app/words/names.h"
+#include "app/words/system.h"
+#include "core/arena.h"
+#include "core/basics.h"
+#include "core/expression/derivative.h"
+#include "core/expression/number.h"
+#include "core/expression/tidied.h"
+#include "core/field/user/form.h"
+#include "core/field/user/potential.h"
+#include "core/memory.h"
+#include "core/mesh/user/potential.h"
+#include "core/model/equations.h"
+#include "core/model/facts.h"
+#include "core/ode/user/evolution.h"
+#include "core/ode/user/problem.h"
+#include "core/schemes.h"
+#include "render/message.h"
+
+static const struct {
+    const char *word, *title, *energy;
+} kinds[GM_SYSTEM_KINDS] = {
+    {"canonical", "A canonical system", "H"},
+    {"lagrangian", "A Lagrangian system", "L"},
+    {"ode", "An ordinary differential equation", ""},
+    {"poisson", "A Poisson system", "H"},
+    {"field", "A wave equation", "V"},
+    {"evolution", "An evolution equation on a line", ""},
+    {"multisymplectic", "A multisymplectic equation on a line", "S"},
+};
+
+enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
+
+struct report {
+    struct gm_arena *arena; /* of its texts */
+    struct gm_user_system system;
+    struct gm_user_model model;
+    struct gm_user_evolution evolution;
+    struct gm_user_form form;
+    struct gm_user_wave wave;
+    struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
+};
+
+static bool fits(const struct report *report, const struct gm_scheme *scheme)
+{
+    return report->problem.kind && scheme->family->kind == report->problem.kind &&
+           gm_scheme_fits(scheme, &report->problem);
+}
+
+/* That it is long, of a formula that is too long to be read; -0, which a derivative of nothing is, as 0. */
+static const char *formula_of(const struct report *report, gm_node_id node, bool latex)
+{
+    const struct gm_node *whole = &report->system.graph.nodes[node];
+    if (whole->operation == GM_CONSTANT && whole->value == 0) {
+        return "0";
+    }
+    const struct gm_naming naming = gm_system_naming(&report->system);
+    char *text = latex ? gm_formula_latex(&report->system.graph, node, &naming)
+                       : gm_formula_text(&report->system.graph, node, &naming);
+    if (!text && !gm_memory_was_short()) {
+        return latex ? "\\ldots" : "(a long formula)";
+    }
+    return gm_arena_keep(report->arena, text, free);
+}
+
+static void print_equation(const struct report *report, const char *left, gm_node_id node)
+{
+    gm_print_wrapped(formula_of(report, node, false), printf("  %s = ", left), 6);
+}
+
+/* A name, plain or as LaTeX. */
+static const char *name_of(const struct report *report, const char *name, bool latex)
+{
+    return latex ? gm_arena_keep(report->arena, gm_name_latex(name), free) : name;
+}
+
+/* "u_t", or with a mass "(u - u_xx)_t" */
+static const char *name_rate(const struct report *report, size_t i, bool latex)
+{
+    const struct gm_user_system *system = &report->system;
+    const char *left = gm_arena_print(report->arena, latex ? "\\partial_t %.60s" : "%.60s_t",
+                                      name_of(report, system->variables[i].name, latex));
+    for (size_t k = 0; k < system->item_count; k++) {
+        const struct gm_system_item *item = &system->items[k];
+        if (item->word == GM_WORD_MASS && gm_system_mass_field(system, item->nodes[0]) == i) {
+            left = gm_arena_print(report->arena, latex ? "\\partial_t\\left(%.200s\\right)" : "(%.200s)_t",
+                                  formula_of(report, item->nodes[0], latex));
+        }
+    }
+    return left;
+}
+
+/* A row of K z_t + L z_x, as its entries are written: "-v_t + w_x" */
+static const char *name_row(const struct report *report, size_t row, bool latex)
+{
+    const struct gm_user_system *system = &report->system;
+    const size_t n = system->n;
+    const char *left = "";
+    for (size_t which = 0; which < 2; which++) {
+        for (size_t c = 0; c < n; c++) {
+            const gm_node_id node = system->matrices[(which * n + row) * n + c];
+            if (gm_is_constant(&system->graph, node, 0)) {
+                continue;
+            }
+            const bool one = gm_is_constant(&system->graph, node, 1),
+                       minus = gm_is_constant(&system->graph, node, -1);
+            const char *sign = minus ? (left[0] ? " - " : "-") : left[0] ? " + " : "", *factor = "";
+            if (!one && !minus) {
+                factor = gm_arena_print(report->arena, latex ? "\\left(%.80s\\right)\\," : "(%.60s) ",
+                                        formula_of(report, node, latex));
+            }
+            const char *name = name_of(report, system->variables[c].name, latex),
+                       *variable = which ? "x" : "t";
+            left = latex
+                       ? gm_arena_print(report->arena, "%s%s%s\\partial_%s %.60s", left, sign, factor,
+                                        variable, name)
+                       : gm_arena_print(report->arena, "%s%s%s%.40s_%s", left, sign, factor, name, variable);
+        }
+    }
+    return left[0] ? left : "0";
+}
+
+/* The left side of equation number i, and the node of its right one; GM_NO_NODE: it has none. */
+static gm_node_id equation_of(const struct report *report, size_t i, bool latex, const char **left)
+{
+    const struct gm_user_system *system = &report->system;
+    const size_t half = system->n / 2;
+    const bool momentum = system->kind == GM_LAGRANGIAN && i < half;
+    if (system->kind == GM_MATRICES) {
+        *left = name_row(report, i, latex);
+    } else if (system->kind == GM_EVOLUTION) {
+        *left = name_rate(report, i, latex);
+    } else if (system->kind == GM_FIELD) { /* number 1: the first one says that u_t is u_t */
+        const char *name = name_of(report, system->variables[0].name, latex);
+        *left = gm_arena_print(report->arena,
+                               latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
+                               name, name);
+    } else {
+        *left = gm_arena_print(report->arena,
+                               momentum ? "%.60s"
+                               : latex  ? "\\dot{%.60s}"
+                                        : "%.60s'",
+                               name_of(report, system->variables[momentum ? half + i : i].name, latex));
+    }
+    return momentum ? system->momenta[i] : system->rates[i];
+}
+
+static size_t first_equation(const struct gm_user_system *system)
+{
+    return system->kind == GM_FIELD ? 1 : 0;
+}
+
+static const char *certainty(enum gm_identity check)
+{
+    static const char *const words[] = {[GM_NOT_ZERO] = "not kept",
+                                        [GM_ZERO_PROVED] = "proved",
+                                        [GM_ZERO_TESTED] = "tested at random points",
+                                        [GM_UNTESTED] = "not checked"};
+    return words[check];
+}
+
+static bool is_kept(const struct gm_system_item *item)
+{
+    return item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
+}
+
+/* The name of an invariant; of a momentum map without one its number. */
+static const char *kept_name(const struct report *report, const struct gm_system_item *item)
+{
+    int number = 0;
+    for (const struct gm_system_item *other = report->system.items; other <= item; other++) {
+        number += other->word == GM_WORD_SYMMETRY && !other->name[0];
+    }
+    return item->name[0] ? item->name : gm_arena_print(report->arena, "momentum%d", number);
+}
+
+/* Its formula; GM_NO_NODE where a symmetry has no momentum map. */
+static gm_node_id kept_node(const struct gm_user_system *system, const struct gm_system_item *item)
+{
+    return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
+           : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
+                                           : GM_NO_NODE;
+}
+
+static void print_texts(const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    const char *const texts[] = {gm_system_title(system), system->texts[GM_WORD_ABOUT],
+                                 system->texts[GM_WORD_WATCH], system->texts[GM_WORD_REFERENCE]};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        if (texts[i]) {
+            gm_print_wrapped(texts[i], 0, 0);
+        }
+    }
+    gm_print_wrapped(gm_arena_print(report->arena, "%s of %zu component%s%s", kinds[system->kind].title,
+                                    system->n, gm_plural((double)system->n),
+                                    system->timed ? " and the time" : ""),
+                     0, 0);
+}
+
+/* The values at the start. */
+static const double *start_of(const struct report *report)
+{
+    return gm_arena_keep(report->arena, gm_equations_start(&report->system, NULL), free);
+}
+
+static void print_parameters(const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    const double *start = start_of(report);
+    if (system->parameters < system->velocities || system->choices.count > 0) {
+        printf("\nparameters\n");
+    }
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        const char *words = "";
+        for (size_t k = 0; k < choice->count; k++) {
+            words = gm_arena_print(report->arena, "%s%s%s", words, k ? ", " : "one of ", choice->words[k]);
+        }
+        gm_print_wrapped(words, printf("  %-14s %-12s ", choice->name, choice->words[choice->chosen]), 30);
+    }
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        const struct gm_system_variable *row = &system->variables[i];
+        char value[64], low[64], high[64];
+        const char *range = isnan(row->low) ? ""
+                                            : gm_arena_print(report->arena, " [%s .. %s]",
+                                                             gm_number_format(row->low, low, sizeof low),
+                                                             gm_number_format(row->high, high, sizeof high));
+        gm_number_format(row->value, value, sizeof value);
+        gm_print_wrapped(gm_arena_print(report->arena, "%.200s%s%.60s%s%s", row->meaning,
+                                        row->unit[0] ? ", in " : "", row->unit, range,
+                                        row->fixed ? " (a whole number that is fixed)" : ""),
+                         printf("  %-14s %-12s ", row->name, value), 30);
+    }
+    printf("\nstart\n");
+    for (size_t i = 0; i < system->n && i < MOST_EQUATIONS; i++) {
+        if (gm_system_is_field(system)) {
+            print_equation(report, system->variables[i].name, system->variables[i].start);
+            continue;
+        }
+        printf("  %-14s %.15g%s\n", system->variables[i].name, start[i],
+               system->variables[i].angle ? " (an angle)" : "");
+    }
+}
+
+static void print_equations(const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    printf("\nequations\n");
+    if (kinds[system->kind].energy[0]) {
+        print_equation(report, kinds[system->kind].energy, system->energy);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_LET) {
+            print_equation(report, system->items[i].name, system->items[i].nodes[0]);
+        }
+    }
+    for (size_t i = first_equation(system); i < system->n; i++) {
+        if (i == MOST_EQUATIONS) {
+            printf("  and %zu more\n", system->n - i);
+            break;
+        }
+        const char *left;
+        const gm_node_id node = equation_of(report, i, false, &left);
+        print_equation(report, left, node);
+    }
+    for (size_t i = 0, k = 1; i < system->item_count && k <= MOST_EQUATIONS; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            printf("%s", k == 1 ? "\nconstraints, whose forces act on the momenta beside these rates\n" : "");
+            print_equation(report, "0", system->items[i].nodes[0]);
+            k++;
+        }
+    }
+}
+
+static void print_kept(const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    bool any = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (!is_kept(item)) {
+            continue;
+        }
+        printf("%s", any ? "" : "\ninvariants\n");
+        any = true;
+        const gm_node_id node = kept_node(system, item);
+        const char *by = item->word == GM_WORD_CASIMIR    ? "a Casimir, "
+                         : item->word == GM_WORD_SYMMETRY ? "by symmetry, "
+                                                          : "";
+        const char *line =
+            gm_arena_print(report->arena, "%s = %s (%s%s)", kept_name(report, item),
+                           node == GM_NO_NODE ? "a symmetry of the motion" : formula_of(report, node, false),
+                           by, certainty(item->check));
+        gm_print_wrapped(line, printf("  "), 2);
+    }
+}
+
+/* The facets of a field: its equation has them. */
+static const char *const field_facts[][2] = {
+    {"wave", "u_tt = u_xx - V'(u), and V is smooth"},
+    {"multisymplectic", "s = (u, u_t, u_x) solves M s_t + K s_x = grad S(s), S = V(u) + u_t^2/2 - u_x^2/2"},
+};
+enum { FIELD_FACTS = GM_COUNT(field_facts) };
+static const char form_fact[] = "K z_t + L z_x = grad S(z), K and L are skew, and S is smooth";
+
+static bool has_linear(const struct report *report, size_t i)
+{
+    return !gm_is_constant(&report->system.graph, report->evolution.linear[i], 0);
+}
+
+/* The linear part of the rate of a field, in words. */
+static const char *linear_fact(const struct report *report, size_t i)
+{
+    const char *line = formula_of(report, report->evolution.linear[i], false),
+               *name = report->system.variables[i].name;
+    return strcmp(line, "0") == 0 ? gm_arena_print(report->arena, "nothing is linear in the rate of %s", name)
+                                  : gm_arena_print(report->arena, "in the rate of %s: %s", name, line);
+}
+
+/* Calls `put` for every fact of the structure; `of` is the component that it is about, or "". */
+static void each_fact(const struct report *report,
+                      void (*put)(struct gm_row *row, const char *word, const char *of, bool holds,
+                                  const char *reason),
+                      struct gm_row *row)
+{
+    const struct gm_user_system *system = &report->system;
+    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
+        put(row, "linear part", system->variables[i].name, has_linear(report, i), linear_fact(report, i));
+    }
+    if (system->kind == GM_MATRICES) {
+        put(row, "multisymplectic", "", true, form_fact);
+    }
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
+        put(row, field_facts[i][0], "", true, field_facts[i][1]);
+    }
+    for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
+        const struct gm_finding *finding = &report->model.findings[fact];
+        char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
+        if (reason) {
+            put(row, gm_fact_word(fact), "", finding->holds, reason);
+        }
+        free(reason);
+    }
+}
+
+static void print_fact(struct gm_row *unused, const char *word, const char *of, bool holds,
+                       const char *reason)
+{
+    (void)unused, (void)of;
+    gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
+}
+
+static void print_facts(const struct report *report)
+{
+    printf("\nstructure\n");
+    if (report->system.kind == GM_POISSON) {
+        printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
+    }
+    each_fact(report, print_fact, NULL);
+}
+
+/* Those that fit, and those of another kind of grid. */
+static void print_names(const struct report *report, const struct gm_kind *other)
+{
+    const char *text = "";
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (other ? scheme->family->kind == other : fits(report, scheme)) {
+            const struct gm_scheme *same = other ? NULL : gm_scheme_same_as(scheme, &report->problem);
+            text = gm_arena_print(report->arena, same ? "%s%s (= %s) " : "%s%s ", text, scheme->name,
+                                  same ? same->name : "");
+        }
+    }
+    gm_print_wrapped(text, printf("  "), 2);
+}
+
+static void print_schemes(const struct report *report)
+{
+    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_user_model_lacks(&report->model);
+    printf("\nschemes that fit\n");
+    if (lacks[0]) {
+        gm_print_wrapped(lacks, printf("  "), 2);
+    } else {
+        print_names(report, NULL);
+    }
+    if (report->system.kind == GM_FIELD) {
+        printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
+               gm_user_mesh_order(&report->wave));
+        print_names(report, &gm_kind_mesh);
+    }
+}
+
+static void put_formula(struct gm_row *row, const char *key, const struct report *report, gm_node_id node)
+{
+    gm_row_text(row, key, formula_of(report, node, false));
+}
+
+static void put_values(struct gm_row *row, const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    const double *start = start_of(report);
+    struct gm_row parameters = gm_row_open(row, "parameters", '}');
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        gm_row_text(&parameters, choice->name, choice->words[choice->chosen]);
+    }
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
+    }
+    gm_row_close(&parameters);
+    struct gm_row starts = gm_row_open(row, "start", '}');
+    for (size_t i = 0; i < system->n; i++) {
+        if (gm_system_is_field(system)) {
+            put_formula(&starts, system->variables[i].name, report, system->variables[i].start);
+        } else {
+            gm_row_number(&starts, system->variables[i].name, start[i], 17);
+        }
+    }
+    gm_row_close(&starts);
+}
+
+static void put_equations(struct gm_row *row, const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    struct gm_row equations = gm_row_open(row, "equations", '}');
+    for (size_t i = first_equation(system); i < system->n; i++) {
+        const char *name;
+        const gm_node_id node = equation_of(report, i, false, &name);
+        put_formula(&equations, name, report, node);
+    }
+    gm_row_close(&equations);
+    struct gm_row constraints = gm_row_open(row, "constraints", ']');
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            put_formula(&constraints, NULL, report, system->items[i].nodes[0]);
+        }
+    }
+    gm_row_close(&constraints);
+    struct gm_row invariants = gm_row_open(row, "invariants", '}');
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (is_kept(&system->items[i])) {
+            gm_row_text(&invariants, kept_name(report, &system->items[i]), certainty(system->items[i].check));
+        }
+    }
+    gm_row_close(&invariants);
+}
+
+static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
+{
+    char key[80];
+    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
+    struct gm_row fact = gm_row_open(row, key, '}');
+    gm_row_flag(&fact, "holds", holds);
+    gm_row_text(&fact, "reason", reason);
+    gm_row_close(&fact);
+}
+
+static void print_json(const struct report *report, const struct gm_file *file)
+{
+    const struct gm_user_system *system = &report->system;
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "title", gm_system_title(system) ? gm_system_title(system) : "");
+    gm_row_text(&row, "kind", kinds[system->kind].word);
+    gm_row_flag(&row, "timed", system->timed);
+    put_values(&row, report);
+    put_equations(&row, report);
+    struct gm_row structure = gm_row_open(&row, "structure", '}');
+    each_fact(report, put_fact, &structure);
+    gm_row_close(&structure);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
+    size_t count = 0;
+    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
+    for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
+        if (fits(report, gm_scheme_at(i))) {
+            fitting[count] = gm_scheme_at(i);
+            same[count] = gm_scheme_same_as(fitting[count], &report->problem);
+            gm_row_text(&schemes, NULL, fitting[count++]->name);
+        }
+    }
+    gm_row_close(&schemes);
+    gm_list_put_same(&row, fitting, same, count);
+    gm_list_put_file(&row, file, system->source);
+    printf("}\n");
+}
+
+/* What was derived as it is to be printed; what was typed stays. */
+static void tidy(struct report *report, gm_node_id *node)
+{
+    const struct gm_naming naming = gm_system_naming(&report->system);
+    if (*node != GM_NO_NODE && report->system.graph.places[*node] == GM_NO_PLACE) {
+        const gm_node_id tidied = gm_formula_tidied(&report->system.graph, *node, &naming);
+        char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
+        *node = text ? tidied : *node; /* what is multiplied out may be too long to be read */
+        free(text);
+    }
+    gm_arena_need(report->arena, !gm_memory_was_short());
+}
+
+/* -lambda_k times the derivative of each constraint over a coordinate: the forces that hold them. */
+static void print_forces(struct report *report, size_t coordinate)
+{
+    struct gm_user_system *system = &report->system;
+    bool *marked = gm_arena_take(report->arena, system->variable_count, sizeof *marked);
+    gm_node_id *gradient = gm_arena_take(report->arena, system->variable_count, sizeof *gradient);
+    marked[coordinate] = true;
+    for (size_t i = 0, k = 1; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_CONSTRAINT) {
+            continue;
+        }
+        if (gm_gradient(&system->graph, item->nodes[0], marked, system->variable_count, gradient) &&
+            !gm_is_constant(&system->graph, gradient[coordinate], 0)) {
+            tidy(report, &gradient[coordinate]);
+            const char *text = formula_of(report, gradient[coordinate], true);
+            printf(strpbrk(text, "+-") ? " - \\lambda_{%zu}\\left(%s\\right)" : " - \\lambda_{%zu}\\,%s", k,
+                   text);
+        }
+        k++;
+    }
+}
+
+static void print_latex(struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    const size_t half = system->n / 2;
+    printf("\\begin{align}\n");
+    if (kinds[system->kind].energy[0]) {
+        printf("  %s &= %s \\\\\n", kinds[system->kind].energy, formula_of(report, system->energy, true));
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_LET) {
+            printf("  %s &= %s \\\\\n", name_of(report, system->items[i].name, true),
+                   formula_of(report, system->items[i].nodes[0], true));
+        }
+    }
+    for (size_t i = first_equation(system); i < system->n; i++) {
+        const char *left, *right = formula_of(report, equation_of(report, i, true, &left), true);
+        printf("%s  %s &= %s", i > first_equation(system) ? " \\\\\n" : "", left, right);
+        if (i >= half && !gm_system_is_field(system)) {
+            print_forces(report, i - half);
+        }
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            printf(" \\\\\n  0 &= %s", formula_of(report, system->items[i].nodes[0], true));
+        }
+    }
+    printf("\n\\end{align}\n");
+}
+
+static void refuse_value(const struct gm_options *options, const char *name, const char *value)
+{
+    gm_command_end(
+        options, GM_EXIT_USAGE,
+        "list SYSTEM takes parameters with numbers, such as N=3, and words of choices, not \"%.60s%s%.60s\"",
+        name, value[0] ? "=" : "", value);
+}
+
+/* Reads key=value words, each of a parameter or a choice of the system. */
+static size_t read_values(const struct gm_options *options, struct gm_system_value *values)
+{
+    const struct gm_arguments *arguments = &options->arguments;
+    for (int i = 1; i < arguments->count; i++) {
+        char *word = arguments->words[i], *equals = strchr(word, '=');
+        if (!equals) {
+            refuse_value(options, word, "");
+        }
+        *equals = '\0';
+        values[i - 1] = (struct gm_system_value){word, equals + 1};
+    }
+    return (size_t)arguments->count - 1;
+}
+
+/* Every value must be that of a parameter, or a word of a choice. */
+static void check_values(const struct gm_options *options, const struct gm_user_system *system,
+                         const struct gm_system_value *values, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        size_t i = system->parameters;
+        while (i < system->velocities && strcmp(system->variables[i].name, values[k].name) != 0) {
+            i++;
+        }
+        double number;
+        const struct gm_written_choice *choice = gm_choice_named(&system->choices, values[k].name);
+        if (choice && strcmp(choice->words[choice->chosen], values[k].text) == 0) {
+            continue;
+        }
+        if (choice || (i < system->velocities && !gm_number_parse(values[k].text, &number))) {
+            refuse_value(options, values[k].name, values[k].text);
+        }
+        if (i >= system->velocities) {
+            gm_command_end(options, GM_EXIT_USAGE, "this system has no parameter \"%.60s\"", values[k].name);
+        }
+    }
+}
+
+/* The equation of a field, and its facets, which are those of every ring. */
+static bool open_field(struct report *report, const double *start)
+{
+    const struct gm_grid1 any = {.points = 6, .dx = 1};
+    struct gm_user_evolution *evolution = &report->evolution;
+    if (report->system.kind == GM_MATRICES) {
+        return gm_user_form_derive(&report->form, &report->system) &&
+               gm_user_form_open(&report->problem, &report->form, start, &any);
+    }
+    if (report->system.kind == GM_FIELD) {
+        return gm_user_wave_derive(&report->wave, &report->system) &&
+               gm_user_wave_open(&report->problem, &report->wave, start, &any);
+    }
+    const bool opened =
+        gm_user_evolution_derive(evolution, &report->system) &&
+        gm_user_evolution_open(&report->problem, evolution, start, &any, GM_SPACE_DIFFERENCES);
+    const bool smooth = evolution->kink == GM_NO_NODE;
+    report->model.findings[GM_FACT_SMOOTH] = (struct gm_finding){.asked = true,
+                                                                 .holds = smooth,
+                                                                 .how = smooth ? GM_ZERO_PROVED : GM_NOT_ZERO,
+                                                                 .term = evolution->kink,
+                                                                 .component = evolution->kinked};
+    return opened;
+}
+
+static bool open_equations(struct report *report, const double *start)
+{
+    return gm_user_model_open(&report->model, &report->system) &&
+           (gm_user_model_lacks(&report->model)[0] ||
+            gm_user_problem_open(&report->problem, &report->model, start));
+}
+
+/* What was derived, and not typed, is only printed from here on. */
+static void tidy_all(struct report *report)
+{
+    struct gm_user_system *system = &report->system;
+    for (size_t i = 0; i < system->n; i++) {
+        tidy(report, &system->rates[i]);
+        if (system->kind == GM_LAGRANGIAN && i < system->n / 2) {
+            tidy(report, &system->momenta[i]);
+        }
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_SYMMETRY && system->kind <= GM_LAGRANGIAN) {
+            tidy(report, &item->nodes[system->n / 2]);
+        }
+    }
+}
+
+static void close_report(void *data)
+{
+    struct report *report = data;
+    if (report->system.kind == GM_FIELD) {
+        gm_user_wave_close(&report->problem);
+    } else if (report->system.kind == GM_MATRICES) {
+        gm_user_form_close(&report->problem);
+    } else if (report->system.kind == GM_EVOLUTION) {
+        gm_user_evolution_shut(&report->problem);
+        gm_user_evolution_close(&report->evolution);
+    } else {
+        gm_user_problem_close(&report->problem);
+    }
+    gm_user_model_close(&report->model);
+    gm_system_close(&report->system);
+}
+
+/* The system of a file with other values, or of words alone: the file is NULL. */
+static struct report *open_report(const struct gm_options *options, const struct gm_file *file)
+{
+    char message[GM_MESSAGE];
+    const struct gm_arguments *arguments = &options->arguments;
+    struct report *report = gm_arena_take(options->arena, 1, sizeof *report);
+    struct gm_system_value *values = gm_arena_take(options->arena, (size_t)arguments->count, sizeof *values);
+    const size_t count = file ? read_values(options, values) : 0;
+    report->arena = options->arena;
+    gm_arena_keep(options->arena, report, close_report);
+    const int status = gm_system_open(&report->system, file, arguments, values, count, message);
+    if (status != GM_EXIT_OK) {
+        gm_command_end(options, status, "%s", message);
+    }
+    check_values(options, &report->system, values, count);
+    return report;
+}
+
+/* What is told of a system can be run too: its schemes, members and observables are those of a scene. */
+static void check_scene(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_system_trial trial;
+    const bool good = gm_system_try(&trial, options->arguments.count, options->arguments.words, message);
+    const int status = trial.status;
+    gm_system_trial_close(&trial);
+    if (!good) {
+        gm_command_end(options, status, "%s", message);
+    }
+}
+
+void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
+                      const struct gm_scheme *const *same, size_t count)
+{
+    struct gm_row all = gm_row_open(row, "same_as", '}');
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_scheme *one = same[i] ? same[i] : schemes[i];
+        struct gm_row names;
+        bool begun = false;
+        for (size_t k = 0; k < count; k++) {
+            if (k != i && (schemes[k] == one || same[k] == one)) {
+                names = begun ? names : gm_row_open(&all, schemes[i]->name, ']');
+                gm_row_text(&names, NULL, schemes[k]->name);
+                begun = true;
+            }
+        }
+        if (begun) {
+            gm_row_close(&names);
+        }
+    }
+    gm_row_close(&all);
+}
+
+void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)
+{
+    gm_row_text(row, "file", file ? file->path : NULL);
+    gm_row_text(row, "source", file ? source : NULL);
+}
+
+int gm_list_system(const struct gm_options *options, const struct gm_file *file)
+{
+    struct report *report = open_report(options, file);
+    check_scene(options);
+    const double *start = start_of(report);
+    const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
+    /* what was not checked for want of memory is not called unchecked */
+    gm_arena_need(options->arena, opened && !gm_memory_was_short());
+    tidy_all(report);
+    if (options->json) {
+        print_json(report, file);
+    } else if (options->latex) {
+        print_latex(report);
+    } else {
+        print_texts(report);
+        print_parameters(report);
+        print_equations(report);
+        print_kept(report);
+        if (options->longer) {
+            print_facts(report);
+            print_schemes(report);
+        }
+    }
+    return gm_finish(GM_EXIT_OK);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_WORDS_NAMES_H
+#define GM_APP_WORDS_NAMES_H
+
+#include <stdbool.h>
+
+#include "scenes/common/lane.h"
+#include "scenes/common/scene.h"
+
+/* Which schemes can be asked for with a scene. */
+
+enum { GM_FITTING_SCHEMES = 256 };
+
+/* Adds a scheme, or NULL, to `*count` of them if it fits a problem, is not among them, and there are less than
+   GM_FITTING_SCHEMES. */
+void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *problem,
+                    const struct gm_scheme **schemes, size_t *count);
+
+/* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
+size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
+/* Writes for each of these schemes the one whose steps are the same there at its defaults, or NULL. */
+void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const *schemes, size_t count,
+                     const struct gm_scheme **same);
+
+/* The same, and behind them those that the scene's own text takes on another kind of grid. */
+size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
+
+/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
+bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
+
+/* Observables that were asked for, by their numbers (gm_scene_observable_at), in the order in which they
+   were. */
+struct gm_chosen {
+    size_t *numbers;
+    size_t count;
+};
+
+/* Those of these keys, "KEY,KEY"; NULL: all that a scene tells unasked. False with a sentence. To be closed
+   in both cases. */
+bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
+void gm_chosen_close(struct gm_chosen *chosen);
+
+/* Refuses an observable that is not there, with the nearest that is. Returns false. */
+bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *message);
+
+/* Names of scenes, systems and rooms. */
+
+/* Proposes for a word that is no name the nearest name of a scene, a system or a room, in `near`. False: none is near;
+   the message then says which folder of the environment could not be opened, "" where all can. */
+enum { GM_NEAR = 64 };
+bool gm_system_near(const char *word, char near[GM_NEAR], char *message);
+
+#endif
