@@ -221,9 +221,10 @@ static double pressure_error_middle(const struct gm_view *view)
 
 /* The mean of |u - exact|, or of |theta - exact|, at fifty places along a profile, not at its ends: on the walls
    velocity and temperature are given, and a polynomial fitted to one side says nothing of the flow. */
-static double profile_error(const struct gm_view *view, char quantity)
+static double profile_error(const struct gm_view *view)
 {
     enum { PLACES = 50 };
+    const char quantity = view->observable->key[0] == 'u' ? 'u' : 's';
     const double margin = 0.02;
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     const struct gm_profile *line =
@@ -240,19 +241,9 @@ static double profile_error(const struct gm_view *view, char quantity)
     return sum / PLACES;
 }
 
-static double profile_u_error(const struct gm_view *view)
-{
-    return profile_error(view, 'u');
-}
-
-static double profile_scalar_error(const struct gm_view *view)
-{
-    return profile_error(view, 's');
-}
-
 static const struct gm_observable errors_along[] = {
-    GM_LOG_OBSERVABLE("u_error", profile_u_error, "mean error of u"),
-    GM_LOG_OBSERVABLE("theta_error", profile_scalar_error, "mean error of θ"),
+    GM_LOG_OBSERVABLE("u_error", profile_error, "mean error of u"),
+    GM_LOG_OBSERVABLE("theta_error", profile_error, "mean error of θ"),
 };
 static const struct gm_observable observables[] = {
     GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ"),

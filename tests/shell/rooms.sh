@@ -428,7 +428,7 @@ done
     'subtitle: viscosity {viscosity}, in an office of {area} square metres'; } >looks.room
 cp "$rooms/office.msh" .
 status 0 render ./looks.room until=0.1 -o looks.svg
-for text in 'in an office of' 'divergence' '0.1 min'; do
+for text in 'in an office of' 'divergence' '0.10 min'; do
     grep -qF "$text" looks.svg || fail "no $text in a picture"
 done
 
