@@ -218,8 +218,16 @@ static void print_parameters(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     const double *start = start_of(report);
-    if (system->parameters < system->velocities) {
+    if (system->parameters < system->velocities || system->choices.count > 0) {
         printf("\nparameters\n");
+    }
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        const char *words = "";
+        for (size_t k = 0; k < choice->count; k++) {
+            words = gm_arena_print(report->arena, "%s%s%s", words, k ? ", " : "one of ", choice->words[k]);
+        }
+        gm_print_wrapped(words, printf("  %-14s %-12s ", choice->name, choice->words[choice->chosen]), 30);
     }
     for (size_t i = system->parameters; i < system->velocities; i++) {
         const struct gm_system_variable *row = &system->variables[i];
@@ -403,6 +411,10 @@ static void put_values(struct gm_row *row, const struct report *report)
     const struct gm_user_system *system = &report->system;
     const double *start = start_of(report);
     struct gm_row parameters = gm_row_open(row, "parameters", '}');
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        gm_row_text(&parameters, choice->name, choice->words[choice->chosen]);
+    }
     for (size_t i = system->parameters; i < system->velocities; i++) {
         gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
     }
@@ -547,16 +559,22 @@ static void print_latex(struct report *report)
     printf("\n\\end{align}\n");
 }
 
-/* Reads key=value words, each of a parameter of the system. */
+static void refuse_value(const struct gm_options *options, const char *name, const char *value)
+{
+    gm_command_end(
+        options, GM_EXIT_USAGE,
+        "list SYSTEM takes parameters with numbers, such as N=3, and words of choices, not \"%.60s%s%.60s\"",
+        name, value[0] ? "=" : "", value);
+}
+
+/* Reads key=value words, each of a parameter or a choice of the system. */
 static size_t read_values(const struct gm_options *options, struct gm_system_value *values)
 {
     const struct gm_arguments *arguments = &options->arguments;
     for (int i = 1; i < arguments->count; i++) {
         char *word = arguments->words[i], *equals = strchr(word, '=');
-        double number;
-        if (!equals || !gm_number_parse(equals + 1, &number)) {
-            gm_command_end(options, GM_EXIT_USAGE,
-                           "list SYSTEM takes parameters with numbers, such as N=3, not \"%.60s\"", word);
+        if (!equals) {
+            refuse_value(options, word, "");
         }
         *equals = '\0';
         values[i - 1] = (struct gm_system_value){word, equals + 1};
@@ -564,7 +582,7 @@ static size_t read_values(const struct gm_options *options, struct gm_system_val
     return (size_t)arguments->count - 1;
 }
 
-/* Every value must be that of a parameter. */
+/* Every value must be that of a parameter, or a word of a choice. */
 static void check_values(const struct gm_options *options, const struct gm_user_system *system,
                          const struct gm_system_value *values, size_t count)
 {
@@ -572,6 +590,14 @@ static void check_values(const struct gm_options *options, const struct gm_user_
         size_t i = system->parameters;
         while (i < system->velocities && strcmp(system->variables[i].name, values[k].name) != 0) {
             i++;
+        }
+        double number;
+        const struct gm_written_choice *choice = gm_choice_named(&system->choices, values[k].name);
+        if (choice && strcmp(choice->words[choice->chosen], values[k].text) == 0) {
+            continue;
+        }
+        if (choice || (i < system->velocities && !gm_number_parse(values[k].text, &number))) {
+            refuse_value(options, values[k].name, values[k].text);
         }
         if (i >= system->velocities) {
             gm_command_end(options, GM_EXIT_USAGE, "this system has no parameter \"%.60s\"", values[k].name);
