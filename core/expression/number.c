@@ -50,9 +50,13 @@ char *gm_number_format(double value, char *text, size_t size)
         return text;
     }
     /* numerator * pi / denominator is worth saying only where it is short and exact to the bit */
-    for (int denominator = 1; isfinite(value) && denominator <= 1000; denominator++) {
-        const double numerator = round(value * denominator / M_PI);
-        if (numerator == 0 || fabs(numerator) > 1e6 || numerator * M_PI / denominator != value) {
+    for (int denominator = 1; denominator <= 1000; denominator++) {
+        const double multiple = value * denominator / M_PI;
+        if (!(fabs(multiple) < 1e6 + 0.5)) {
+            break;
+        }
+        const double numerator = (double)(long)(multiple + copysign(0.5, multiple));
+        if (numerator == 0 || numerator * M_PI / denominator != value) {
             continue;
         }
         char times[32] = "";

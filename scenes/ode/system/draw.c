@@ -519,8 +519,11 @@ static const char *value_now(struct gm_picture *picture, const struct gm_lane *l
         return "";
     }
     const size_t series = (size_t)gm_scene_observable(lane->scene, item->name);
-    return gm_picture_text(picture, "%s now %s", gm_scene_observable_at(lane->scene, series)->title,
-                           gm_power_text(picture, gm_lane_observe(lane, series)));
+    const double value = gm_lane_observe(lane, series);
+    return isnan(value)
+               ? ""
+               : gm_picture_text(picture, "%s now %s", gm_scene_observable_at(lane->scene, series)->title,
+                                 gm_power_text(picture, value));
 }
 
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
