@@ -17,9 +17,12 @@ struct gm_faces; /* core/field/multisymplectic.h */
 static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progress *progress,
                                     const double *values, size_t count)
 {
-    for (size_t i = 0; i < count && progress->status == GM_OK; i++) {
-        progress->status = fabs(values[i]) <= task->limit ? GM_OK : GM_BLOW_UP;
+    const double limit = task->limit;
+    bool within = true;
+    for (size_t i = 0; i < count && within; i++) {
+        within = fabs(values[i]) <= limit;
     }
+    progress->status = progress->status == GM_OK && !within ? GM_BLOW_UP : progress->status;
     progress->done += progress->status == GM_OK;
     return progress->status == GM_OK;
 }
