@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The terminal painter: a picture to character cells. */
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/cells/grid.h"
 #include "render/cells/text.h"
 #include "render/layout/layout.h"
 

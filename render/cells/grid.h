@@ -4,6 +4,7 @@
 
 #include "render/layout/appearance.h"
 #include "render/layout/panel.h"
+#include "render/picture/picture.h"
 
 /* The cells of a terminal, as plain data, and what marks may be made of in them. */
 
@@ -103,5 +104,17 @@ void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, do
 
 /* The colour map from bottom to top. */
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);
+
+/* The terminal painter: pictures to character cells. Text is text; marks are half blocks, quadrants, braille
+   or ASCII. It knows no terminal: app/ writes the cells to one. */
+
+/* Paints the picture over all cells (at least 1 x 1). False when memory is short. */
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks);
+
+/* The panel of a state that lies under a cell of a painted picture, as the point (x, y) of its axes in the
+   middle of the cell; NULL where there is none. */
+const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                                       enum gm_blocks blocks, int column, int row, double *x, double *y);
 
 #endif
