@@ -26,7 +26,7 @@
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
-    return i < gm_command_count ? gm_commands[i].name : gm_scene_at(i - gm_command_count)->name;
+    return i < gm_command_count ? gm_commands[i].name : gm_scene_name(i - gm_command_count);
 }
 
 /* Whether a word is one of a few, as --help, -h and help are. */

@@ -12,6 +12,7 @@
 
 #include "core/memory.h"
 #include "core/run.h"
+#include "core/schemes.h"
 
 static unsigned bit_of(enum gm_claim claim)
 {
@@ -263,6 +264,28 @@ static void ask_theory(struct gm_certificate *certificate)
     certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
 }
 
+void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_trial *trial,
+                              const double *start)
+{
+    struct gm_trial twin = *trial;
+    twin.scheme = gm_scheme_same_as(trial->scheme, trial->problem);
+    const size_t n = trial->problem->n;
+    double *ends = twin.scheme ? malloc(2 * n * sizeof *ends) : NULL, size = 0;
+    if (!ends) {
+        return;
+    }
+    const bool good = gm_trial_advance(trial, start, ends) && gm_trial_advance(&twin, start, ends + n);
+    for (size_t c = 0; c < n; c++) {
+        size = fmax(size, fabs(ends[c]));
+    }
+    const double difference = good ? gm_distance(ends, ends + n, n) / size : INFINITY;
+    struct gm_sameness *same = &certificate->same;
+    if (!same->other || !(difference <= same->difference)) {
+        *same = (struct gm_sameness){twin.scheme, difference, trial->problem->name, false};
+    }
+    free(ends);
+}
+
 static struct gm_certificate begin(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = {.scheme = scheme, .order = NAN, .order_problem = ""};
@@ -280,8 +303,10 @@ static struct gm_certificate begin(const struct gm_scheme *scheme)
 
 static void conclude(struct gm_certificate *certificate)
 {
+    const double rounding = 1e-11;
     ask_theory(certificate);
-    certificate->holds = certificate->order_holds && certificate->theory_holds;
+    certificate->same.holds = !certificate->same.other || certificate->same.difference <= rounding;
+    certificate->holds = certificate->order_holds && certificate->theory_holds && certificate->same.holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *result = &certificate->claims[bit];
         const bool open = !result->measured && (result->undecided || result->reason);

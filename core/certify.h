@@ -33,6 +33,14 @@ struct gm_ladder {
     bool settled;
 };
 
+/* A scheme that makes the same steps on some problems: the largest difference that was seen, as a part of the state. */
+struct gm_sameness {
+    const struct gm_scheme *other; /* NULL: there is none on the problems that it is measured on */
+    double difference;             /* the largest after a few steps; INFINITY: a step failed */
+    const char *problem;           /* where */
+    bool holds;
+};
+
 /* What was measured, and what the coefficients say: a claim that either refutes is broken. */
 struct gm_certificate {
     const struct gm_scheme *scheme;
@@ -47,7 +55,8 @@ struct gm_certificate {
        the conditions of the claimed order do, and the algebra of what is claimed of structure. */
     struct gm_theory theory;
     bool theory_holds;
-    bool holds; /* the order and every claim, by both */
+    struct gm_sameness same;
+    bool holds; /* the order and every claim, by both, and that it is the same as another scheme */
 };
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);
@@ -128,6 +137,13 @@ struct gm_trial {
 /* The state after them, and where a scheme has a second copy of phase space, that behind it, as in `start`. False if
    one fails: then it is the last good one. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
+
+enum { GM_SAME_STEPS = 9 };
+
+/* Compares so many steps of the certificate's scheme with those of the scheme that is the same on this problem, if there is
+   one. */
+void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_trial *trial,
+                              const double *start);
 
 /* Writes the state of a run that turns round after its steps and makes as many more: by the step -dt, or with the second
    half of the state, momenta or velocities, reflected. Where it turns, the first component is pushed by `push`, if it

@@ -17,6 +17,12 @@ struct gm_facet_words {
     const char *problems;  /* those that have it: "Hamiltonian systems" */
 };
 
+/* Two names of one method: where `holds`, the first makes the steps of the second, but for rounding. */
+struct gm_same {
+    const char *scheme, *other;
+    bool (*holds)(const struct gm_problem *problem); /* of problems that both fit */
+};
+
 /* A kind of problem: a wing of core, which brings its facets, its problems, its families of schemes and what
    they are certified on. The hall knows a problem only through it. */
 struct gm_kind {
@@ -39,6 +45,7 @@ struct gm_kind {
                        struct gm_certificate *certificate);
     size_t most_certified;                   /* components of such a system */
     const struct gm_family *const *families; /* NULL-terminated */
+    const struct gm_same *same;              /* a row without a scheme ends them; NULL: there are none */
     /* What a run's states are called: gm_quantities of core/quantity.h. */
     size_t (*quantities)(const struct gm_run *run, struct gm_quantity *quantities);
 };

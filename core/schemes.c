@@ -133,8 +133,8 @@ static bool is_called(const struct gm_scheme *scheme, const char *name)
 
 const struct gm_scheme *gm_scheme_find(const char *name)
 {
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
-        const struct gm_scheme *scheme = gm_scheme_at(i);
+    const struct gm_scheme *scheme;
+    for (size_t i = 0; (scheme = gm_scheme_at(i)); i++) {
         if (is_called(scheme, name)) {
             return scheme;
         }
@@ -156,4 +156,18 @@ const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_pro
         }
     }
     return found;
+}
+
+/* Schemes that a user wrote are compared with none. */
+const struct gm_scheme *gm_scheme_same_as(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    for (const struct gm_same *row = problem->kind->same; row && row->scheme && !scheme->word; row++) {
+        const bool named = strcmp(row->scheme, scheme->name) == 0;
+        const struct gm_scheme *other = named ? gm_scheme_find_for(row->other, problem) : NULL;
+        if (other && gm_scheme_fits(scheme, problem) && gm_scheme_fits(other, problem) &&
+            row->holds(problem)) {
+            return other;
+        }
+    }
+    return NULL;
 }

@@ -15,6 +15,9 @@ const struct gm_scheme *gm_scheme_find(const char *name);
    fit if there is none that does; NULL if there is no scheme of that name. */
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
 
+/* The scheme of another name whose steps on this problem are the same ones; NULL: none is known. */
+const struct gm_scheme *gm_scheme_same_as(const struct gm_scheme *scheme, const struct gm_problem *problem);
+
 /* The name here of a scheme that others call `word`; NULL if there is none. */
 const char *gm_scheme_known_as(const char *word);
 /* That, or the name that is nearest to the word; NULL if none is near. */

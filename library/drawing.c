@@ -76,7 +76,7 @@ static void draw(void *data)
     }
 }
 
-/* Whether a picture may look so; false with a sentence. */
+/* Returns true if the sizes of a picture are in range, otherwise false with a message. */
 static bool check(geomint *handle, const struct gm_appearance *look)
 {
     char sentence[GM_MESSAGE];

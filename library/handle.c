@@ -21,7 +21,7 @@ const char *geomint_version(void)
 
 const char *geomint_scene_name(size_t index)
 {
-    return index < gm_scene_count() ? gm_scene_at(index)->name : NULL;
+    return index < gm_scene_count() ? gm_scene_name(index) : NULL;
 }
 
 const char *geomint_scheme_name(size_t index)
@@ -103,7 +103,7 @@ bool gm_handle_has(geomint *handle, size_t lane)
 
 /* ---- opening and closing ---- */
 
-/* What a lane's state is made of, what changes first. */
+/* Finds the quantities of a lane's state, those that change first. Returns false when out of memory. */
 static bool name_quantities(struct gm_handle_lane *lane)
 {
     const struct gm_run *run = lane->drive.lane->run;
@@ -210,7 +210,7 @@ static const struct gm_run *run_of(const geomint *handle, size_t lane)
     return lane < geomint_lanes(handle) ? handle->lanes[lane].drive.lane->run : NULL;
 }
 
-/* How a lane stands after it was driven, and the state for the host. */
+/* Sets the status and the message of the handle after steps, and copies the state for the host. */
 static void look(geomint *handle, struct gm_handle_lane *lane)
 {
     const struct gm_lane *driven = lane->drive.lane;
@@ -224,7 +224,7 @@ static void look(geomint *handle, struct gm_handle_lane *lane)
     }
 }
 
-/* Makes steps up to so many in all, or, where the scheme chooses them, up to the time `until`. */
+/* Makes steps up to the total `steps`, or, with an adaptive scheme, up to the time `until`. */
 static void drive_to(geomint *handle, size_t index, int64_t steps, double until)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
@@ -250,7 +250,7 @@ int geomint_until(geomint *handle, size_t lane, double t)
 {
     const struct gm_call call = gm_call_begin(handle);
     if (!isfinite(t)) {
-        gm_handle_refuse(handle, GEOMINT_USAGE, "a run goes on until a time, which is a finite number");
+        gm_handle_refuse(handle, GEOMINT_USAGE, "the time of until must be a finite number");
     } else if (gm_handle_has(handle, lane)) {
         const struct gm_run *run = run_of(handle, lane);
         drive_to(handle, lane, gm_run_steps_at(run, t), t);
@@ -323,7 +323,7 @@ int geomint_observe(geomint *handle, const char *keys)
     return gm_call_end(&call);
 }
 
-/* What stands in a column: a quantity, or an observable. */
+/* The content of a column: a quantity, or an observable. */
 struct column {
     const struct gm_quantity *quantity;
     const struct gm_observable *observable;
@@ -510,7 +510,7 @@ bool gm_handle_follow(geomint *handle)
         }
         const double never = GM_NEVER;
         drawn->stop = &never;
-        /* the step that failed is tried once more: the picture says so */
+        /* repeats the step that failed, so that the picture reports it */
         const int64_t more = drive->lane->run->status == GM_OK ? 0 : 1;
         const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
         drawn->stop = NULL;
@@ -523,7 +523,7 @@ bool gm_handle_follow(geomint *handle)
 
 /* ---- texts ---- */
 
-/* The lane as one object: what a file of states says of it, and what it cost. */
+/* Writes the lane as one object: the metadata of a file of states, and its cost. */
 static bool put_lane(FILE *stream, const struct gm_drive *drive)
 {
     const struct gm_run *run = drive->lane->run;

@@ -5,20 +5,20 @@
 #include <locale.h>
 #include <stdbool.h>
 
-#include "app/words/names.h"
 #include "app/words/drive.h"
+#include "app/words/names.h"
 #include "core/quantity.h"
 #include "library/geomint.h"
 
-/* What a handle of the library holds: a request, its lanes, and copies of these that are drawn. */
+/* A handle of the library holds a request, its lanes, and copies of the lanes, which are drawn. */
 
 struct gm_handle_lane {
     struct gm_drive drive;
-    double *state;                                /* what the host looks at; NULL: it does not */
-    struct gm_quantity quantities[GM_QUANTITIES]; /* those that change first */
-    size_t quantity_count, fixed_count;           /* of all, and of those that do not change */
+    double *state;                                /* the copy that the host has; NULL: none was requested */
+    struct gm_quantity quantities[GM_QUANTITIES]; /* quantities that change, then constant ones */
+    size_t quantity_count, fixed_count;           /* number of all, and of constant ones */
     size_t sizes[GM_QUANTITIES];                  /* numbers in each */
-    double *scratch;                              /* for the largest of those that are derived */
+    double *scratch;                              /* space for the largest derived quantity */
 };
 
 struct geomint {
@@ -31,9 +31,8 @@ struct geomint {
     char message[GM_MESSAGE];
 };
 
-/* A call of the host begins, with its handle as good as new, and ends: a refusal of memory since then is its
-   status. All of these take the NULL of a handle for which there was no memory: it has no lanes, and its
-   status stays. */
+/* Begin and end a call of the host. The call starts with the status GEOMINT_OK; a refusal of memory during it
+   becomes its status. All functions accept a NULL handle, which has no lanes; its status stays. */
 struct gm_call {
     geomint *handle;
     locale_t outside;
@@ -42,19 +41,19 @@ struct gm_call {
 struct gm_call gm_call_begin(geomint *handle);
 int gm_call_end(const struct gm_call *call);
 
-/* Says how a call went. Returns false. */
+/* Sets the status and the message of a call. Returns false. */
 bool gm_handle_refuse(geomint *handle, int status, const char *sentence);
 
-/* Whether the host gave a pointer, which geomint.h calls so; false with a sentence. */
+/* Returns true if the host gave a pointer; `name` is its name in geomint.h. Otherwise false with a message. */
 bool gm_handle_given(geomint *handle, const void *pointer, const char *name);
 
-/* The same of each of its words. */
+/* The same for each of `count` words. */
 bool gm_handle_given_words(geomint *handle, int count, const char *const words[]);
 
-/* Whether there is such a lane; false with a sentence. */
+/* Returns true if the lane exists, otherwise false with a message. */
 bool gm_handle_has(geomint *handle, size_t lane);
 
-/* The copies are where the lanes are. False with a sentence. */
+/* Advances the copies to the states of the lanes. Returns false with a message on failure. */
 bool gm_handle_follow(geomint *handle);
 
 #endif

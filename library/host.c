@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of the host is everybody's, a thread's locale and its OpenGL context, stays the host's. */
+/* The library restores what belongs to the host: the locale and the OpenGL context of a thread. */
 #include "library/host.h"
 
 #include <pthread.h>

@@ -12,8 +12,8 @@
 locale_t gm_host_leave_outside(void);
 void gm_host_return(locale_t outside);
 
-/* Calls `work` in a thread of the library's own, with its locale: no OpenGL context of the host is current
-   there, and so none is exchanged. False where there is no memory for a thread. */
+/* Calls `work` in a thread of the library, with the library's locale. No OpenGL context of the host is current
+   there, so none is replaced. Returns false if there is no memory for a thread. */
 bool gm_host_spare(void (*work)(void *data), void *data);
 
 #endif

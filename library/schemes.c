@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is known of a scheme, and what its claims are worth. */
+/* The texts of a scheme and of its certificate. */
 #include <stdio.h>
 #include <stdlib.h>
 

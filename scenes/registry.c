@@ -57,17 +57,18 @@ static const struct gm_scene *open_system(const char *name)
         gm_system_close(&system);
         return NULL;
     }
-    return gm_system_scene_open(&system, name, NULL, false, sentence);
+    return gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
 }
 
 static struct {
     const struct gm_scene *scene; /* NULL: the file was not opened yet */
     const char *file;
+    enum gm_file_kind kind;
     const struct gm_scene *(*open)(const char *file);
 } rows[] = {
-#define GM_SYSTEM_SCENE(name) {NULL, name, open_system},
-#define GM_ROOM_SCENE(name) {NULL, name, open_room},
-#define GM_SCENE(name) {&gm_scene_##name, NULL, NULL},
+#define GM_SYSTEM_SCENE(name) {.file = name, .kind = GM_FILE_SYSTEM, .open = open_system},
+#define GM_ROOM_SCENE(name) {.file = name, .kind = GM_FILE_ROOM, .open = open_room},
+#define GM_SCENE(name) {.scene = &gm_scene_##name},
 #include "scenes/scenes.def"
 #undef GM_SCENE
 #undef GM_SYSTEM_SCENE
@@ -90,12 +91,28 @@ const struct gm_scene *gm_scene_at(size_t index)
     return scene ? scene : &unavailable;
 }
 
+const char *gm_scene_name(size_t index)
+{
+    return rows[index].file ? rows[index].file : rows[index].scene->name;
+}
+
+const char *gm_scene_title(size_t index)
+{
+    return rows[index].file ? gm_built_in_find(rows[index].kind, rows[index].file)->title
+                            : rows[index].scene->title;
+}
+
+size_t gm_scene_number(const char *name)
+{
+    size_t index = 0;
+    while (index < gm_scene_count() && strcmp(gm_scene_name(index), name) != 0) {
+        index++;
+    }
+    return index;
+}
+
 const struct gm_scene *gm_scene_find(const char *name)
 {
-    for (size_t i = 0; i < gm_scene_count(); i++) {
-        if (strcmp(rows[i].file ? rows[i].file : gm_scene_at(i)->name, name) == 0) {
-            return gm_scene_at(i);
-        }
-    }
-    return NULL;
+    const size_t index = gm_scene_number(name);
+    return index < gm_scene_count() ? gm_scene_at(index) : NULL;
 }

@@ -60,7 +60,7 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 /* A system or a room; those that are scenes are offered as scenes. */
 static void offer_other(const struct gm_listed *listed, const void *stem)
 {
-    if (!gm_scene_find(listed->name)) {
+    if (gm_scene_number(listed->name) == gm_scene_count()) {
         offer_file(listed, stem);
     }
 }
@@ -75,7 +75,7 @@ static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 static void offer_scenes(const struct stem *stem)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        offer(stem, gm_scene_at(i)->name, gm_scene_at(i)->title);
+        offer(stem, gm_scene_name(i), gm_scene_title(i));
     }
     offer_files(stem, GM_FILE_SYSTEM);
     offer_files(stem, GM_FILE_ROOM);

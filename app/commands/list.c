@@ -44,12 +44,12 @@ static void list_texts(const struct gm_options *options, const char *const texts
 static int list_scenes(const struct gm_options *options)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        const struct gm_scene *scene = gm_scene_at(i);
-        const char *const texts[][2] = {{"scene", scene->name},
-                                        {"title", scene->title},
-                                        {"blurb", scene->blurb},
-                                        {"watch", scene->watch},
-                                        {"time_unit", scene->time}};
+        const struct gm_scene *scene = options->json || options->longer ? gm_scene_at(i) : NULL;
+        const char *const texts[][2] = {{"scene", gm_scene_name(i)},
+                                        {"title", gm_scene_title(i)},
+                                        {"blurb", scene ? scene->blurb : ""},
+                                        {"watch", scene ? scene->watch : ""},
+                                        {"time_unit", scene ? scene->time : ""}};
         list_texts(options, texts, GM_COUNT(texts), GM_COUNT(texts) - 1, 16);
     }
     return gm_finish(GM_EXIT_OK);
@@ -81,15 +81,18 @@ static bool shares_name(const struct gm_scheme *scheme)
 /* The widths of the columns of schemes' names, and up to their titles. */
 enum { NAME = 29, TITLE = 42 };
 
-/* `kinds`: rows of one name say which kind of problem each is for. */
-static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options, bool kinds)
+/* `kinds`: rows of one name say which kind of problem each is for; `same`: the scheme that makes the same steps, or
+   NULL. */
+static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options, bool kinds,
+                        const struct gm_scheme *same)
 {
     char letters[GM_CLAIM_COUNT + 1], text[512];
     gm_catalogue_letters(scheme, letters);
     if (!options->json) {
         const bool several = options->longer || (kinds && shares_name(scheme));
-        snprintf(text, sizeof text, "%s%s%s", scheme->title, several ? ", for " : "",
-                 several ? gm_scheme_problems(scheme) : "");
+        snprintf(text, sizeof text, "%s%s%s%s%s%s", scheme->title, several ? ", for " : "",
+                 several ? gm_scheme_problems(scheme) : "", same ? "; = " : "", same ? same->name : "",
+                 same ? " here" : "");
         gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
         if (options->longer) {
             print_formula(scheme->formula);
@@ -139,7 +142,7 @@ static int list_schemes_like(const struct gm_scheme *like, const struct gm_optio
         }
     }
     for (size_t i = 0; i < count; i++) {
-        list_scheme(schemes[i], options, true);
+        list_scheme(schemes[i], options, true, NULL);
     }
     if (!options->json) {
         print_legend(schemes, count);
@@ -223,7 +226,8 @@ static const char *default_lanes(const struct gm_options *options, const char *n
 /* All that is known of a scene. */
 struct entry {
     const struct gm_scene *scene;
-    const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* those that fit */
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* those that fit, */
+    const struct gm_scheme *same[GM_FITTING_SCHEMES]; /* and others whose steps are the same here; or NULL */
     size_t scheme_count;
     const struct gm_parameter **rows; /* those of the scene, and those that a fitting scheme brings */
     size_t row_count;
@@ -242,6 +246,7 @@ static void open_entry(struct entry *entry, const struct gm_scene *scene, const 
         entry->rows[entry->row_count++] = &scene->parameters[i];
     }
     entry->scheme_count = gm_fitting_schemes(scene, entry->schemes);
+    gm_fitting_same(scene, entry->schemes, entry->scheme_count, entry->same);
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         if (gm_fitting_take(entry->schemes, entry->scheme_count, &gm_settings_parameters[i])) {
             entry->rows[entry->row_count++] = &gm_settings_parameters[i];
@@ -279,7 +284,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     printf("\n");
     gm_print_wrapped("order claims", printf("%-*s ", NAME, "schemes that fit"), NAME + 1);
     for (size_t i = 0; i < entry->scheme_count; i++) {
-        list_scheme(entry->schemes[i], options, false);
+        list_scheme(entry->schemes[i], options, false, entry->same[i]);
     }
     print_legend(entry->schemes, entry->scheme_count);
 }
@@ -306,6 +311,7 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
         gm_row_text(&schemes, NULL, entry->schemes[i]->name);
     }
     gm_row_close(&schemes);
+    gm_list_put_same(&row, entry->schemes, entry->same, entry->scheme_count);
     gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
     printf("}\n");
 }

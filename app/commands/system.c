@@ -9,7 +9,9 @@
 #include <string.h>
 
 #include "app/output/say.h"
+#include "app/words/names.h"
 #include "app/words/system.h"
+#include "app/words/words.h"
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/derivative.h"
@@ -217,8 +219,16 @@ static void print_parameters(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     const double *start = start_of(report);
-    if (system->parameters < system->velocities) {
+    if (system->parameters < system->velocities || system->choices.count > 0) {
         printf("\nparameters\n");
+    }
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        const char *words = "";
+        for (size_t k = 0; k < choice->count; k++) {
+            words = gm_arena_print(report->arena, "%s%s%s", words, k ? ", " : "one of ", choice->words[k]);
+        }
+        gm_print_wrapped(words, printf("  %-14s %-12s ", choice->name, choice->words[choice->chosen]), 30);
     }
     for (size_t i = system->parameters; i < system->velocities; i++) {
         const struct gm_system_variable *row = &system->variables[i];
@@ -368,7 +378,9 @@ static void print_names(const struct report *report, const struct gm_kind *other
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         if (other ? scheme->family->kind == other : fits(report, scheme)) {
-            text = gm_arena_print(report->arena, "%s%s ", text, scheme->name);
+            const struct gm_scheme *same = other ? NULL : gm_scheme_same_as(scheme, &report->problem);
+            text = gm_arena_print(report->arena, same ? "%s%s (= %s) " : "%s%s ", text, scheme->name,
+                                  same ? same->name : "");
         }
     }
     gm_print_wrapped(text, printf("  "), 2);
@@ -400,6 +412,10 @@ static void put_values(struct gm_row *row, const struct report *report)
     const struct gm_user_system *system = &report->system;
     const double *start = start_of(report);
     struct gm_row parameters = gm_row_open(row, "parameters", '}');
+    for (size_t i = 0; i < system->choices.count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        gm_row_text(&parameters, choice->name, choice->words[choice->chosen]);
+    }
     for (size_t i = system->parameters; i < system->velocities; i++) {
         gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
     }
@@ -463,13 +479,18 @@ static void print_json(const struct report *report, const struct gm_file *file)
     struct gm_row structure = gm_row_open(&row, "structure", '}');
     each_fact(report, put_fact, &structure);
     gm_row_close(&structure);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
+    size_t count = 0;
     struct gm_row schemes = gm_row_open(&row, "schemes", ']');
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
+    for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
         if (fits(report, gm_scheme_at(i))) {
-            gm_row_text(&schemes, NULL, gm_scheme_at(i)->name);
+            fitting[count] = gm_scheme_at(i);
+            same[count] = gm_scheme_same_as(fitting[count], &report->problem);
+            gm_row_text(&schemes, NULL, fitting[count++]->name);
         }
     }
     gm_row_close(&schemes);
+    gm_list_put_same(&row, fitting, same, count);
     gm_list_put_file(&row, file, system->source);
     printf("}\n");
 }
@@ -539,16 +560,22 @@ static void print_latex(struct report *report)
     printf("\n\\end{align}\n");
 }
 
-/* Reads key=value words, each of a parameter of the system. */
+static void refuse_value(const struct gm_options *options, const char *name, const char *value)
+{
+    gm_command_end(
+        options, GM_EXIT_USAGE,
+        "list SYSTEM takes parameters with numbers, such as N=3, and words of choices, not \"%.60s%s%.60s\"",
+        name, value[0] ? "=" : "", value);
+}
+
+/* Reads key=value words, each of a parameter or a choice of the system. */
 static size_t read_values(const struct gm_options *options, struct gm_system_value *values)
 {
     const struct gm_arguments *arguments = &options->arguments;
     for (int i = 1; i < arguments->count; i++) {
         char *word = arguments->words[i], *equals = strchr(word, '=');
-        double number;
-        if (!equals || !gm_number_parse(equals + 1, &number)) {
-            gm_command_end(options, GM_EXIT_USAGE,
-                           "list SYSTEM takes parameters with numbers, such as N=3, not \"%.60s\"", word);
+        if (!equals) {
+            refuse_value(options, word, "");
         }
         *equals = '\0';
         values[i - 1] = (struct gm_system_value){word, equals + 1};
@@ -556,7 +583,7 @@ static size_t read_values(const struct gm_options *options, struct gm_system_val
     return (size_t)arguments->count - 1;
 }
 
-/* Every value must be that of a parameter. */
+/* Every value must be that of a parameter, or a word of a choice. */
 static void check_values(const struct gm_options *options, const struct gm_user_system *system,
                          const struct gm_system_value *values, size_t count)
 {
@@ -564,6 +591,14 @@ static void check_values(const struct gm_options *options, const struct gm_user_
         size_t i = system->parameters;
         while (i < system->velocities && strcmp(system->variables[i].name, values[k].name) != 0) {
             i++;
+        }
+        double number;
+        const struct gm_written_choice *choice = gm_choice_named(&system->choices, values[k].name);
+        if (choice && strcmp(choice->words[choice->chosen], values[k].text) == 0) {
+            continue;
+        }
+        if (choice || (i < system->velocities && !gm_number_parse(values[k].text, &number))) {
+            refuse_value(options, values[k].name, values[k].text);
         }
         if (i >= system->velocities) {
             gm_command_end(options, GM_EXIT_USAGE, "this system has no parameter \"%.60s\"", values[k].name);
@@ -574,7 +609,7 @@ static void check_values(const struct gm_options *options, const struct gm_user_
 /* The equation of a field, and its facets, which are those of every ring. */
 static bool open_field(struct report *report, const double *start)
 {
-    const struct gm_grid1 any = {.points = 5, .dx = 1};
+    const struct gm_grid1 any = {.points = 6, .dx = 1};
     struct gm_user_evolution *evolution = &report->evolution;
     if (report->system.kind == GM_MATRICES) {
         return gm_user_form_derive(&report->form, &report->system) &&
@@ -582,7 +617,7 @@ static bool open_field(struct report *report, const double *start)
     }
     if (report->system.kind == GM_FIELD) {
         return gm_user_wave_derive(&report->wave, &report->system) &&
-               gm_user_wave_open(&report->problem, &report->wave, start);
+               gm_user_wave_open(&report->problem, &report->wave, start, &any);
     }
     const bool opened =
         gm_user_evolution_derive(evolution, &report->system) &&
@@ -656,17 +691,46 @@ static struct report *open_report(const struct gm_options *options, const struct
     return report;
 }
 
-/* What is told of a system can be run too: its schemes, members and observables are those of a scene. */
-static void check_scene(const struct gm_options *options)
+/* A system that is listed can be run too: its schemes, members and observables are those of a scene. Words without a
+   file must be keys of it. */
+static void check_scene(const struct gm_options *options, bool typed)
 {
-    char message[GM_MESSAGE];
+    char message[GM_MESSAGE] = "not enough memory";
+    char *const *words = options->arguments.words;
+    const int count = options->arguments.count;
     struct gm_system_trial trial;
-    const bool good = gm_system_try(&trial, options->arguments.count, options->arguments.words, message);
-    const int status = trial.status;
+    struct gm_words read = {0};
+    const bool good =
+        gm_system_try(&trial, count, words, message) &&
+        (!typed || gm_words_read(&read, trial.scene, count - 1, words + 1, GM_RUN_SCHEMES, message));
+    const int status = trial.scene ? GM_EXIT_USAGE : trial.status;
+    gm_words_close(&read);
     gm_system_trial_close(&trial);
     if (!good) {
         gm_command_end(options, status, "%s", message);
     }
+}
+
+void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
+                      const struct gm_scheme *const *same, size_t count)
+{
+    struct gm_row all = gm_row_open(row, "same_as", '}');
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_scheme *one = same[i] ? same[i] : schemes[i];
+        struct gm_row names;
+        bool begun = false;
+        for (size_t k = 0; k < count; k++) {
+            if (k != i && (schemes[k] == one || same[k] == one)) {
+                names = begun ? names : gm_row_open(&all, schemes[i]->name, ']');
+                gm_row_text(&names, NULL, schemes[k]->name);
+                begun = true;
+            }
+        }
+        if (begun) {
+            gm_row_close(&names);
+        }
+    }
+    gm_row_close(&all);
 }
 
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)
@@ -678,7 +742,7 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
-    check_scene(options);
+    check_scene(options, !file);
     const double *start = start_of(report);
     const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
     /* what was not checked for want of memory is not called unchecked */

@@ -48,7 +48,8 @@ static void add_file(const struct gm_listed *listed, const void *data)
     struct gm_list *list = taking->list;
     struct gm_start_entry *longer = NULL;
     char *name = NULL, *title = NULL;
-    if (!is_listed(list, listed->name) && !gm_scene_find(listed->name) && gm_text_is_plain(listed->name)) {
+    if (!is_listed(list, listed->name) && gm_scene_number(listed->name) == gm_scene_count() &&
+        gm_text_is_plain(listed->name)) {
         longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
         list->files = longer ? longer : list->files;
         name = strdup(listed->name);

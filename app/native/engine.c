@@ -443,26 +443,12 @@ static void give(struct build *build, struct gm_lane *lane)
     }
 }
 
-/* A single run of a system whose formulas the build compiled takes its loops at once: no compiler is needed. */
-static void take_compiled(struct gm_lane *lane)
-{
-    const char *lacks;
-    char *text = lane->problem.m == 1 && gm_compiled_has(lane->problem.n)
-                     ? gm_user_problem_kernel(&lane->problem, lane->scheme->family->over_kernels, &lacks)
-                     : NULL;
-    const struct gm_loops *loops = text ? gm_compiled_loops(text) : NULL;
-    if (loops) {
-        gm_user_problem_take(&lane->problem, loops);
-    }
-    free(text);
-}
-
 void gm_engine_meet(struct gm_lane *lane)
 {
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane)) {
         return;
     }
-    take_compiled(lane);
+    gm_user_problem_take_compiled(&lane->problem, lane->scheme->family->over_kernels);
     if (chosen != GM_ENGINE_NATIVE || is_native(lane)) {
         return;
     }

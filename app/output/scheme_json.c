@@ -95,6 +95,13 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
         }
     }
     gm_row_close(&properties);
+    if (certificate->same.other) {
+        struct gm_row same = gm_row_open(&row, "same_as", '}');
+        gm_row_text(&same, "scheme", certificate->same.other->name);
+        gm_row_number(&same, "difference", certificate->same.difference, 17);
+        gm_row_text(&same, "problem", certificate->same.problem);
+        gm_row_close(&same);
+    }
     if (certificate->theory.known) {
         put_theory(&row, &certificate->theory);
     } else {

@@ -147,7 +147,8 @@ struct gm_shot {
     size_t parameter_count;
     struct gm_shot_parameter parameters[GM_SHOT_PARAMETERS];
     size_t scheme_count;
-    const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit */
+    const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit, */
+    const struct gm_scheme *same[GM_SHOT_SCHEMES];    /* and others whose steps are the same here; or NULL */
     double t, speed;
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/schemes.h"
+
 bool gm_shot_open(struct gm_shot *shot)
 {
     *shot = (struct gm_shot){.picture = gm_picture_open()};
@@ -148,6 +150,9 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         }
     }
     shot->scheme_count = gm_session_fits(session, shot->schemes);
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        shot->same[i] = gm_scheme_same_as(shot->schemes[i], &session->lanes[0]->problem);
+    }
     if (draw) {
         gm_picture_clear(shot->picture);
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);

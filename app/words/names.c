@@ -24,25 +24,57 @@ void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *pro
     }
 }
 
+/* A scene's problem at its defaults. */
+struct defaults {
+    const struct gm_scene *scene;
+    void *parameters;
+    struct gm_problem problem;
+};
+
+static bool open_defaults(struct defaults *defaults, const struct gm_scene *scene)
+{
+    char sentence[GM_MESSAGE];
+    *defaults = (struct defaults){.scene = scene, .parameters = gm_scene_defaults(scene)};
+    const bool good =
+        defaults->parameters && scene->setup(defaults->parameters, &defaults->problem, sentence);
+    if (!good) {
+        free(defaults->parameters);
+    }
+    return good;
+}
+
+static void close_defaults(struct defaults *defaults)
+{
+    if (defaults->scene->close) {
+        defaults->scene->close(&defaults->problem);
+    }
+    free(defaults->parameters);
+}
+
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes)
 {
     size_t count = 0;
-    char sentence[GM_MESSAGE];
-    struct gm_problem problem = {0};
-    void *parameters = gm_scene_defaults(scene);
-    if (!parameters) {
-        return 0;
-    }
-    if (scene->setup(parameters, &problem, sentence)) {
+    struct defaults defaults;
+    if (open_defaults(&defaults, scene)) {
         for (size_t i = 0; i < gm_scheme_count(); i++) {
-            gm_fitting_add(gm_scheme_at(i), &problem, schemes, &count);
+            gm_fitting_add(gm_scheme_at(i), &defaults.problem, schemes, &count);
         }
-        if (scene->close) {
-            scene->close(&problem);
-        }
+        close_defaults(&defaults);
     }
-    free(parameters);
     return count;
+}
+
+void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const *schemes, size_t count,
+                     const struct gm_scheme **same)
+{
+    struct defaults defaults;
+    const bool good = open_defaults(&defaults, scene);
+    for (size_t i = 0; i < count; i++) {
+        same[i] = good ? gm_scheme_same_as(schemes[i], &defaults.problem) : NULL;
+    }
+    if (good) {
+        close_defaults(&defaults);
+    }
 }
 
 size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes)
@@ -121,7 +153,7 @@ bool gm_system_near(const char *word, char near[GM_NEAR], char *message)
     struct gm_arguments names = {0}, *list = &names;
     message[0] = '\0';
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        gm_arguments_add(&names, gm_scene_at(i)->name);
+        gm_arguments_add(&names, gm_scene_name(i));
     }
     for (enum gm_file_kind kind = GM_FILE_SYSTEM; kind <= GM_FILE_ROOM; kind++) {
         gm_files_each(kind, add_to, &list, message);

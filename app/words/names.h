@@ -18,6 +18,9 @@ void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *pro
 
 /* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
+/* Writes for each of these schemes the one whose steps are the same there at its defaults, or NULL. */
+void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const *schemes, size_t count,
+                     const struct gm_scheme **same);
 
 /* The same, and behind them those that the scene's own text takes on another kind of grid. */
 size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);

@@ -151,8 +151,8 @@ static bool value_of(const struct gm_node *node, residue a, residue b, double ex
         *value = power(exponent < 0 ? inverse(a) : a, (uint64_t)fabs(exponent));
         break;
     case GM_OPERATION_SQRT:
-        exists = is_square(a);
         *value = power(a, (PRIME + 1) / 4);
+        exists = times(*value, *value) == a;
         break;
     case GM_OPERATION_EXP:
         *value = exponential(seed, a);

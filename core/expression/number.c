@@ -24,13 +24,9 @@ bool gm_number_parse(const char *text, double *value)
     return is_number;
 }
 
-/* The shortest decimal that reads back to the same double: 100, 0.02, 1e-6. */
+/* The shortest decimal that reads back to the same double: 0.02, 1e-6. */
 static void format_decimal(double value, char *text, size_t size)
 {
-    if (fabs(value) < 1e6 && value == floor(value)) {
-        snprintf(text, size, "%.0f", value);
-        return;
-    }
     char shortest[32] = "";
     for (int digits = 1; digits <= 17; digits++) {
         snprintf(shortest, sizeof shortest, "%.*g", digits, value);
@@ -49,8 +45,12 @@ static void format_decimal(double value, char *text, size_t size)
 
 char *gm_number_format(double value, char *text, size_t size)
 {
+    if (fabs(value) < 1e6 && value == floor(value)) { /* none of these is what is sought next */
+        snprintf(text, size, "%.0f", value);
+        return text;
+    }
     /* numerator * pi / denominator is worth saying only where it is short and exact to the bit */
-    for (int denominator = 1; isfinite(value) && value != 0 && denominator <= 1000; denominator++) {
+    for (int denominator = 1; isfinite(value) && denominator <= 1000; denominator++) {
         const double numerator = round(value * denominator / M_PI);
         if (numerator == 0 || fabs(numerator) > 1e6 || numerator * M_PI / denominator != value) {
             continue;

@@ -7,20 +7,21 @@
 #define GM_CORE_FIELD_FIELD_H
 
 #include <math.h>
+#include <string.h>
 
 #include "core/kind.h"
 
 struct gm_faces; /* core/field/multisymplectic.h */
 
-/* Whether none of the values is beyond the limit of a task, or no number. */
-static inline bool gm_field_within(const double *values, size_t count, double limit)
+/* Counts a step that has led to these values; false where it failed, or one is beyond the task's limit, or no number. */
+static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progress *progress,
+                                    const double *values, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(values[i]) <= limit)) {
-            return false;
-        }
+    for (size_t i = 0; i < count && progress->status == GM_OK; i++) {
+        progress->status = fabs(values[i]) <= task->limit ? GM_OK : GM_BLOW_UP;
     }
-    return true;
+    progress->done += progress->status == GM_OK;
+    return progress->status == GM_OK;
 }
 
 struct gm_form {
@@ -89,6 +90,14 @@ struct gm_dispersive {
 static inline size_t gm_wave_size(size_t points)
 {
     return 2 * points + 1;
+}
+/* The state behind the last step of a task. */
+static inline void gm_wave_write(const struct gm_task *task, const double *now, const double *past)
+{
+    const size_t points = task->problem->line.points;
+    memcpy(task->out, now, points * sizeof *now);
+    memcpy(task->out + points, past, points * sizeof *past);
+    task->out[2 * points] = -task->dt;
 }
 
 /* The facets of a field. */

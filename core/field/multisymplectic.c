@@ -3,8 +3,10 @@
 #include "core/field/multisymplectic.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "core/basics.h"
+#include "core/linear/differences.h"
 
 /* a0' G b1 - b0' G a1 with the upper triangle of a skew matrix or the whole of it for G. With the triangle
    and both at one place this is a' matrix b. */
@@ -70,6 +72,36 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
         .workspace = law->work,
     };
     return law->scheme->family->loop(&task).status == GM_OK;
+}
+
+struct flow {
+    const struct gm_law *law;
+    size_t state, memory; /* their sizes */
+};
+
+/* gm_map: a state, and the memory behind it, to the same a step later. */
+static bool one_step(const void *context, const double *from, double *to)
+{
+    const struct flow *flow = context;
+    const bool remembers = flow->memory > 0;
+    return gm_law_step(flow->law, 1, from, remembers ? from + flow->state : NULL, to,
+                       remembers ? to + flow->state : NULL);
+}
+
+void gm_law_differentiate(const struct gm_law *law, const double *y, const double *memory,
+                          const double *direction, double *slope)
+{
+    const struct flow flow = {law, law->problem->n,
+                              memory ? law->scheme->family->memory(law->problem, law->scheme) : 0};
+    const size_t size = flow.state + flow.memory;
+    double *from = gm_arena_take(law->arena, size, sizeof *from);
+    memcpy(from, y, flow.state * sizeof *from);
+    if (memory) {
+        memcpy(from + flow.state, memory, flow.memory * sizeof *from);
+    }
+    if (!gm_differentiate(one_step, &flow, size, from, direction, size, slope)) {
+        gm_arena_leave(law->arena);
+    }
 }
 
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells)

@@ -47,6 +47,11 @@ bool gm_law_measure(struct gm_law *law, void (*measure)(const struct gm_law *law
 bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,
                  double *memory_out);
 
+/* What a step makes of a tangent, by differences: from a state and a memory (NULL: none), which lie behind one another in
+   `direction` and `slope`. Leaves the measurement where a step fails. */
+void gm_law_differentiate(const struct gm_law *law, const double *y, const double *memory,
+                          const double *direction, double *slope);
+
 /* The faces of one tangent, all 0, of the arena. */
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of share/ that are part of the program: systems, rooms, the meshes of rooms, schemes and tours. The build
+/* The files of share/ that are part of the program: systems, rooms, the meshes of rooms, schemes, tours, and
+   the systems that schemes alone are certified on. The build
    writes them into an array (core/files/main.c), and nothing opens them at run time. */
 #ifndef GM_CORE_FILES_FILES_H
 #define GM_CORE_FILES_FILES_H
 
 #include <stddef.h>
 
-enum gm_file_kind { GM_FILE_SYSTEM, GM_FILE_ROOM, GM_FILE_SCHEME, GM_FILE_TOUR, GM_FILE_MESH, GM_FILE_KINDS };
+enum gm_file_kind { GM_FILE_SYSTEM, GM_FILE_ROOM, GM_FILE_SCHEME, GM_FILE_TOUR, GM_FILE_MESH, GM_FILE_SUBJECT, GM_FILE_KINDS };
 
 /* How the names of their files end, ".system". */
 extern const char *const gm_file_endings[GM_FILE_KINDS];

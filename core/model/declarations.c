@@ -155,7 +155,7 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
 /* Values that were given take the place of those in the file. */
 static void give(struct gm_reading *reading)
 {
-    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = reading->system->choices.count; i < reading->entry_count && !reading->fault.failed; i++) {
         struct gm_entry *entry = &reading->entries[i];
         const char *name = reading->system->variables[entry->number].name;
         double given = NAN;
@@ -176,6 +176,13 @@ static void give(struct gm_reading *reading)
 /* Lists after the numbers that say how long they are; then all formulas, which may hold both. */
 bool gm_declared_parameters(struct gm_reading *reading)
 {
+    const struct gm_written_choices *choices = &reading->system->choices;
+    for (size_t i = 0; i < choices->count; i++) {
+        gm_reading_add(reading, (struct gm_entry){.name = (char *)choices->list[i].name,
+                                                  .length = strlen(choices->list[i].name),
+                                                  .place = choices->list[i].place,
+                                                  .role = GM_ENTRY_CHOICE});
+    }
     for (int lists = 0; lists < 2; lists++) {
         for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
             if (reading->lines[i].word == GM_WORD_PARAMETER) {
@@ -184,7 +191,7 @@ bool gm_declared_parameters(struct gm_reading *reading)
         }
         give(reading);
     }
-    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = choices->count; i < reading->entry_count && !reading->fault.failed; i++) {
         const struct gm_entry *entry = &reading->entries[i];
         struct gm_system_variable *variable = &reading->system->variables[entry->number];
         if (entry->read || gm_reading_define(reading, (uint32_t)i)) {

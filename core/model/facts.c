@@ -21,6 +21,7 @@ static const struct {
 } rows[GM_FACTS] = {
     [GM_FACT_SEPARABLE] = {"separable", "H = T(p) + V(q)", "holds coordinates and momenta"},
     [GM_FACT_NYSTROM] = {"nystrom", "T is quadratic in the momenta", "is not quadratic in the momenta"},
+    [GM_FACT_LINEAR] = {"linear", "every rate is linear in the components", "is not linear"},
     [GM_FACT_QUADRATIC] = {"quadratic", "every rate is a polynomial of degree 2", "is not of degree 2"},
     [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
                         "contains the variable whose rate it is"},
@@ -563,18 +564,22 @@ static void find_mechanical(struct gm_user_system *system, struct gm_finding *fi
 static void find_of_rates(struct gm_user_system *system, struct gm_finding *findings, const bool *components,
                           bool *own)
 {
-    struct gm_finding *quadratic = &findings[GM_FACT_QUADRATIC], *volume = &findings[GM_FACT_VOLUME],
-                      *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
+    struct gm_finding *volume = &findings[GM_FACT_VOLUME], *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
     const bool *const thrice[] = {components, components, components}, *const once[] = {own};
     gm_node_id sum = gm_formula_constant(&system->graph, 0);
     gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
-    quadratic->asked = volume->asked = divergence->asked = true;
+    findings[GM_FACT_LINEAR].asked = findings[GM_FACT_QUADRATIC].asked = true;
+    volume->asked = divergence->asked = true;
     for (size_t i = 0; gradient && i < system->n && !system->graph.failed; i++) {
         const gm_node_id rate = system->rates[i];
-        if (quadratic->holds) {
-            conclude(quadratic, vanishes(system, rate, thrice, 3));
-            quadratic->component = i;
-            quadratic->term = quadratic->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, 3);
+        for (size_t degree = 1; degree <= 2; degree++) {
+            struct gm_finding *polynomial = &findings[degree == 1 ? GM_FACT_LINEAR : GM_FACT_QUADRATIC];
+            if (polynomial->holds) {
+                conclude(polynomial, vanishes(system, rate, thrice, degree + 1));
+                polynomial->component = i;
+                polynomial->term =
+                    polynomial->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, degree + 1);
+            }
         }
         own[i] = true;
         if (!depends(system, rate, own)) { /* of most rates, and what follows takes longer */

@@ -8,7 +8,8 @@
 enum gm_fact {
     GM_FACT_SEPARABLE,       /* H = T(p) + V(q) */
     GM_FACT_NYSTROM,         /* and T is quadratic */
-    GM_FACT_QUADRATIC,       /* the rates are polynomials of degree 2 */
+    GM_FACT_LINEAR,          /* the rates are polynomials of degree 1, */
+    GM_FACT_QUADRATIC,       /* or of degree 2 */
     GM_FACT_VOLUME,          /* no rate contains its own variable: exact flows without divergence */
     GM_FACT_DIVERGENCE_FREE, /* the sum of d rate / d component is 0 */
     GM_FACT_SMOOTH,          /* no min, max, abs, mod */

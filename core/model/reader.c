@@ -53,10 +53,11 @@ static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item
     return !reading->fault.failed;
 }
 
-/* What a line assigns, and the range and meaning behind it. */
+/* What a line assigns, and the range and meaning behind it, or that starts are derived. */
 struct assignment {
     enum gm_system_word word;
     struct gm_written_range range;
+    bool derived;
 };
 
 /* where a component keeps what a line assigns to it */
@@ -92,6 +93,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
         variable->start_place = target->name.begin;
         variable->low = assignment->range.low;
         variable->high = assignment->range.high;
+        variable->derived = assignment->derived;
         variable->meaning = gm_reading_text(reading, assignment->range.meaning);
         variable->unit = gm_reading_text(reading, assignment->range.unit);
     }
@@ -105,7 +107,11 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
     if (word == GM_WORD_START && !gm_system_is_field(reading->system)) {
         gm_span_take(reading->text, &all, ";", &rest);
-        gm_reading_range(reading, all, &assignment.range);
+        all = gm_span_trimmed(reading->text, all);
+        assignment.derived = gm_span_among(reading->text, all, (const char *const[]){"derived", NULL}) == 0;
+        if (!assignment.derived) {
+            gm_reading_range(reading, all, &assignment.range);
+        }
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
@@ -613,6 +619,15 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
     if (equals == piece.end && name.end - name.begin == 3 && memcmp(text + name.begin, "yes", 3) == 0) {
         return true;
     }
+    if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
+        struct gm_written_choices tried = system->choices;
+        char *word = gm_reading_text(reading, value);
+        if (word && !gm_choices_take(&tried, entry->name, word)) {
+            gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
+        }
+        free(word);
+        return !reading->fault.failed;
+    }
     if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
         return gm_fail_first(&reading->fault, piece.begin,
                              "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
@@ -790,8 +805,8 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
     const size_t equals = gm_span_until(reading->text, head, "=");
     const struct gm_span counter = gm_span_trimmed(reading->text, (struct gm_span){head.begin, equals}),
                          bounds = gm_span_trimmed(reading->text, (struct gm_span){equals + 1, head.end});
-    if (!gm_system_words[line->word].repeated || head.end == line->value.end || equals == head.end ||
-        name == 0 || counter.end != counter.begin + name ||
+    if (gm_system_words[line->word].identity == GM_LINE_ONCE || head.end == line->value.end ||
+        equals == head.end || name == 0 || counter.end != counter.begin + name ||
         gm_span_until(reading->text, bounds, "..") == bounds.end) {
         return read_what_is_said(reading, line);
     }

@@ -10,8 +10,9 @@
 #include "core/expression/nearest.h"
 
 enum {
-    ONCE = 0,
-    OFTEN = 1,
+    ONCE = GM_LINE_ONCE,
+    NAMED = GM_LINE_NAMED,
+    OFTEN = GM_LINE_ADDED,
     CANONICAL = 1 << GM_CANONICAL,
     LAGRANGIAN = 1 << GM_LAGRANGIAN,
     RATES = 1 << GM_RATES,
@@ -25,7 +26,7 @@ enum {
 };
 
 const struct gm_system_word_row gm_system_words[GM_WORDS] = {
-#define GM_WORD(constant, word, often, kinds) {word, often, kinds},
+#define GM_WORD(constant, word, identity, kinds) {word, (enum gm_line_identity)identity, kinds},
 #include "core/model/words.def"
 #undef GM_WORD
 };
@@ -35,6 +36,7 @@ void gm_reading_close(struct gm_reading *reading)
     for (size_t i = 0; i < reading->entry_count; i++) {
         free(reading->entries[i].name);
     }
+    free(reading->chosen);
     free(reading->lines);
     free(reading->entries);
     free(reading->table);
@@ -67,21 +69,51 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
     return false;
 }
 
+static enum gm_system_word word_of(const char *text, struct gm_span span)
+{
+    enum gm_system_word word = 0;
+    while (word < GM_WORDS &&
+           (strlen(gm_system_words[word].word) != span.end - span.begin ||
+            memcmp(gm_system_words[word].word, text + span.begin, span.end - span.begin) != 0)) {
+        word++;
+    }
+    return word;
+}
+
+static enum gm_line_identity identity_of(const char *text, struct gm_span span)
+{
+    const enum gm_system_word word = word_of(text, span);
+    return word < GM_WORDS ? gm_system_words[word].identity : GM_LINE_ADDED;
+}
+
+/* Takes the lines for the words that are chosen in the place of the text. */
+static bool choose_lines(struct gm_reading *reading)
+{
+    struct gm_written_choices *choices = &reading->system->choices;
+    struct gm_fault fault = {0};
+    reading->chosen = strndup(reading->text, reading->length);
+    bool good = reading->chosen && gm_choices_read(choices, reading->text, reading->length, &fault);
+    for (size_t i = 0; good && i < reading->value_count; i++) {
+        gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
+    }
+    good = good && gm_choices_apply(choices, reading->chosen, reading->length, identity_of, &fault);
+    reading->text = reading->chosen ? reading->chosen : reading->text;
+    return good || (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                                      : gm_fail_memory(&reading->fault));
+}
+
 static bool read_line(struct gm_reading *reading, const struct gm_text_line *text_line)
 {
     const size_t place = text_line->word.begin, letters = text_line->word.end - place;
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), reading->text + place);
-    enum gm_system_word word = 0;
-    while (word < GM_WORDS && strcmp(gm_system_words[word].word, name) != 0) {
-        word++;
-    }
+    const enum gm_system_word word = word_of(reading->text, text_line->word);
     if (word == GM_WORDS) {
         const char *near = gm_nearest(name, GM_WORDS, word_at, NULL);
         return gm_fail_first(&reading->fault, place, "a system has no line \"%s\"%s%s", name,
                              near ? "; did you mean " : "", near ? near : "");
     }
-    for (size_t i = 0; i < reading->line_count && !gm_system_words[word].repeated; i++) {
+    for (size_t i = 0; i < reading->line_count && gm_system_words[word].identity == GM_LINE_ONCE; i++) {
         if (reading->lines[i].word == word) {
             return gm_fail_first(&reading->fault, place, "%s is said twice", name);
         }
@@ -99,6 +131,9 @@ bool gm_reading_lines(struct gm_reading *reading)
 {
     struct gm_text_line line;
     struct gm_fault fault;
+    if (!choose_lines(reading)) {
+        return false;
+    }
     for (size_t at = 0; gm_lines_next(reading->text, reading->length, &at, &line, &fault);) {
         if (!read_line(reading, &line)) {
             return false;
@@ -272,6 +307,11 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         }
         return GM_REFUSED;
     }
+    if (entry->role == GM_ENTRY_CHOICE) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a choice of words: write lines below \"when: %s = ...\"",
+                 entry->name, entry->name);
+        return GM_REFUSED;
+    }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
@@ -304,7 +344,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     case GM_ENTRY_TIME:
         *node = gm_formula_variable(&system->graph, system->n);
         break;
-    case GM_ENTRY_VELOCITY:
+    default:
         *node = gm_formula_variable(&system->graph, system->velocities + entry->number);
         break;
     }

@@ -2,7 +2,7 @@
 #ifndef GM_CORE_MODEL_SCOPE_H
 #define GM_CORE_MODEL_SCOPE_H
 
-#include "core/expression/lines.h"
+#include "core/expression/choices.h"
 #include "core/model/system.h"
 
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name that
@@ -11,7 +11,7 @@
 
 struct gm_system_word_row {
     const char *word;
-    bool repeated;
+    enum gm_line_identity identity;
     unsigned kinds; /* 1 << enum gm_system_kind of those that may have it */
 };
 extern const struct gm_system_word_row gm_system_words[GM_WORDS];
@@ -27,6 +27,7 @@ enum gm_entry_role {
     GM_ENTRY_VELOCITY,
     GM_ENTRY_PARAMETER,
     GM_ENTRY_TIME,
+    GM_ENTRY_CHOICE, /* of words */
     GM_ENTRY_NAMED,
     GM_ENTRY_OBSERVED /* named, too, by a line of its own that is read later */
 };
@@ -49,6 +50,7 @@ struct gm_reading {
     struct gm_user_system *system;
     const char *text;
     size_t length;
+    char *chosen; /* a text of the reading's own, in which other words of choices are comments */
     struct gm_system_line *lines;
     size_t line_count;
     struct gm_entry *entries;
@@ -74,6 +76,7 @@ void gm_reading_close(struct gm_reading *reading);
 /* Room for one more of an array of `count` that grows by doubling. */
 bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
 
+/* Those that hold for the words that are chosen. */
 bool gm_reading_lines(struct gm_reading *reading);
 /* The first line with a word; NULL: there is none. */
 const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);

@@ -4,6 +4,7 @@
 #ifndef GM_CORE_MODEL_SYSTEM_H
 #define GM_CORE_MODEL_SYSTEM_H
 
+#include "core/expression/choices.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"
@@ -45,6 +46,7 @@ struct gm_system_variable {
     char *meaning, *unit; /* "" or NULL: none is given */
     bool fixed;           /* it is in an index or a bound: another value is another graph */
     bool angle;           /* periodic */
+    bool derived;         /* its start follows from parameters and other starts, and is not a key */
     /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
        was given. Else GM_NO_NODE. */
     gm_node_id start;
@@ -99,6 +101,7 @@ struct gm_user_system {
     char *source; /* the text that it was read from, closed by a NUL */
     size_t length;
     bool typed; /* the text is made of words: its lines are nobody's */
+    struct gm_written_choices choices;
     struct gm_formula graph;
     char *texts[GM_WORDS]; /* of the words that are texts; NULL: not given */
     size_t n;
@@ -124,7 +127,7 @@ struct gm_user_system {
     size_t part_count;  /* that were read; what follows was derived */
 };
 
-/* A parameter that is to have another value, "N", "5". */
+/* A parameter that is to have another value, "N", "5", or a choice another word. */
 struct gm_system_value {
     const char *name, *text;
 };

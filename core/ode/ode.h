@@ -151,6 +151,7 @@ struct gm_ode {
     const char *components;
     bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic; /* f is a polynomial of degree 2 */
+    bool linear;    /* of degree 1, whose coefficients do not depend on the time */
     bool rough;     /* f is not smooth: no order can be told */
     bool written;   /* it was written by somebody: core/ode/user/problem.h knows more of it */
     bool forced;    /* a force acts beside what an energy gives */

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Geometric integrators: what they keep, and what ordinary ones destroy.
+"""Geometric integration: runs, measurements and pictures of geometric and ordinary schemes.
 
     import geomint
     orbit = geomint.run("kepler", scheme="verlet", eccentricity=0.5, until=100)
@@ -8,7 +8,7 @@
     geomint.run(well, scheme=["rk4", "verlet"], dt=0.1, until=1000)[1].energy_error.max()
     geomint.certify("verlet", on=well)
 
-Scenes, schemes, keys and systems are those of the program; its documentation tells of them.
+Scenes, schemes, keys and systems are those of the program; its documentation describes them.
 """
 from ._library import ClosedError, FileError, GeomintError, UsageError, library as _c, text_of as _text_of
 from ._pictures import Picture

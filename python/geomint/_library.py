@@ -99,11 +99,11 @@ def text_of(characters):
 
 
 def characters(text):
-    """A text for C, which ends where a zero stands; bytes of a path that are no UTF-8 stay what they are."""
+    """A text for C, which ends at a zero byte; bytes of a path that are not UTF-8 stay unchanged."""
     try:
         coded = text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError as error:
-        raise UsageError(f"{text!r} is no text that can be written in UTF-8") from error
+        raise UsageError(f"{text!r} cannot be encoded in UTF-8") from error
     if b"\0" in coded:
         raise UsageError(f"{text!r} holds a zero byte")
     return ffi.new("char[]", coded)
@@ -116,7 +116,7 @@ def words_of(words):
 
 
 def check(handle, status=None):
-    """Raises what a handle has to say of its last call; a lane that has failed is no exception but a status."""
+    """Raises the error of the last call of a handle; a failed lane is reported by its status, not by an exception."""
     if status is None:
         status = library.geomint_status(handle)
     if status == MEMORY:

@@ -40,7 +40,7 @@ class Picture:
         self._made: dict = {}
 
     def save(self, path: str | os.PathLike) -> None:
-        """Writes a file whose name ends with .png, .svg or .pdf; `geomint again` makes it once more."""
+        """Writes a file whose name ends with .png, .svg or .pdf; `geomint again` redraws it."""
         with self._turn:
             check(self._handle, library.geomint_save(self._handle, characters(os.fsdecode(path)), *self._look, self._title))
 
@@ -85,4 +85,4 @@ class Picture:
 
     def _repr_svg_(self) -> str:
         text = self.svg.decode()
-        return text[text.index("<svg") :]  # it becomes a part of HTML, where an XML declaration is no element
+        return text[text.index("<svg") :]  # as a part of HTML, which has no XML declaration

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs: their lanes, driven, and what they were at every row, as arrays."""
+"""Runs: their lanes, which can be stepped, and their rows as arrays."""
 from __future__ import annotations
 
 import functools
@@ -15,11 +15,11 @@ from ._pictures import Picture, Pictured
 from ._words import keys_text, value_text, words
 
 MOST_STEPS = 10**15  # of a run
-MOST_BYTES = 1 << 30  # of a lane's rows, where nobody said how many there are to be
+MOST_BYTES = 1 << 30  # of a lane's rows, unless `every` is given
 
 
 class System:
-    """A system of one's own, by its words: what stands in place of a scene's name. Made by `geomint.system`."""
+    """A user-defined system, by its words; it is used like a scene's name. Made by `geomint.system`."""
 
     def __init__(self, words: Sequence[str]):
         self.words = tuple(words)
@@ -29,7 +29,7 @@ class System:
 
 
 def system(name: str | None = None, *, rate: Union[str, Iterable[str], dict, None] = None, **parameters: Any) -> System:
-    """A system of one's own: `system("lorenz")` of the installed ones, `system("./mine.system")` of a file, or a formula,
+    """A user-defined system: `system("lorenz")` by name, `system("./mine.system")` from a file, or from a formula,
 
         system(H="p^2/2 + q^4/4", q=1, p=0)
         system(L="v^2/2 - k*q^2/2", k=2, q=1, v=0)
@@ -49,7 +49,7 @@ def system(name: str | None = None, *, rate: Union[str, Iterable[str], dict, Non
 
 
 class _Memory:
-    """Numbers of C as NumPy sees them; they keep their run alive, and are not to be written."""
+    """Numbers of C as a NumPy array, read-only; they keep their run alive."""
 
     def __init__(self, handle, pointer, shape):
         self.handle = handle
@@ -58,13 +58,13 @@ class _Memory:
 
 
 class _Opened:
-    """The handle of a run, which its lanes and it share, so that it goes with the last of them, at once; it may be closed."""
+    """The handle of a run, shared by the run and its lanes; it ends with the last of them, or by `close`."""
 
     def __init__(self, words: Sequence[str]):
         array, kept = words_of(words)
         self._handle = owned(library.geomint_open(len(kept), array))
         self.scene = words[0]
-        self.turn = threading.RLock()  # of threads: the library wants one at a time
+        self.turn = threading.RLock()  # of threads: only one at a time may call the library
 
     def handle(self):
         handle = self._handle
@@ -80,7 +80,7 @@ class _Opened:
 
 
 def _alone(method):
-    """A method of a lane during which no other thread asks its run for anything."""
+    """A method of a lane during which no other thread uses its run."""
     @functools.wraps(method)
     def alone(self, *arguments):
         with self._opened.turn:
@@ -89,18 +89,18 @@ def _alone(method):
     return alone
 
 
-def _told(key, words) -> Any:
-    """What a lane tells of itself as it is now."""
+def _current(key, words) -> Any:
+    """A current property of a lane."""
     return property(lambda lane: lane.about[key], doc=words)
 
 
 class Lane:
-    """One run of a scene by one scheme.
+    """One run of a scene with one scheme.
 
-    Arrays by name, as attributes or `lane["name"]`: `t`, the times (rows,) in the scene's unit; what the state is made
-    of (rows, ...), `q`, `p`, `x`, `u`: further axes are bodies or nodes, then the members of an ensemble; `q1`, `q2` are
+    Arrays by name, as attributes or `lane["name"]`: `t`, the times (rows,) in the scene's unit; the components of the
+    state (rows, ...), `q`, `p`, `x`, `u`: further axes are bodies or nodes, then the members of an ensemble; `q1`, `q2` are
     together also `q` (rows, 2); observables (rows,). They are views of one block: nothing is copied. A grid has no axis
-    of time. `state` is the present state, (components,), or (components, members), which changes with every step.
+    of time. `state` is the current state, (components,), or (components, members), which changes with every step.
     """
 
     def __init__(self, opened: _Opened, number: int):
@@ -114,7 +114,7 @@ class Lane:
     # ---- driving
 
     def step(self, steps: int = 1) -> "Lane":
-        """Makes steps; a lane that has failed stays where it is (`status`)."""
+        """Makes steps; a failed lane stays at its last state (`status`)."""
         steps = int(steps)
         if steps < 0:
             raise UsageError("steps are made forwards: at least 0")
@@ -129,10 +129,10 @@ class Lane:
         return self
 
     def until(self, t: float) -> "Lane":
-        """Goes on to the step nearest to the time t; where the scheme chooses its steps to the first not before it."""
+        """Advances to the step nearest to the time t; an adaptive scheme stops at the first step at or after t."""
         now = self.time
-        piece = (float(t) - now) / 2**24  # nobody knows yet how long a step takes
-        while now + piece < t:  # as `step` does; where it ends does not depend on that
+        piece = (float(t) - now) / 2**24  # the time of a step is not known yet
+        while now + piece < t:  # as `step` does; the end does not depend on the pieces
             begin = time.perf_counter()
             if self._go(now + piece):
                 return self
@@ -164,7 +164,7 @@ class Lane:
 
     @property
     def time(self) -> float:
-        """The present time, in the scene's unit."""
+        """The current time, in the scene's unit."""
         return library.geomint_time(self._opened.handle(), self._number)
 
     @property
@@ -175,7 +175,7 @@ class Lane:
     @property
     @_alone
     def state(self) -> np.ndarray:
-        """The present state (components,), or (components, members); no copy, read-only, and new with every step."""
+        """The current state (components,), or (components, members); not a copy, read-only, changed by every step."""
         handle = self._opened.handle()
         if self._state is None:
             sizes = ffi.new("size_t[2]")
@@ -187,7 +187,7 @@ class Lane:
 
     @_alone
     def observe(self, key: str) -> float:
-        """An observable now, also one that is not told unasked, as "lyapunov"."""
+        """The current value of an observable, also of one that is not reported by default, such as "lyapunov"."""
         handle = self._opened.handle()
         value = ffi.new("double *")
         check(handle, library.geomint_observable(handle, self._number, characters(key), value))
@@ -202,16 +202,16 @@ class Lane:
         check(handle)
         return json.loads(text)[self._number]
 
-    scheme: str = _told("scheme", "The scheme's name.")
-    parameters: dict = _told("parameters", "The parameters, each with its value.")
-    status: str = _told("status", '"ok", or how the run ended: "blow-up", "no-convergence" ...')
-    message: str = _told("message", 'A sentence on a status that is not "ok".')
-    warning: str = _told("warning", 'What is wrong with a run that is "ok": what should be kept is lost.')
+    scheme: str = _current("scheme", "The scheme's name.")
+    parameters: dict = _current("parameters", "The parameters, each with its value.")
+    status: str = _current("status", '"ok", or how the run ended: "blow-up", "no-convergence" ...')
+    message: str = _current("message", 'A sentence on a status that is not "ok".')
+    warning: str = _current("warning", 'A sentence on a run that is "ok" but has lost a conserved quantity.')
 
     # ---- rows
 
     def _columns(self, handle):
-        """Name, shape, and whether it stands in a row, of each column."""
+        """Name and shape of each column, True if it is a part of a row, and its number."""
         rows = library.geomint_columns(handle, self._number)
         shape = ffi.new("size_t[3]")
         column = 0
@@ -224,7 +224,7 @@ class Lane:
             column += 1
 
     def _record(self, every, limited):
-        """Goes to the end that was asked for, and keeps a row after every so many steps."""
+        """Advances to the end of the run, and stores a row after every `every` steps."""
         handle = self._opened.handle()
         every = min(every, MOST_STEPS)
         width = library.geomint_row_size(handle, self._number)
@@ -233,7 +233,7 @@ class Lane:
         if limited and 8 * rows * (width + 1) > MOST_BYTES:
             least = -(-left * 8 * (width + 1) // MOST_BYTES)
             raise UsageError(f"{rows} rows of {width} numbers are {8e-9 * rows * width:.3g} GB; "
-                             f"every={least} keeps a row after so many steps, every={left} the end alone")
+                             f"every={least} stores fewer rows, every={left} the end alone")
         t, values = np.empty(rows), np.empty((rows, width))
         count = 1
         made = ffi.new("size_t *")
@@ -246,7 +246,7 @@ class Lane:
             left = library.geomint_steps_left(handle, self._number)
             if left == 0:
                 break
-            if count == len(t):  # of a scheme that chooses its steps nobody knows how many there are
+            if count == len(t):  # the number of steps of an adaptive scheme is not known
                 t, values = np.resize(t, 2 * count), np.resize(values, (2 * count, width))
             before = library.geomint_steps(handle, self._number)
             ahead = min(every - before % every, left) if left > 0 else 0
@@ -282,7 +282,7 @@ class Lane:
         self._join(values)
 
     def _join(self, values):
-        """Numbered names that stand side by side, q1 q2, are also one array with an axis for their numbers: q."""
+        """Adjacent numbered names, q1 q2, are also one array with an axis for their numbers: q."""
         columns = [(name, array) for name, array in self._arrays.items() if name not in self._fixed and name != "t"]
         at = 0
         for i, (name, first) in enumerate(columns):
@@ -344,7 +344,7 @@ class Run(Pictured):
         return not self._opened.is_closed()
 
     def close(self) -> None:
-        """No more steps, no more pictures; what another thread makes of it ends soon. Arrays stay, `state` among them."""
+        """No more steps and no more pictures; a call of another thread ends soon. Arrays stay, also `state`."""
         self._opened.close()
 
     def __enter__(self) -> "Run":
@@ -394,17 +394,17 @@ def open(scene: Union[str, System], *typed: str, observe=True, **parameters: Any
 
 def run(scene: Union[str, System], *typed: str, every: int | None = None,
         observe: Union[bool, str, Iterable[str]] = True, **parameters: Any) -> Run:
-    """Runs a scene or a system to its end (`until=`, or `steps=`), and keeps a row of numbers after every step.
+    """Runs a scene or a system to its end (`until=`, or `steps=`), and stores a row of numbers after every step.
 
         geomint.run("kepler", scheme="verlet", eccentricity=0.5, until=100).q
 
     scene       a scene's name, a system's, the path of a .system file, or what `geomint.system` made
     typed       further "key=value", as on the command line: names that Python cannot write, such as "q[1]=2"
-    every       a row after so many steps, and one at the start and the end; by default after each
-    observe     which observables are in a row: True, those that the scene tells unasked; False, none; or their keys
+    every       number of steps between rows (1); there is also a row at the start and one at the end
+    observe     observables in a row: True, the default ones of the scene; False, none; or their keys
     parameters  as `geomint list SCENE` names them; a list of values makes several lanes
 
-    An unknown key is a UsageError which proposes the nearest one. A run that blows up is no error: `status`, `message`.
+    An unknown key is a UsageError which proposes the nearest one. A run that blows up does not raise: see `status`, `message`.
     """
     if every is not None and int(every) < 1:
         raise UsageError("every= is a number of steps: 1 or more")

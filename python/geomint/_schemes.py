@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Schemes: what is known of them, and what their claims are worth."""
+"""Schemes: their properties, and their certificates."""
 from __future__ import annotations
 
 import json
@@ -10,8 +10,8 @@ from ._words import words
 
 
 class Scheme:
-    """What is known of a scheme: `name`, `title`, `order` (0: it chooses it), `claims` (words), `formula`, `reference`,
-    `family`, `problems` (what it is for). It stands wherever a scheme's name may."""
+    """The properties of a scheme: `name`, `title`, `order` (0: variable order), `claims` (words), `formula`, `reference`,
+    `family`, `problems` (for which it is made). It can be used wherever a scheme's name is expected."""
 
     def __init__(self, word: str):
         handle = owned(library.geomint_scheme(characters(word)))
@@ -40,11 +40,11 @@ def scheme(word: str) -> Scheme:
 
 
 class Certificate:
-    """What was measured of a scheme's claims, and what theory says of its coefficients.
+    """The measured claims of a scheme, and the theory of its coefficients.
 
-    `holds`: nothing that it claims is refuted. `order` is the claimed one, `measured_order` a slope of errors (None: they
-    stand nowhere clear of round-off). `claims[word]` has claimed, measured, defect, tolerance, problem. `theory` has order,
-    failing_condition, symplectic, symmetric, error_constant, stability; None where it is not known.
+    `holds`: no claim is refuted. `order` is the claimed order, `measured_order` a slope of errors (None: no error is
+    clear of round-off). `claims[word]` has claimed, measured, defect, tolerance, problem. `theory` has order,
+    failing_condition, symplectic, symmetric, error_constant, stability; None if unknown.
     """
 
     def __init__(self, about: dict):
@@ -70,8 +70,8 @@ class Certificate:
 
 
 def certify(scheme: Union[str, Scheme], on=None, **parameters: Any) -> Certificate:
-    """Measures what a scheme claims: its order and every property; `on` a scene or a system, with its parameters, else on
-    the problems that schemes are certified on. It takes up to a few seconds. A broken claim is no error: `holds`."""
+    """Measures the claims of a scheme, its order and every property, `on` a scene or a system with its parameters, or on
+    the program's own problems. It takes up to a few seconds. A broken claim does not raise: see `holds`."""
     word = scheme if isinstance(scheme, str) else scheme.word
     array, kept = words_of(words(on, (), parameters) if on is not None else [])
     handle = owned(library.geomint_certify(characters(word), len(kept), array))

@@ -16,9 +16,9 @@ from ._words import words
 
 
 class Sweep:
-    """What the runs of a sweep came to. `axes` has the lists that were given, in their order; `sweep["key"]` is an array
-    with an axis for each: an observable, or another number that the state is made of, at the end (NaN: there is none);
-    or `t`, `steps`, `evaluations`, `status` (words)."""
+    """The results of a sweep. `axes` has the given lists, in their order. `sweep["key"]` is an array with an axis for
+    each list: an observable or another number of the state at the end (NaN if it does not exist), or `t`, `steps`,
+    `evaluations`, `status` (words)."""
 
     def __init__(self, axes: dict, columns: dict):
         self.axes = axes
@@ -57,13 +57,13 @@ def _end_of(made: Run):
 
 def sweep(scene: Union[str, System], *typed: str, observe: Union[bool, str, Iterable[str]] = True,
           jobs: int | None = None, **parameters: Any) -> Sweep:
-    """Runs a scene for every combination of the lists among its parameters, `jobs` at once (by default one a core).
+    """Runs a scene for every combination of the lists among its parameters, `jobs` at once (by default one per core).
 
         errors = geomint.sweep("kepler", scheme=["rk4", "verlet"], dt=numpy.logspace(-3, -1, 20), until=100)
         errors["energy_error"].shape == (2, 20)
 
-    The first error ends it, and so does the keyboard. A run that blows up is none: its status says so. What only some of
-    the runs have, as the components of a system with more bodies, is NaN in the others.
+    The first error ends the sweep, and so does Ctrl-C. A run that blows up is reported by its status. A number that only
+    some runs have, such as a component of a system with more bodies, is NaN in the others.
     """
     axes = {key: list(value) for key, value in parameters.items()
             if isinstance(value, (list, tuple, range)) or (isinstance(value, np.ndarray) and value.ndim > 0)}
@@ -71,7 +71,7 @@ def sweep(scene: Union[str, System], *typed: str, observe: Union[bool, str, Iter
         if not values:
             raise UsageError(f"{key} is an empty list")
     if jobs is not None and int(jobs) < 1:
-        raise UsageError("jobs= is how many runs are made at once: 1 or more")
+        raise UsageError("jobs= is the number of runs made at once: 1 or more")
     running: set = set()
     ended = threading.Event()
 

@@ -43,12 +43,12 @@ def words(scene, typed, parameters):
             raise UsageError(f"{word!r} is not \"key=value\"")
     given = list(typed) + [f"{key}={value_text(key, value)}" for key, value in parameters.items()]
     again = {word.partition("=")[0] for word in given}
-    # what a system was given at first is its usual value; formulas may stand several times
+    # the first values of a system are its defaults; a formula may occur several times
     return [word for word in first if word.partition("=")[0] not in again or "=" not in word] + given
 
 
 def keys_text(observe):
-    """Keys of observables; True: those that the scene tells unasked."""
+    """Keys of observables; True: the default ones of the scene."""
     if observe is True:
         return None
     if not observe:

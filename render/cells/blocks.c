@@ -256,12 +256,12 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
     cell->role = stencil.role;
 }
 
-/* Reads a cell's parts; whether any is not blank. */
-static bool take_block(struct block *block, const struct gm_raster *raster, int across, int down, int column,
-                       int row, struct gm_rgb paper)
+/* Reads a cell's parts, `across` of them in a row; whether any is not blank. */
+static bool take_block(struct block *block, const struct gm_raster *raster, int across, int column, int row)
 {
+    const struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER);
+    const int down = block->count / across;
     bool drawn = false;
-    block->count = across * down;
     for (int i = 0; i < block->count; i++) {
         size_t y = (size_t)(row * down + i / across), x = (size_t)(column * across + i % across);
         block->part[i] = raster->at[y * (size_t)raster->width + x];
@@ -280,10 +280,10 @@ void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, co
     gm_blocks_grid(blocks, &across, &down, &sharp);
     for (int row = 0; row < cells->rows; row++) {
         for (int column = 0; column < cells->columns; column++) {
-            struct block block, area = {.count = 4};
-            bool drawn = take_block(&block, raster, across, down, column, row, paper);
+            struct block block = {.count = across * down}, area = {.count = 4};
+            bool drawn = take_block(&block, raster, across, column, row);
             if (areas) {
-                drawn |= take_block(&area, areas, 2, 2, column, row, paper);
+                drawn |= take_block(&area, areas, 2, column, row);
             }
             struct gm_cell *cell = &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column];
             *cell = (struct gm_cell){.glyph = ' ', .foreground = ink, .background = paper, .role = GM_INK};

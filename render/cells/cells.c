@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The terminal painter: a picture to character cells. */
-#include "render/cells/grid.h"
+#include "render/cells/cells.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "render/cells/grid.h"
 #include "render/cells/text.h"
 #include "render/layout/layout.h"
 
@@ -43,13 +44,12 @@ static bool is_free(const struct painter *painter, int column, int row, int widt
     return true;
 }
 
-/* Writes a text whose anchor is at x. On cells texts move by up to half a cell, so what no longer fits is
-   left out here even though the layout had room for it. */
-static void paint_text(struct painter *painter, double x, int row, enum gm_anchor anchor, const char *text,
-                       enum gm_role role, bool bold, bool on_paper)
+/* Writes a label. On cells texts move by up to half a cell, so what no longer fits is left out here even though the
+   layout had room for it. */
+static void paint_text(struct painter *painter, const struct gm_label *label, int row)
 {
-    int width = gm_text_width(text, painter->ascii);
-    double left = x / CELL_WIDTH - gm_anchor_share(anchor) * width;
+    int width = gm_text_width(label->text, painter->ascii);
+    double left = label->x / CELL_WIDTH - gm_anchor_share(label->anchor) * width;
     if (!(fabs(left) < 1e6) || width == 0) {
         return;
     }
@@ -66,11 +66,12 @@ static void paint_text(struct painter *painter, double x, int row, enum gm_ancho
     size_t first = (size_t)row * (size_t)painter->cells->columns + (size_t)column;
     for (size_t i = first; i < first + (size_t)width; i++) {
         painter->taken[i] = true;
-        if (on_paper) {
+        if (!label->among_marks) {
             painter->cells->cells[i].background = gm_theme_colour(painter->theme, GM_PAPER);
         }
     }
-    gm_cells_text(painter->cells, column, row, -1, text, painter->ascii, painter->theme, role, bold);
+    const struct gm_text_look look = {painter->theme, label->role, label->bold, painter->ascii};
+    gm_cells_text(painter->cells, column, row, -1, label->text, &look);
 }
 
 /* Grid and axes as dots of the raster, beneath the marks: where dots are fine enough for a hairline. */
@@ -80,14 +81,14 @@ static void paint_dotted_grid(struct gm_raster *raster, const struct gm_axes *ax
     double right = box->x + box->width, bottom = box->y + box->height;
     for (size_t i = 0; i < axes->x_tick_count; i++) {
         double x = axes->x_ticks[i].position;
-        gm_marks_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
+        gm_marks_rule(raster, (const double[]){x, box->y, x, bottom}, GM_GRID, 2);
     }
     for (size_t i = 0; i < axes->y_tick_count; i++) {
         double y = axes->y_ticks[i].position;
-        gm_marks_rule(raster, box->x, y, right, y, GM_GRID, 2);
+        gm_marks_rule(raster, (const double[]){box->x, y, right, y}, GM_GRID, 2);
     }
-    gm_marks_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
-    gm_marks_rule(raster, box->x, bottom, right, bottom, GM_SECONDARY, 1);
+    gm_marks_rule(raster, (const double[]){box->x, box->y, box->x, bottom}, GM_SECONDARY, 1);
+    gm_marks_rule(raster, (const double[]){box->x, bottom, right, bottom}, GM_SECONDARY, 1);
 }
 
 /* Grid and axes as characters in the cells that the marks left blank: thinner than any block. */
@@ -260,8 +261,7 @@ static void paint_texts(struct painter *painter, const struct gm_layout *layout)
             label->among_marks ? row_of(label->y + 0.5 * CELL_HEIGHT) : label_row(painter, layout, label);
         /* letters do not turn in a terminal; the panel's title says what the axis is */
         if (!label->vertical) {
-            paint_text(painter, label->x, row, label->anchor, label->text, label->role, label->bold,
-                       !label->among_marks);
+            paint_text(painter, label, row);
         }
     }
 }

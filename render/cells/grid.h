@@ -4,7 +4,6 @@
 
 #include "render/layout/appearance.h"
 #include "render/layout/panel.h"
-#include "render/picture/picture.h"
 
 /* The cells of a terminal, as plain data, and what marks may be made of in them. */
 
@@ -99,22 +98,9 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
                    bool outline);
 
 /* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
-void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
-                   int gap);
+void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_role role, int gap);
 
 /* The colour map from bottom to top. */
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);
-
-/* The terminal painter: pictures to character cells. Text is text; marks are half blocks, quadrants, braille
-   or ASCII. It knows no terminal: app/ writes the cells to one. */
-
-/* Paints the picture over all cells (at least 1 x 1). False when memory is short. */
-bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
-                    enum gm_blocks blocks);
-
-/* The panel of a state that lies under a cell of a painted picture, as the point (x, y) of its axes in the
-   middle of the cell; NULL where there is none. */
-const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
-                                       enum gm_blocks blocks, int column, int row, double *x, double *y);
 
 #endif

@@ -50,14 +50,19 @@ static bool dash_on(enum gm_dash dash, double length)
     return false;
 }
 
-/* The part of a line within the clip box widened by `margin`: Liang and Barsky. */
-static bool clip_segment(const struct gm_raster *raster, double margin, double *x0, double *y0, double *x1,
-                         double *y1, double *start, double *end)
+/* A straight piece of a line, and which part of the whole piece is left of it. */
+struct piece {
+    double x0, y0, x1, y1;
+    double start, end; /* 0 to 1 */
+};
+
+/* Cuts a piece to the clip box widened by `margin`: Liang and Barsky. False: nothing is left. */
+static bool clip_piece(const struct gm_raster *raster, double margin, struct piece *piece)
 {
-    double dx = *x1 - *x0, dy = *y1 - *y0;
-    double p[4] = {-dx, dx, -dy, dy};
-    double q[4] = {*x0 - (raster->clip_left - margin), raster->clip_right + margin - *x0,
-                   *y0 - (raster->clip_top - margin), raster->clip_bottom + margin - *y0};
+    const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0;
+    const double p[4] = {-dx, dx, -dy, dy};
+    const double q[4] = {piece->x0 - (raster->clip_left - margin), raster->clip_right + margin - piece->x0,
+                         piece->y0 - (raster->clip_top - margin), raster->clip_bottom + margin - piece->y0};
     double low = 0, high = 1;
     for (int i = 0; i < 4; i++) {
         if (p[i] == 0) {
@@ -70,16 +75,13 @@ static bool clip_segment(const struct gm_raster *raster, double margin, double *
             high = smaller(high, q[i] / p[i]);
         }
     }
-    if (low > high) {
-        return false;
-    }
-    *start = low;
-    *end = high;
-    *x1 = *x0 + high * dx;
-    *y1 = *y0 + high * dy;
-    *x0 += low * dx;
-    *y0 += low * dy;
-    return true;
+    *piece = (struct piece){.x0 = piece->x0 + low * dx,
+                            .y0 = piece->y0 + low * dy,
+                            .x1 = piece->x0 + high * dx,
+                            .y1 = piece->y0 + high * dy,
+                            .start = low,
+                            .end = high};
+    return low <= high;
 }
 
 /* The sub-pixels across a line of the given width at one place of its long direction. */
@@ -102,15 +104,16 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
     }
 }
 
-/* One straight piece; *length is the way so far, for the dash. */
-static void line_piece(struct gm_raster *raster, double x0, double y0, double x1, double y1, double width,
-                       enum gm_dash dash, double *length)
+/* *length is the way so far, for the dash. */
+static void draw_piece(struct gm_raster *raster, struct piece piece, double width, enum gm_dash dash,
+                       double *length)
 {
-    double whole = larger(fabs(x1 - x0), fabs(y1 - y0)), begun = *length, start, end;
+    const double whole = larger(fabs(piece.x1 - piece.x0), fabs(piece.y1 - piece.y0)), begun = *length;
     *length += whole;
-    if (!clip_segment(raster, width + 1, &x0, &y0, &x1, &y1, &start, &end)) {
+    if (!clip_piece(raster, width + 1, &piece)) {
         return;
     }
+    const double x0 = piece.x0, y0 = piece.y0, x1 = piece.x1, y1 = piece.y1;
     bool steep = fabs(y1 - y0) > fabs(x1 - x0);
     double from = steep ? y0 : x0, to = steep ? y1 : x1;
     double across = steep ? x0 : y0, slope = to == from ? 0 : ((steep ? x1 : y1) - across) / (to - from);
@@ -119,7 +122,7 @@ static void line_piece(struct gm_raster *raster, double x0, double y0, double x1
         /* the ends are met exactly, the sub-pixels between in their middle */
         double at = along + 0.5;
         at = step > 0 ? smaller(larger(at, from), to) : larger(smaller(at, from), to);
-        if (dash_on(dash, begun + start * whole + fabs(at - from))) {
+        if (dash_on(dash, begun + piece.start * whole + fabs(at - from))) {
             cover_across(raster, steep, along, across + slope * (at - from), width);
         }
         if (along == last) {
@@ -141,7 +144,8 @@ static void draw_line(struct gm_raster *raster, const struct gm_axes *axes, cons
             if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
                 continue;
             }
-            line_piece(raster, before.x, before.y, now.x, now.y, width, mark->style.dash, &length);
+            draw_piece(raster, (struct piece){before.x, before.y, now.x, now.y, 0, 1}, width,
+                       mark->style.dash, &length);
         }
         before = now;
     }
@@ -422,9 +426,9 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
     return true;
 }
 
-void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
-                   int gap)
+void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_role role, int gap)
 {
+    const double x0 = from_to[0], y0 = from_to[1], x1 = from_to[2], y1 = from_to[3];
     raster->clip_left = raster->clip_top = 0;
     raster->clip_right = raster->width;
     raster->clip_bottom = raster->height;

@@ -163,10 +163,10 @@ int gm_text_width(const char *text, bool ascii)
     return width;
 }
 
-int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const char *text, bool ascii,
-                  enum gm_theme theme, enum gm_role role, bool bold)
+int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const char *text,
+                  const struct gm_text_look *look)
 {
-    struct reader reader = {.text = text, .ascii = ascii};
+    struct reader reader = {.text = text, .ascii = look->ascii};
     int width = 0;
     for (uint32_t code; (limit < 0 || width < limit) && (code = read_next(&reader)) != 0; width++) {
         int at = column + width;
@@ -175,9 +175,9 @@ int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const 
         }
         struct gm_cell *cell = &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)at];
         cell->glyph = code;
-        cell->foreground = gm_theme_colour(theme, role);
-        cell->role = role;
-        cell->bold = bold;
+        cell->foreground = gm_theme_colour(look->theme, look->role);
+        cell->role = look->role;
+        cell->bold = look->bold;
     }
     return width;
 }

@@ -26,9 +26,16 @@ const char *gm_text_ascii(uint32_t code);
 /* The cells a text takes; with `ascii` as it is spelled there. */
 int gm_text_width(const char *text, bool ascii);
 
+/* How a text looks in cells; with `ascii` it is spelled in ASCII. */
+struct gm_text_look {
+    enum gm_theme theme;
+    enum gm_role role;
+    bool bold, ascii;
+};
+
 /* Writes text into one row from `column` on, at most `limit` cells of it (negative: as many as there are);
    what lies outside the cells is cut. Returns the cells it took. */
-int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const char *text, bool ascii,
-                  enum gm_theme theme, enum gm_role role, bool bold);
+int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const char *text,
+                  const struct gm_text_look *look);
 
 #endif

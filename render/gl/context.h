@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_GL_CONTEXT_H
 #define GM_RENDER_GL_CONTEXT_H
 
-#include "render/gl/backend.h"
+#include "render/gl/library.h"
 
 /* An OpenGL 3.3 core context without a screen. It has no surface of its own worth drawing to: painters draw
    into a framebuffer object. Libraries are loaded when the first context is opened, so that a program which

@@ -2,11 +2,11 @@
 #ifndef GM_RENDER_GL_GL_H
 #define GM_RENDER_GL_GL_H
 
-#include <GL/glcorearb.h>
 #include <stdbool.h>
 
+#include <GL/glcorearb.h>
+
 #include "render/gl/context.h"
-#include "render/triangles/triangles.h"
 
 /* The GL functions the painter uses, found at run time through the context. */
 #define GM_GL_FUNCTIONS(X)                                                                                   \
@@ -73,27 +73,7 @@ struct gm_gl {
 #undef GM_GL_MEMBER
 };
 
-/* The programs of a batch (struct gm_vertex says what its vertices mean). */
-
-/* Uses the program, made when it is first wanted (most pictures need few of the five), for a picture of so many
-   pixels. False if this OpenGL cannot compile it. */
-bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height);
-
-/* A batch through OpenGL: its vertices in one buffer, its calls one by one, its images as textures. */
-struct gm_stream {
-    const struct gm_gl *gl;
-    GLuint programs[GM_PROGRAM_COUNT], array, buffer, index_buffer;
-    GLuint *images; /* textures for the images of a frame, used again in the next */
-    size_t image_count, images_used;
-    float *texels;
-    size_t texel_capacity;
-};
-
-/* Needs a current context, with which it ends. False, with a sentence in message, when shaders do not compile. */
-bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, char *message);
-
-/* Draws everything into the bound framebuffer of width x height pixels. The glyph atlas is bound to texture
-   unit 0, the colour maps to unit 1. */
-bool gm_stream_draw(struct gm_stream *stream, const struct gm_batch *batch, int width, int height);
+/* The name of the first function that is missing, or NULL. */
+const char *gm_gl_load(struct gm_gl *gl, const struct gm_context *context);
 
 #endif

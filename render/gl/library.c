@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the loader says of a library that it does not open, in one sentence. */
-#include "render/gl/backend.h"
+#include "render/gl/library.h"
 
 #include <dlfcn.h>
 #include <errno.h>

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "render/address_space.h"
-#include "render/gl/gl.h"
+#include "render/gl/stream.h"
 #include "render/message.h"
 
 enum { MAP_STEPS = 16 * 255 + 1 /* as the rasteriser */, MAP_ROWS = 2 };
@@ -101,21 +101,9 @@ static void textures_open(struct gm_opengl *opengl)
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-/* The name of the first function that is missing, or NULL. */
-static const char *load_functions(struct gm_gl *gl, const struct gm_context *context)
-{
-#define GM_GL_FIND(name, type)                                                                               \
-    gl->name = (PFNGL##type##PROC)gm_context_find(context, "gl" #name);                                      \
-    if (!gl->name)                                                                                           \
-        return "gl" #name;
-    GM_GL_FUNCTIONS(GM_GL_FIND)
-#undef GM_GL_FIND
-    return NULL;
-}
-
 static bool complete(struct engine *engine, char *message)
 {
-    const char *missing = load_functions(&engine->gl, engine->context);
+    const char *missing = gm_gl_load(&engine->gl, engine->context);
     if (missing) {
         return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The programs that run on the vertices of a frame. */
-#include "render/gl/gl.h"
+#include "render/gl/shaders.h"
 
 /* The first row of pixels in memory is the top of the picture, so y is not turned round. */
 static const char vertex_source[] = "#version 330 core\n"

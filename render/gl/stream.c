@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The calls of a batch, as those of OpenGL. */
-#include "render/gl/gl.h"
+#include "render/gl/stream.h"
 
 #include <stdlib.h>
 

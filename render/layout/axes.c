@@ -443,19 +443,28 @@ static bool is_free(const struct gm_axes *axes, size_t count, size_t own, const 
     return is_free;
 }
 
+/* What a note stands among: the labels so far and the axes of all panels, one of which is its own. */
+struct surroundings {
+    struct gm_label_list *list;
+    const struct gm_axes *axes;
+    size_t count, own;
+    const struct gm_mark *mark;
+};
+
 /* A line of a note, its top at y: where its anchor says, or with `within` moved into the frame. */
-static bool add_line(struct gm_label_list *list, const struct gm_axes *axes, size_t count, size_t own,
-                     const struct gm_mark *mark, const char *text, double x, double y, bool within)
+static bool add_line(const struct surroundings *around, const char *text, double x, double y, bool within)
 {
+    struct gm_label_list *list = around->list;
     const struct gm_metrics *metrics = list->metrics;
-    const struct gm_box *data = &axes[own].box;
+    const struct gm_mark *mark = around->mark;
+    const struct gm_box *data = &around->axes[around->own].box;
     const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, text);
     const double air = 0.3 * line; /* to the edge of the surface */
     const double left =
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
     const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
                                fmax(0.0, fmin(y, metrics->height - line)), width, line};
-    return is_free(axes, count, own, &box, air) &&
+    return is_free(around->axes, around->count, around->own, &box, air) &&
            gm_labels_add(list, (struct gm_label){.text = text,
                                                  .size = GM_TEXT_TICK,
                                                  .role = mark->style.role,
@@ -466,13 +475,15 @@ static bool add_line(struct gm_label_list *list, const struct gm_axes *axes, siz
 
 /* Adds the lines of a note whose anchor is at (x, y), moved together off the edges of the frame and a little
    where that makes all of them free, or none. */
-static void add_note(struct gm_label_list *list, const struct gm_axes *axes, size_t count, size_t own,
-                     const struct gm_mark *mark, const char *const *lines, size_t made, double x, double y)
+static void add_note(const struct surroundings *around, const char *const *lines, size_t made, double x,
+                     double y)
 {
+    struct gm_label_list *list = around->list;
+    const struct gm_mark *mark = around->mark;
     static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* in lines */
     const size_t before = list->count;
     const double line = list->metrics->line[GM_TEXT_TICK], high = (double)made * line;
-    const struct gm_box *data = &axes[own].box;
+    const struct gm_box *data = &around->axes[around->own].box;
     double widest = 0.0;
     for (size_t i = 0; i < made; i++) {
         widest = fmax(widest, gm_labels_width(list, GM_TEXT_TICK, lines[i]));
@@ -491,7 +502,7 @@ static void add_note(struct gm_label_list *list, const struct gm_axes *axes, siz
         list->count = before;
         placed = true;
         for (size_t i = 0; i < made && placed; i++) {
-            placed = add_line(list, axes, count, own, mark, lines[i], x, top, k % 2 == 1);
+            placed = add_line(around, lines[i], x, top, k % 2 == 1);
             top = placed ? list->labels[list->count - 1].y + line : top;
         }
     }
@@ -517,14 +528,15 @@ void gm_axes_note(struct gm_label_list *list, const struct gm_axes *panel_axes, 
                            : mark->anchor == GM_ANCHOR_RIGHT ? x - data->x
                                                              : data->width;
     const bool fits = gm_labels_width(list, GM_TEXT_TICK, mark->text) <= data->width;
+    const struct surroundings around = {list, panel_axes, count, own, mark};
     const char *lines[2];
     size_t made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, scratch, 2, lines);
     if (!fits && !gm_lines_are_whole(lines, made, mark->text)) {
         made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, data->width, 2, lines);
     }
     if (made == 2 && gm_lines_are_whole(lines, made, mark->text)) {
-        add_note(list, panel_axes, count, own, mark, lines, made, x, y);
+        add_note(&around, lines, made, x, y);
     } else if (fits) {
-        add_note(list, panel_axes, count, own, mark, &mark->text, 1, x, y);
+        add_note(&around, &mark->text, 1, x, y);
     }
 }

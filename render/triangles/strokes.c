@@ -77,9 +77,10 @@ size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
 }
 
 /* The two sides of the strip at a point; `slant` is along the normal of one direction or between two. */
-static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float reach,
-                      float along, float half, struct gm_rgba ink)
+static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float along,
+                      float half, struct gm_rgba ink)
 {
+    const float reach = half + fringe;
     const struct gm_point left = {p.x + reach * slant.x, p.y + reach * slant.y};
     const struct gm_point right = {p.x - reach * slant.x, p.y - reach * slant.y};
     strip[0] = vertex(left, reach, along, half, ink);
@@ -117,16 +118,15 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
     const struct gm_point *p = line->points, start = p[first % n], end = p[(first + segments) % n];
     float length;
     struct gm_point way = direction(start, p[(first + 1) % n], &length);
-    put_sides(strip, beyond(start, way, -reach), normal(way), reach, reach, half, ink);
-    put_sides(strip + 2, start, normal(way), reach, 0.0f, half, ink);
+    put_sides(strip, beyond(start, way, -reach), normal(way), reach, half, ink);
+    put_sides(strip + 2, start, normal(way), 0.0f, half, ink);
     strip += 4;
     for (size_t i = 1; i < segments; i++, strip += 2) {
-        put_sides(strip, p[(first + i) % n], mitre(joint_at(line, (first + i) % n, reach)), reach, 0.0f, half,
-                  ink);
+        put_sides(strip, p[(first + i) % n], mitre(joint_at(line, (first + i) % n, reach)), 0.0f, half, ink);
     }
     way = direction(p[(first + segments - 1) % n], end, &length);
-    put_sides(strip, end, normal(way), reach, 0.0f, half, ink);
-    put_sides(strip + 2, beyond(end, way, reach), normal(way), reach, reach, half, ink);
+    put_sides(strip, end, normal(way), 0.0f, half, ink);
+    put_sides(strip + 2, beyond(end, way, reach), normal(way), reach, half, ink);
     gm_batch_end(batch, 0);
 }
 
@@ -140,7 +140,7 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
     }
     for (size_t i = 0; i <= line->count; i++) {
         const size_t k = i % line->count;
-        put_sides(strip + 2 * i, line->points[k], mitre(joint_at(line, k, reach)), reach, 0.0f, half, ink);
+        put_sides(strip + 2 * i, line->points[k], mitre(joint_at(line, k, reach)), 0.0f, half, ink);
     }
     gm_batch_end(batch, 0);
 }

@@ -5,7 +5,7 @@
 #include <pthread.h>
 
 #include "render/address_space.h"
-#include "render/gl/backend.h"
+#include "render/gl/library.h"
 #include "render/message.h"
 
 enum { TAKEN = 16 << 20 /* bytes of the address space, by Cairo and what it loads */ };

@@ -8,7 +8,7 @@
 bool gm_history_open(struct gm_history *history, size_t series)
 {
     *history = (struct gm_history){.series = series, .per_bin = 1};
-    history->bins = calloc(GM_HISTORY_BINS * (series ? series : 1), sizeof *history->bins);
+    history->bins = malloc(GM_HISTORY_BINS * (series ? series : 1) * sizeof *history->bins);
     return history->bins != NULL;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/kind.h"
 #include "core/memory.h"
+#include "core/schemes.h"
 #include "scenes/common/crossing.h"
 
 static const struct gm_timing *timing(const struct gm_lane *lane)
@@ -348,10 +349,34 @@ static size_t asked_shown(const struct gm_lane *lane)
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
 }
 
+/* The scheme whose steps a lane's scheme makes, or that one. */
+static const struct gm_scheme *method_of(const struct gm_lane *lane)
+{
+    const struct gm_scheme *same = gm_scheme_same_as(lane->scheme, &lane->problem);
+    return same ? same : lane->scheme;
+}
+
+/* Adds to the subtitle the first two lanes of schemes with two names that are one method. */
+static void note_same(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    for (size_t i = 1; i < count; i++) {
+        for (size_t k = 0; k < i; k++) {
+            if (lanes[k]->scheme != lanes[i]->scheme && method_of(lanes[k]) == method_of(lanes[i])) {
+                const char *const before = picture->subtitle ? picture->subtitle : "";
+                picture->subtitle =
+                    gm_picture_text(picture, "%s%s%s and %s are the same method here", before,
+                                    before[0] ? ";  " : "", lanes[k]->scheme->title, lanes[i]->scheme->title);
+                return;
+            }
+        }
+    }
+}
+
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_scene *scene = lanes[0]->scene;
     (asked_shown(lanes[0]) > 0 ? scene->draw_asked : scene->draw)(lanes, count, picture);
+    note_same(lanes, count, picture);
 }
 
 void gm_lane_record(struct gm_lane *lane)
@@ -625,7 +650,7 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
         gm_refuse(sentence, "not enough memory");
         return NULL;
     }
-    lane->scene = scene;
+    lane->scene = scene->variant ? scene->variant(parameters) : scene;
     lane->settings = *settings;
     lane->scheme = lane->first_scheme = scheme;
     gm_lane_show(lane, &(const struct gm_shown){0});

@@ -203,6 +203,9 @@ struct gm_scene {
 
     /* The time at the start; NULL: 0. */
     double (*t0)(const void *parameters);
+    /* The scene whose lane has these parameters, where words of a choice make several whose tables have the same rows;
+       NULL: this one. */
+    const struct gm_scene *(*variant)(const void *parameters);
     /* Why the parameter of that key has no effect with these, NULL if it has one; no hook: all have one. */
     const char *(*idle)(const void *parameters, const char *key);
     /* Makes parameters agree that follow from others, after those of these keys were set; false with a
@@ -275,6 +278,11 @@ bool gm_is_given(const char *key, const char *const *keys, size_t count);
 void gm_choose(struct gm_choice *choice, const char *key, double value);
 
 size_t gm_scene_count(void);
+/* Name and title of a scene, whose file is not opened for them. */
+const char *gm_scene_name(size_t index);
+const char *gm_scene_title(size_t index);
+/* The index of the scene of that name; gm_scene_count(): there is none. */
+size_t gm_scene_number(const char *name);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters);

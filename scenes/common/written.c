@@ -29,6 +29,27 @@ const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char
     return gm_kept_texts_add(texts, strdup(same ? given : gm_number_format(value, text, sizeof text)));
 }
 
+struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_system_variable *variable,
+                                   double value, const char *usual, size_t offset)
+{
+    const double most = 1e300; /* sliders find their usual size themselves */
+    const bool ranged = !isnan(variable->low);
+    return (struct gm_parameter){
+        .key = variable->name,
+        .unit = variable->unit ? variable->unit : "",
+        .help = variable->meaning && variable->meaning[0] ? variable->meaning : usual,
+        .type = GM_REAL,
+        .offset = offset,
+        .standard = gm_kept_number(texts, value, variable->text),
+        .lowest = variable->fixed ? value
+                  : ranged        ? variable->low
+                                  : -most,
+        .highest = variable->fixed ? value
+                   : ranged        ? variable->high
+                                   : most,
+    };
+}
+
 static bool set_timing(struct gm_kept_texts *texts, const struct gm_user_system *system,
                        enum gm_system_word word, double value, struct gm_parameter *row)
 {

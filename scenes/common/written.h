@@ -21,6 +21,10 @@ char *gm_written_mark(const char *name, const char *text);
 
 /* A number as it would be typed: the given text where that is this number, NULL: there is none. */
 const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char *given);
+/* The row of a system's parameter, or of where it starts, with this default; without a meaning of its own it is the
+   usual one. */
+struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_system_variable *variable,
+                                   double value, const char *usual, size_t offset);
 /* The rows of dt and until with these defaults, and what a system's lines say of their ranges and meanings. */
 bool gm_written_timing(struct gm_kept_texts *texts, const struct gm_user_system *system, double dt,
                        double until, struct gm_parameter *dt_row, struct gm_parameter *until_row);

@@ -31,11 +31,17 @@
 #include "scenes/ode/system/sights.h"
 #include "scenes/ode/system/studies.h"
 #include "scenes/ode/system/texts.h"
+#include "scenes/ode/system/variants.h"
 
 enum { DT, UNTIL };
-/* behind the system's own */
-enum { MEMBERS, SPREAD, SHAPE, SHOW, COMMON_ROWS };
-enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS = 1 << 14, REMEMBERED = 256 };
+enum {
+    MOST_OBSERVED = 60,
+    MOST_LINEARISED = 200,
+    MOST_FOLLOWED = 32,
+    CROSSINGS = 1 << 14,
+    REMEMBERED = 256,
+    MOST_RECORDED = 1 << 22 /* numbers of a track: of many components there are fewer entries */
+};
 
 /* Whether each row was given, bytes behind the values. */
 static char *given_of(struct gm_system_lane *lane)
@@ -45,25 +51,13 @@ static char *given_of(struct gm_system_lane *lane)
 
 /* ---- what is remembered ---- */
 
-static size_t sight_width(const struct gm_view *view)
+/* The state of the last member, of which every sight is made: another one may be chosen during the run. */
+static void record_state(const struct gm_view *view, double *entry)
 {
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    return sight->dimensions * sight->bodies;
-}
-
-static void record_sight(const struct gm_view *view, double *entry)
-{
-    const struct gm_sight *sight = gm_system_sight(view->parameters);
-    if (sight->rods == 0) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, entry);
-        return;
+    const size_t m = view->problem->m;
+    for (size_t c = 0; c < gm_system_scene_of(view)->system.n; c++) {
+        entry[c] = view->state[c * m + m - 1];
     }
-    double *all = malloc(gm_sight_numbers(sight) * sizeof *all);
-    if (all) {
-        gm_system_values(&sight->tape, view, view->problem->m - 1, all);
-        memcpy(entry, all, sight->dimensions * sight->bodies * sizeof *entry);
-    }
-    free(all);
 }
 
 static double step_of(const void *parameters)
@@ -129,10 +123,18 @@ static void record_crossing(const struct gm_view *view, double *entry)
 
 /* ---- from parameters to problem and start ---- */
 
+/* The scene of the text of `first` with other values. */
+static struct gm_system_scene *make_other(const struct gm_system_scene *first,
+                                          const struct gm_system_value *values, size_t count,
+                                          struct gm_fault *fault, char *sentence);
+
 /* Values that were not given follow from those that were, as the file says. */
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
     struct gm_system_lane *lane = parameters;
+    if (!gm_system_choose(lane, make_other, sentence)) {
+        return false;
+    }
     const struct gm_system_scene *system_scene = lane->owner;
     char *given = given_of(lane);
     bool by_steps = false;
@@ -148,6 +150,9 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
     }
     bool good = gm_system_is_admitted(lane, values, sentence);
     for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
+        if (system_scene->variables[row] == GM_NO_VARIABLE) {
+            continue;
+        }
         const double value = values[system_scene->variables[row]];
         lane->values[row - GM_SYSTEM_ROWS] = value;
         const struct gm_parameter *bounds = &system_scene->rows[row];
@@ -384,10 +389,17 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
-/* Where a plane is shown there is nothing to go around. */
+/* Where a plane is shown there is nothing to go around; and other words of a choice have values of their own. */
 static const char *idle(const void *parameters, const char *key)
 {
     const struct gm_system_lane *lane = parameters;
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+        const struct gm_parameter *at = &lane->owner->rows[row];
+        if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
+            lane->owner->variables[row] == GM_NO_VARIABLE) {
+            return lane->owner->lacks;
+        }
+    }
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
 }
 
@@ -401,7 +413,7 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
     }
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0);
     const struct gm_node *node = &system_scene->system.graph.nodes[item->nodes[0]];
-    for (size_t row = system_scene->first_start; row < system_scene->row_count; row++) {
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count; row++) {
         if (node->operation == GM_VARIABLE && system_scene->variables[row] == node->a &&
             sight->components[0] != (long)node->a && sight->components[1] != (long)node->a) {
             gm_choose(choice, system_scene->rows[row].key, 0);
@@ -411,19 +423,33 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
     return 0;
 }
 
+/* The variable that says where a component starts: a parameter that is its start, or itself. */
+static size_t start_of(const struct gm_user_system *system, long component)
+{
+    if (component < 0 || (size_t)component >= system->n) {
+        return GM_NO_VARIABLE;
+    }
+    const gm_node_id start = system->variables[component].start;
+    const struct gm_node *node = start == GM_NO_NODE ? NULL : &system->graph.nodes[start];
+    const bool given = node && node->operation == GM_VARIABLE && node->a >= system->parameters &&
+                       node->a < system->velocities;
+    return given ? node->a : (size_t)component;
+}
+
 static size_t point(const void *parameters, double x, double y, struct gm_choice *choices)
 {
     const struct gm_system_lane *lane = parameters;
     const struct gm_sight *sight = gm_system_sight(lane);
     size_t count = 0;
     for (size_t k = 0; k < 2; k++) {
-        for (size_t row = lane->owner->first_start; row < lane->owner->row_count; row++) {
-            if (sight->components[k] >= 0 && lane->owner->variables[row] == (size_t)sight->components[k]) {
+        const size_t number = start_of(&lane->owner->system, sight->components[k]);
+        for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+            if (number != GM_NO_VARIABLE && lane->owner->variables[row] == number) {
                 gm_choose(&choices[count++], lane->owner->rows[row].key, k ? y : x);
             }
         }
     }
-    if (count == 2) {
+    if (count == (sight->over_time ? 1 : 2)) {
         return count + on_section(lane, sight, &choices[count]);
     }
     double *start = gm_system_start_values(lane, NULL);
@@ -434,71 +460,81 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
+/* The row of a choice, whose values are its words. */
+static bool make_choice(struct gm_system_scene *system_scene, size_t i)
+{
+    const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
+    for (size_t k = 0; k < choice->count; k++) {
+        system_scene->words[i][k] = choice->words[k];
+    }
+    system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
+    struct gm_parameter *row = &system_scene->rows[GM_SYSTEM_ROWS + i];
+    *row = (struct gm_parameter){
+        .key = choice->name,
+        .unit = "",
+        .help = gm_kept_texts_add(&system_scene->texts,
+                                  gm_span_words(system_scene->system.source, choice->meaning)),
+        .type = GM_CHOICE,
+        .offset = offsetof(struct gm_system_lane, values) + i * sizeof(double),
+        .standard = choice->words[choice->chosen],
+        .choices = system_scene->words[i],
+    };
+    return row->help != NULL;
+}
+
 static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    system_scene->row_count = GM_SYSTEM_ROWS + parameters + n;
-    system_scene->first_start = GM_SYSTEM_ROWS + parameters;
-    system_scene->rows =
-        calloc(system_scene->row_count + COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
-    system_scene->common = system_scene->rows ? system_scene->rows + system_scene->row_count : NULL;
-    system_scene->variables = calloc(system_scene->row_count, sizeof *system_scene->variables);
-    system_scene->initial =
-        calloc(1, sizeof *system_scene->initial + (system_scene->row_count) * (sizeof(double) + 1));
+    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
+    system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->variables = calloc(most, sizeof *system_scene->variables);
+    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
     static const struct gm_parameter timing[GM_SYSTEM_ROWS] = {
         [DT] = GM_DT("", 1e-30, 1e30), [UNTIL] = GM_UNTIL("")};
-    static const struct gm_parameter common[COMMON_ROWS] = {
-        [MEMBERS] =
+    static const struct gm_parameter common[GM_COMMON_ROWS] = {
+        [GM_ROW_MEMBERS] =
             GM_INTEGER_ROW(struct gm_system_lane, members, "members", "1", 1, 1e6,
                            "how many start: one, or a disc, a grid or a line of them", .logarithmic = true),
-        [SPREAD] = GM_REAL_ROW(struct gm_system_lane, spread, "spread", "0.1", 0, 1e6,
-                               "radius of that disc, half the width of a grid or a line"),
-        [SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
-                                "of the members: on a disc's edge, in a grid, on a line"),
-        [SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
-                               "all, the section, or a plane of two components"),
+        [GM_ROW_SPREAD] = GM_REAL_ROW(struct gm_system_lane, spread, "spread", "0.1", 0, 1e6,
+                                      "radius of that disc, half the width of a grid or a line"),
+        [GM_ROW_SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
+                                       "of the members: on a disc's edge, in a grid, on a line"),
+        [GM_ROW_SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
+                                      "all, or a plane of two components", .live = true),
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
-    if (good) {
-        memcpy(system_scene->rows, timing, sizeof timing);
-        memcpy(system_scene->common, common, sizeof common);
-        memcpy(system_scene->common + COMMON_ROWS, camera, sizeof camera);
-        system_scene->initial->owner = system_scene;
+    for (size_t i = 0; good && i < choices; i++) {
+        good = make_choice(system_scene, i);
     }
-    for (size_t row = GM_SYSTEM_ROWS; good && row < system_scene->row_count; row++) {
-        const bool is_start = row >= system_scene->first_start;
-        size_t number =
-            is_start ? row - system_scene->first_start : system->parameters + row - GM_SYSTEM_ROWS;
+    size_t row = GM_SYSTEM_ROWS + choices;
+    for (size_t i = 0; good && i < parameters + n; i++) {
+        const bool is_start = i >= parameters;
+        size_t number = is_start ? i - parameters : system->parameters + i;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
         const struct gm_system_variable *variable = &system->variables[number];
-        const char *unit = variable->unit, *help = variable->meaning;
-        const double value = start[number], reach = 1e300; /* sliders find their usual size themselves */
-        const bool ranged = !isnan(variable->low);
+        if (variable->derived) {
+            continue;
+        }
         system_scene->variables[row] = number;
-        system_scene->rows[row] = (struct gm_parameter){
-            .key = variable->name,
-            .unit = unit ? unit : "",
-            .help = help && help[0] ? help
-                    : is_start      ? "where it starts"
-                                    : "a parameter",
-            .type = GM_REAL,
-            .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
-            .standard = gm_kept_number(&system_scene->texts, value, variable->text),
-            .lowest = variable->fixed ? value
-                      : ranged        ? variable->low
-                                      : -reach,
-            .highest = variable->fixed ? value
-                       : ranged        ? variable->high
-                                       : reach,
-            .required = typed,
-        };
-        good = system_scene->rows[row].standard != NULL;
+        system_scene->rows[row] = gm_written_row(
+            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
+            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].required = typed;
+        good = system_scene->rows[row++].standard != NULL;
+    }
+    system_scene->row_count = row;
+    if (good) {
+        system_scene->common = system_scene->rows + row;
+        memcpy(system_scene->rows, timing, sizeof timing);
+        memcpy(system_scene->common, common, sizeof common);
+        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
+        system_scene->initial->owner = system_scene;
     }
     free(start);
     return good;
@@ -546,19 +582,29 @@ static bool make_shows(struct gm_system_scene *system_scene)
         shows++;
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
-    system_scene->common[SHOW].choices = system_scene->shows;
-    if (system_scene->has_section && gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
-        system_scene->common[SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+    system_scene->common[GM_ROW_SHOW].choices = system_scene->shows;
+    if (system_scene->has_section) {
+        system_scene->common[GM_ROW_SHOW].help = "all, the section, or a plane of two components";
+        if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
+            system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+        }
     }
     return true;
 }
 
 static void make_tracks(struct gm_system_scene *system_scene)
 {
-    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){
-        .key = "past", .width = sight_width, .interval = step_of, .bound = 8192, .record = record_sight};
-    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){
-        .key = "trail", .width = sight_width, .bound = 2048, .recent = true, .record = record_sight};
+    const size_t n = system_scene->system.n, bound = 2 + MOST_RECORDED / n;
+    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){.key = "past",
+                                                            .numbers = n,
+                                                            .interval = step_of,
+                                                            .bound = bound < 8192 ? bound : 8192,
+                                                            .record = record_state};
+    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){.key = "trail",
+                                                             .numbers = n,
+                                                             .bound = bound < 2048 ? bound : 2048,
+                                                             .recent = true,
+                                                             .record = record_state};
     system_scene->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
                                                               .width = shape_width,
                                                               .interval = shape_interval,
@@ -634,6 +680,11 @@ static const char *title_of(struct gm_system_scene *system_scene)
     return kept ? kept : "A system of one’s own";
 }
 
+static const struct gm_scene *variant(const void *parameters)
+{
+    return &((const struct gm_system_lane *)parameters)->owner->scene;
+}
+
 static bool make(struct gm_system_scene *system_scene, const char *name, const char *const *words, bool typed,
                  char *sentence)
 {
@@ -655,7 +706,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .text = words ? system->source : NULL,
         .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
         .parameters = system_scene->rows,
-        .parameter_count = system_scene->row_count + COMMON_ROWS,
+        .parameter_count = system_scene->row_count + GM_COMMON_ROWS,
+        .variant = variant,
         .idle = idle,
         .settle = settle,
         .setup = setup,
@@ -668,11 +720,11 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
-    if (members &&
-        gm_parameter_set(&system_scene->common[MEMBERS], system_scene->initial, members) != GM_PARSED) {
+    if (members && gm_parameter_set(&system_scene->common[GM_ROW_MEMBERS], system_scene->initial, members) !=
+                       GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
-    system_scene->common[MEMBERS].standard = members ? members : "1";
+    system_scene->common[GM_ROW_MEMBERS].standard = members ? members : "1";
     if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
         (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
         !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||
@@ -704,12 +756,13 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     return good;
 }
 
-const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
-                                            const char *const *words, bool typed, char *sentence)
+/* The scene of a system, which it takes. */
+static struct gm_system_scene *open_one(const struct gm_user_system *system, const char *name,
+                                        const char *const *words, bool typed, char *sentence)
 {
     struct gm_system_scene *system_scene = calloc(1, sizeof *system_scene);
     if (!system_scene) {
-        gm_system_close(system);
+        gm_system_close((struct gm_user_system *)system);
         gm_refuse(sentence, "not enough memory");
         return NULL;
     }
@@ -723,13 +776,53 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
         gm_system_scene_close(&system_scene->scene);
         return NULL;
     }
-    return &system_scene->scene;
+    return system_scene;
+}
+
+static struct gm_system_scene *make_other(const struct gm_system_scene *first,
+                                          const struct gm_system_value *values, size_t count,
+                                          struct gm_fault *fault, char *sentence)
+{
+    struct gm_user_system system;
+    const char *text = first->system.source;
+    if (!gm_equations_open(&system, text, first->system.length, values, count, fault)) {
+        gm_refuse(sentence, "%s", fault->sentence[0] ? fault->sentence : "not enough memory");
+    } else if (gm_system_is_field(&system)) {
+        gm_refuse(sentence, "choice: %s=%s is a field, and other words are none", values->name, values->text);
+    } else {
+        struct gm_system_scene *made =
+            open_one(&system, first->scene.name, first->scene.words, false, sentence);
+        if (made && !gm_system_lack(made, values[count - 1].name, values[count - 1].text)) {
+            gm_system_scene_close(&made->scene);
+            made = NULL;
+        }
+        return made;
+    }
+    gm_system_close(&system);
+    return NULL;
+}
+
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
+                                            const char *const *words, bool typed, struct gm_fault *fault,
+                                            char *sentence)
+{
+    struct gm_system_scene *first = open_one(system, name, words, typed, sentence);
+    const unsigned long refusals = gm_memory_refusals();
+    *fault = (struct gm_fault){0};
+    if (first && (!gm_system_unite(first, make_other, fault, sentence) || gm_memory_refusals() != refusals)) {
+        gm_system_scene_close(&first->scene);
+        return NULL;
+    }
+    return first ? &first->scene : NULL;
 }
 
 void gm_system_scene_close(const struct gm_scene *scene)
 {
     struct gm_system_scene *system_scene =
         (struct gm_system_scene *)scene; /* which it is the first member of */
+    if (system_scene->next) {
+        gm_system_scene_close(&system_scene->next->scene);
+    }
     for (size_t i = 0; i < system_scene->sight_count; i++) {
         gm_system_close_sight(&system_scene->sights[i]);
     }

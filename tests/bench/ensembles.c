@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(kepler_ensemble)
 GM_LOOPS_DECLARE(oscillator_ensemble)

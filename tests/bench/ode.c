@@ -18,6 +18,7 @@
 #include "tests/bench/ensembles.h"
 #include "tests/bench/ode_by_hand.h"
 #include "tests/bench/timing.h"
+#include "tests/problems/problems.h"
 
 enum { ROUNDS = 15, MEMBERS = 10000 };
 

@@ -18,12 +18,12 @@
 #include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/bench/ensembles.h"
 #include "tests/bench/timing.h"
+#include "tests/problems/problems.h"
 
 enum { ROUNDS = 21 };
 

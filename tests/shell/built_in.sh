@@ -7,7 +7,7 @@ share=$2
 . "$(dirname "$0")/answers.sh"
 
 # numbers FILE: what a run printed, but for the engine, the time, the names of scene and scheme, and a file's text
-numbers() { sed -E 's/"(engine|scene|scheme)":"[^"]*",//g; s/"(system|room)":"([^"\\]|\\.)*",//; s/"seconds":[^,]*,//' "$1"; }
+numbers() { sed -E 's/"(engine|scene|scheme)":"[^"]*",//g; s/"(system|room)":"(#|geomint)([^"\\]|\\.)*",//; s/"seconds":[^,]*,//' "$1"; }
 
 # same NAME COPY WORDS...: both words lead to the same line
 same() {

@@ -136,7 +136,7 @@ def test_texts():
     texts = texts_of("kepler.svg")
     found = subprocess.run(["pdftotext", "-layout", "kepler.pdf", "-"], capture_output=True, text=True).stdout
     for text in ("A Kepler orbit, followed by four schemes for 20 periods", "t = 125.66", "Verlet", "100",
-                 "turn of the orbit's axis, rad", "10⁻³"):
+                 "apsidal precession, rad", "10⁻³"):
         check(text in texts, f"the SVG has no text {text!r}")
         check(text in found, f"the PDF has no text {text!r}")
     check(texts_of("wave.svg").count("t") >= 1 and "x" in texts_of("wave.svg"), "the SVG has no names of axes")

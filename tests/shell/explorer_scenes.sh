@@ -65,7 +65,7 @@ wait_for 'remove one with x before adding another\.'
 wait_for '\? help +space go on'
 keys Down Down Down
 wait_for '▸ springs'
-wait_for 'springs: number of stiff springs; their energies are told of the first three'
+wait_for 'springs: number of stiff springs, whose energies are told of the first three'
 wait_for 'starts again'
 wait_for 'enter type +- \+ finely'
 # by fine steps, and typed

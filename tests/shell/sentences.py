@@ -40,14 +40,15 @@ def expect(good, sentence, numbers):
 
 
 def kepler():
-    listed, (exact, fictitious) = told("kepler", "Steps of equal length turn the axis, but for (.*?), which without "
-                                                 "perturbation is exact; it stands under (.*?), which step.*, and nearly "
-                                                 "so where steps follow the motion and the order is high")
+    listed, (exact, fictitious) = told("kepler", "With a fixed step the ellipse precesses under every scheme except (.*?), "
+                                                 "which is exact without perturbation. Schemes in a transformed time "
+                                                 r"\((.*?)\) follow the exact ellipse; only their phase has an error. "
+                                                 "Adaptive schemes of high order follow it nearly")
     schemes = listed["schemes"]
     keep = names(schemes, fictitious + " " + exact)
     good = expect(len(keep) == 3, "three schemes are named", keep)
     composed = {scheme for scheme in schemes if scheme.startswith("logh-")}
-    good &= expect(len(composed) == 4 and "what is composed of it" in fictitious, "and what is composed of logh2", composed)
+    good &= expect(len(composed) == 4 and "its compositions" in fictitious, "and the compositions of logh2", composed)
     keep |= composed
     orbits = {}
     for some in (schemes[:40], schemes[40:]):  # a list has at most 64 words
@@ -55,13 +56,13 @@ def kepler():
     for scheme in schemes:
         turn = abs(orbits[scheme]["lrl_angle_max"])
         if re.match("(controlled|poincare)-.*[68]$", scheme):
-            good &= expect(turn < 1e-8, f"kepler: the axis nearly stands under {scheme}", turn)
+            good &= expect(turn < 1e-8, f"kepler: the ellipse hardly precesses under {scheme}", turn)
             continue
         good &= expect((turn < ROUND_OFF) == (scheme in keep),
-                       f"kepler: the axis {'stands' if scheme in keep else 'turns'} under {scheme}", turn)
+                       f"kepler: the ellipse {'stays' if scheme in keep else 'precesses'} under {scheme}", turn)
     perturbed = run("kepler", "scheme=" + ",".join(keep), "perturbation=0.01", "until=4*pi")
     for scheme in keep:
-        good &= expect(abs(perturbed[scheme]["lrl_angle"]) > 0.01, f"kepler, perturbed: {scheme} turns",
+        good &= expect(abs(perturbed[scheme]["lrl_angle"]) > 0.01, f"kepler, perturbed: the ellipse precesses under {scheme}",
                        perturbed[scheme]["lrl_angle"])
     told("kepler", "RK4 starts out more accurate than the symplectic methods and loses, because its error grows")
     short, half, whole = (run("kepler", "scheme=rk4,verlet,rk4sym", f"until={orbits}*pi") for orbits in (4, 100, 200))

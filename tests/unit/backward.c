@@ -23,6 +23,7 @@
 #include "core/schemes.h"
 #include "core/theory/modified.h"
 #include "core/theory/theory.h"
+#include "tests/problems/problems.h"
 
 enum { POWER = GM_MODIFIED_POWER, LETTERS = POWER + 1, WORDS = 1 << (LETTERS + 1) };
 

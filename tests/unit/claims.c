@@ -28,6 +28,7 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 static bool all;
 
@@ -541,15 +542,30 @@ static void names_find_the_row_that_fits(void **unused)
 
 /* Leapfrog with a little friction, which no law survives. */
 static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next,
                              struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
-    const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
+    const enum gm_status status = leapfrog->step(work, problem, dt, progress);
     for (size_t i = 0; i < work->points; i++) {
         next[i] -= 1e-4 * (now[i] - past[i]);
     }
     return status;
+}
+
+/* McLachlan's splitting holds what it claims, and is not the method whose name it has here. */
+static void a_name_of_another_method(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("mclachlan2");
+    wrong.name = "variational-trapezoidal2";
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds && certificate.theory_holds);
+    assert_string_equal(certificate.same.other->name, "verlet");
+    assert_true(certificate.same.difference > 1e-6);
+    assert_false(certificate.same.holds);
+    assert_false(certificate.holds);
 }
 
 static void a_wave_with_friction(void **unused)
@@ -722,6 +738,7 @@ int main(int argc, char *argv[])
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
         cmocka_unit_test(names_find_the_row_that_fits),
+        cmocka_unit_test(a_name_of_another_method),
         cmocka_unit_test(a_wave_with_friction),
         cmocka_unit_test(the_law_of_another_scheme),
         cmocka_unit_test(a_logarithmic_hamiltonian_gone_wrong),

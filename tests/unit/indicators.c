@@ -17,6 +17,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 enum { STEPS = 3, MOST = 2 * GM_SUBJECT_COMPONENTS };
 
@@ -118,8 +119,9 @@ static void every_scheme(void **unused)
         }
         size_t held = 0;
         for (size_t k = 0; k < gm_subject_count(); k++) {
-            const struct gm_subject subject = gm_subject_at(k);
-            if (!gm_subject_fits(&subject, scheme)) {
+            struct gm_subject subject;
+            if (!gm_subject_open(&subject, k, scheme)) {
+                gm_subject_close(&subject);
                 continue;
             }
             /* steps at which the equations of all schemes can be solved */
@@ -129,6 +131,7 @@ static void every_scheme(void **unused)
                          subject.problem.name, defect);
             }
             held += defect >= 0;
+            gm_subject_close(&subject);
         }
         if (held == 0) {
             fail_msg("%s: its derivative was held against nothing", scheme->name);

@@ -151,6 +151,8 @@ static void refusals(void **unused)
     } rows[] = {
         {"kepler eccentricity=1", "out of range"},
         {"kepler eccentricity=1.5", "out of range"},
+        {"kepler q1=1", "q1"},
+        {"henon-heiles p1=1", "p1"},
         {"vortices strength=0", "strength"},
         {"vortices configuration=collision distance=0", "coincide"},
         {"vortices configuration=two-turned angle=pi/2", "coincide"},
@@ -164,7 +166,7 @@ static void refusals(void **unused)
         {"vortices multipole=1e-9", "four vortices"},
         {"vortices tracers=10 scheme=avf2", "does not fit"},
         {"henon-heiles q2=.9 p2=.5", "no orbit"},
-        {"oscillator scheme=impulse2", "does not fit"},
+        {"abc scheme=impulse2", "does not fit"},
     };
     char message[GM_MESSAGE];
     for (size_t i = 0; i < GM_COUNT(rows); i++) {

@@ -357,9 +357,22 @@ static void refused_memory_is_no_fault_of_a_mesh(void **unused)
     free(parameters);
 }
 
+/* What lists know of scenes without opening their files is what the scenes say. */
+static void lists_know_scenes(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        assert_string_equal(gm_scene_name(i), gm_scene_at(i)->name);
+        assert_string_equal(gm_scene_title(i), gm_scene_at(i)->title);
+        assert_int_equal(gm_scene_number(gm_scene_name(i)), i);
+    }
+    assert_int_equal(gm_scene_number("system"), gm_scene_count());
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_know_scenes),
         cmocka_unit_test(clocks_follow_the_step),
         cmocka_unit_test(packed_lanes_go_on),
         cmocka_unit_test(losses_are_told),

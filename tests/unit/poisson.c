@@ -20,10 +20,10 @@
 #include "core/kind.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 enum { MOST = 12 };
 

@@ -14,6 +14,7 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/reference.h"
+#include "tests/problems/problems.h"
 
 static struct gm_problem problem_of(const char *name)
 {

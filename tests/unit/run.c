@@ -18,6 +18,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/problems/problems.h"
 
 static const double constants[3] = {0.3, 0.4, 0.5}; /* the parameters of every problem that has some */
 static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},

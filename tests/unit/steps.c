@@ -14,11 +14,11 @@
 
 #include "core/basics.h"
 #include "core/model/equations.h"
-#include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/typed.h"
+#include "tests/problems/problems.h"
 
 static const struct gm_settings settings = {0};
 

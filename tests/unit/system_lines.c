@@ -33,7 +33,7 @@ static const struct gm_scene *open_scene(const char *text, char *sentence)
     if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    return gm_system_scene_open(&system, "test", words, false, sentence);
+    return gm_system_scene_open(&system, "test", words, false, &fault, sentence);
 }
 
 static const struct gm_scene *scene_of(const char *text)
@@ -180,6 +180,50 @@ static struct gm_picture *picture_of(struct gm_lane *const *lanes, size_t count)
     assert_non_null(picture);
     gm_lanes_draw((const struct gm_lane *const *)lanes, count, picture);
     return picture;
+}
+
+static void derived_starts_follow(void **unused)
+{
+    (void)unused;
+    static const char text[] = "coordinates: q\nmomenta: p\nparameter: E = 2; 0 .. 9\nH: (p^2 + q^2)/2\n"
+                               "start: q = 1; -2 .. 2\nstart: p = sqrt(2*E - q^2); derived\n";
+    const struct gm_scene *scene = scene_of(text);
+    assert_non_null(gm_scene_parameter(scene, "q"));
+    assert_null(gm_scene_parameter(scene, "p"));
+    struct gm_lane *lane = running(scene, "q=1.5 E=3", "rk4", 0);
+    assert_true(lane->start[0] == 1.5 && lane->start[1] == sqrt(6 - 2.25));
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+}
+
+/* A sight that is chosen during a run shows all of it, as if it had been chosen before. */
+static void sights_are_live(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of("coordinates: x y\nmomenta: u v\nH: (u^2 + v^2 + x^2)/2 + 2*y^2\n"
+                 "start: x = 1, y = 0.5, u = 0, v = 1\nview: x, x*y\nrod: 0, 0; x, y\ndt: 0.1\n");
+    const struct gm_parameter *show = gm_scene_parameter(scene, "show");
+    assert_true(show->live);
+    assert_null(strstr(show->help, "section"));
+    struct gm_lane *before = running(scene, "show=x:u", "rk4", 5), *now = running(scene, "", "rk4", 5);
+    assert_int_equal(gm_parameter_set(show, now->parameters, "x:u"), GM_PARSED);
+    struct gm_picture *pictures[] = {picture_of(&before, 1), picture_of(&now, 1)};
+    const struct gm_panel *panels[] = {pictures[0]->first, pictures[1]->first};
+    assert_true(panels[0]->x.low == panels[1]->x.low && panels[0]->y.high == panels[1]->y.high);
+    const struct gm_mark *mark = panels[0]->first, *other = panels[1]->first;
+    size_t most = 0;
+    for (; mark && other; mark = mark->next, other = other->next) {
+        assert_int_equal(mark->count, other->count);
+        assert_memory_equal(mark->points, other->points, 2 * mark->count * sizeof *mark->points);
+        most = mark->count > most ? mark->count : most;
+    }
+    assert_true(!mark && !other && most >= 50);
+    gm_picture_close(pictures[0]);
+    gm_picture_close(pictures[1]);
+    gm_lane_close(before);
+    gm_lane_close(now);
+    gm_system_scene_close(scene);
 }
 
 static void texts_hold_values(void **unused)
@@ -361,6 +405,8 @@ int main(void)
         cmocka_unit_test(options_describe_observables),
         cmocka_unit_test(exact_solutions_are_values),
         cmocka_unit_test(requirements_refuse),
+        cmocka_unit_test(derived_starts_follow),
+        cmocka_unit_test(sights_are_live),
         cmocka_unit_test(texts_hold_values),
         cmocka_unit_test(levels_are_drawn),
         cmocka_unit_test(graphs_are_those_of_the_file),

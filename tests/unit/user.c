@@ -23,6 +23,7 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/typed.h"
+#include "tests/problems/problems.h"
 
 struct retyped {
     const struct gm_problem *problem;

@@ -46,10 +46,9 @@ static void open_typed(struct typed *typed, const char *text)
     }
     assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
-    assert_true(gm_user_wave_open(&typed->problem, &typed->wave, values));
+    const struct gm_grid1 ring = {POINTS, 2 * HALF / POINTS, -HALF, 0, false};
+    assert_true(gm_user_wave_open(&typed->problem, &typed->wave, values, &ring));
     free(values);
-    typed->problem.line = (struct gm_grid1){POINTS, 2 * HALF / POINTS, -HALF, 0, false};
-    typed->problem.n = SIZE;
 }
 
 static void close_typed(struct typed *typed)
@@ -528,7 +527,7 @@ static void a_field_closes_on_its_ring(void **unused)
         char sentence[400] = "";
         open_typed(&typed, rings[i].text);
         typed.problem.line.jump = rings[i].jump;
-        const bool closes = gm_user_wave_closes(&typed.problem, "u", sentence, sizeof sentence);
+        const bool closes = gm_user_wave_closes(&typed.problem, sentence, sizeof sentence);
         if (closes != !rings[i].sentence || (!closes && !strstr(sentence, rings[i].sentence))) {
             fail_msg("%s: %s", rings[i].text, sentence);
         }
@@ -550,8 +549,8 @@ static double distance_from_exact(const void *data, double t, const double *y)
     const struct gm_problem *problem = data;
     double largest = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        largest =
-            fmax(largest, fabs(y[i] - gm_user_wave_exact(problem, gm_grid1_node(&problem->line, i), t)));
+        largest = fmax(largest, fabs(y[i] - gm_user_line_exact(problem->parameters, 0,
+                                                               gm_grid1_node(&problem->line, i), t)));
     }
     return largest;
 }
@@ -688,13 +687,14 @@ static void what_cannot_be_told_is_blamed_on_nobody(void **unused)
 static double friction, slowness;
 
 static enum gm_status spoilt(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                             const double *past, const double *now, double *next,
                              struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const size_t last = work->points - 1;
     const double square = dt * dt / (problem->line.dx * problem->line.dx);
     const struct gm_two_step_row *row = gm_scheme_find("leapfrog")->coefficients;
-    const enum gm_status status = row->step(work, problem, dt, past, now, next, progress);
+    const enum gm_status status = row->step(work, problem, dt, progress);
     for (size_t i = 0; i <= last; i++) {
         const double sides = now[i > 0 ? i - 1 : last] + now[i < last ? i + 1 : 0];
         next[i] -= friction * (now[i] - past[i]) + slowness * square * (sides - 2 * now[i]);

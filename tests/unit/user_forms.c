@@ -17,7 +17,6 @@
 #include "core/certify.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dirac.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
@@ -52,6 +51,15 @@ static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4"};
     "L-matrix: 0, 0, -1, 0 | 0, 0, 0, -1 | 1, 0, 0, 0 | 0, 1, 0, 0\n"                                        \
     "S: (p^2 + q^2)^2/4 + (v^2 + w^2)/2\n"                                                                   \
     "start: p = sqrt(2)/cosh(x)*cos(x/2), q = sqrt(2)/cosh(x)*sin(x/2), v = 0, w = 0\n"
+#define DIRAC                                                                                                \
+    "components: a b c d\n"                                                                                  \
+    "K-matrix: 0, -1, 0, 0 | 1, 0, 0, 0 | 0, 0, 0, -1 | 0, 0, 1, 0\n"                                        \
+    "L-matrix: 0, 0, 0, -1 | 0, 0, 1, 0 | 0, -1, 0, 0 | 1, 0, 0, 0\n"                                        \
+    "let: N = a^2 + b^2 - c^2 - d^2\n"                                                                       \
+    "S: N/2 - N^2/4\n"                                                                                       \
+    "let: k = sqrt(1 - 0.75^2)\n"                                                                            \
+    "let: h = 1 + 0.75*cosh(2*k*x)\n"                                                                        \
+    "start: a = sqrt(3.5)*k*cosh(k*x)/h, b = 0, c = 0, d = sqrt(0.5)*k*sinh(k*x)/h\n"
 
 struct typed {
     struct gm_user_system system;
@@ -196,28 +204,19 @@ static void friction_breaks_it(void **unused)
 {
     (void)unused;
     enum { NODES = 101 };
-    static const struct gm_dirac standing = {.mass = 1, .coupling = 0.5, .frequency = 0.75};
-    struct gm_form form = *gm_field_of(&gm_problem_dirac)->form;
+    struct typed typed;
+    open_typed(&typed, DIRAC, NODES, 40.4);
+    struct gm_form form = *gm_field_of(&typed.problem)->form;
     struct gm_field facets = {.form = &form};
-    struct gm_problem problem = gm_problem_dirac;
-    double m[16], y[4 * NODES];
+    struct gm_problem problem = typed.problem;
+    double m[16];
     memcpy(m, form.m, sizeof m);
     m[0] += 0.01;
     problem.facets = &facets;
-    problem.parameters = &standing;
-    problem.line = (struct gm_grid1){NODES, 0.4, -20.2, 0, false};
-    problem.n = 4 * NODES;
-    for (size_t i = 0; i < NODES; i++) {
-        double s[4];
-        gm_dirac_exact(&standing, gm_grid1_node(&problem.line, i), 0, s);
-        for (size_t c = 0; c < 4; c++) {
-            y[c * NODES + i] = s[c];
-        }
-    }
     for (size_t s = 0; s < GM_COUNT(boxes); s++) {
         for (int rubbed = 0; rubbed < 2; rubbed++) {
-            form.m = rubbed ? m : gm_field_of(&gm_problem_dirac)->form->m;
-            struct gm_run *run = run_of(&problem, boxes[s], 0.1, y);
+            form.m = rubbed ? m : gm_field_of(&typed.problem)->form->m;
+            struct gm_run *run = run_of(&problem, boxes[s], 0.1, typed.y);
             assert_int_equal(gm_run_advance(run, 5), GM_OK);
             const double law = gm_form_defect(&problem, gm_scheme_find_for(boxes[s], &problem), 0.1,
                                               gm_run_state(run), gm_run_memory(run));
@@ -227,6 +226,7 @@ static void friction_breaks_it(void **unused)
             gm_run_close(run);
         }
     }
+    close_typed(&typed);
 }
 
 /* The largest residual of a law after t = 2. */

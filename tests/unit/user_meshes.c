@@ -301,7 +301,7 @@ static void what_does_not_rest_is_refused(void **unused)
         struct typed typed;
         char sentence[200] = "";
         open_typed(&typed, texts[i], 4, 7, NAN);
-        assert_int_equal(gm_user_mesh_rests(&typed.problem, "u", sentence, sizeof sentence), !told[i]);
+        assert_int_equal(gm_user_mesh_rests(&typed.problem, sentence, sizeof sentence), !told[i]);
         assert_true(!told[i] || strstr(sentence, told[i]));
         close_typed(&typed);
     }

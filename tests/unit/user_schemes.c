@@ -25,6 +25,7 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/high_order.h"
+#include "tests/problems/problems.h"
 
 static const struct gm_scheme *no_file(void *data, const char *path, char *sentence)
 {

@@ -52,11 +52,10 @@ static void open_walled(struct walled *walled, const char *text, size_t nodes)
     }
     assert_true(gm_user_wave_derive(&walled->wave, &walled->system));
     double *values = gm_equations_start(&walled->system, NULL);
-    assert_true(gm_user_wave_open(&walled->problem, &walled->wave, values));
+    const struct gm_grid1 grid = between(10, nodes);
+    assert_true(gm_user_wave_open(&walled->problem, &walled->wave, values, &grid));
     free(values);
-    walled->problem.line = between(10, nodes);
-    walled->problem.n = gm_wave_size(walled->problem.line.points);
-    if (!gm_user_wave_closes(&walled->problem, "u", sentence, sizeof sentence)) {
+    if (!gm_user_wave_closes(&walled->problem, sentence, sizeof sentence)) {
         fail_msg("%s", sentence);
     }
 }
@@ -87,7 +86,8 @@ static double error_of(const char *scheme, size_t nodes, double dt, double *ener
     }
     for (size_t i = 0; i < gm_grid1_seen(line); i++) {
         const double x = -10 + (double)i * line->dx;
-        error = fmax(error, fabs(gm_run_state(run)[i] - gm_user_wave_exact(&walled.problem, x, run->t)));
+        error = fmax(
+            error, fabs(gm_run_state(run)[i] - gm_user_line_exact(walled.problem.parameters, 0, x, run->t)));
     }
     /* it has left the values that it came with by 2 pi on one side, and not on the other */
     assert_true(gm_run_state(run)[gm_grid1_seen(line) - 1] > 6 && y[gm_grid1_seen(line) - 1] < -6);

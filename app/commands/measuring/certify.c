@@ -93,6 +93,11 @@ static void print_certificate(const struct gm_certificate *certificate)
         }
         printf("\n");
     }
+    const struct gm_sameness *same = &certificate->same;
+    if (same->other) {
+        printf("  the same steps as %s: %s, largest difference %.1e (%s)\n", same->other->name,
+               same->holds ? "holds" : "BROKEN", same->difference, same->problem);
+    }
 }
 
 /* ---- the diagram of the order ---- */

@@ -25,8 +25,9 @@ int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char 
     if (row < 0 || row >= sheet->height || column >= sheet->width) {
         return 0;
     }
+    const struct gm_text_look look = {sheet->face->theme, role, bold, sheet->face->blocks == GM_ASCII};
     return gm_cells_text(sheet->cells, sheet->column + column, sheet->row + row, sheet->width - column, text,
-                         sheet->face->blocks == GM_ASCII, sheet->face->theme, role, bold);
+                         &look);
 }
 
 int gm_sheet_width(const struct gm_sheet *sheet, const char *text)

@@ -8,7 +8,7 @@
 #include "app/explorer/worker/worker.h"
 #include "app/runs/session.h"
 #include "core/scheme.h"
-#include "render/cells/grid.h"
+#include "render/cells/cells.h"
 #include "render/files/images.h"
 
 /* What the user has set about the screen itself. */

@@ -151,7 +151,6 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
 
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
-    unsigned columns = gm_schemes_claims(shot);
     const struct gm_face *face = sheet->face;
     const struct gm_scheme *found[GM_SHOT_SCHEMES];
     int count = (int)find_all(face, shot, found), row = 0, at = 0;
@@ -182,7 +181,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
         if (found[i] == &gm_chooser_user) {
             gm_sheet_text(sheet, 4, row, found[i]->title, role, chosen);
         } else {
-            gm_schemes_row(sheet, 4, row, found[i], columns, role, chosen);
+            gm_schemes_row(sheet, 4, row, shot, found[i], role, chosen);
         }
     }
     if (face->choice && sheet->height - row >= below) {

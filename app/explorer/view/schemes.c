@@ -87,13 +87,20 @@ int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_sche
     return end - gm_sheet_width(sheet, text) - 1;
 }
 
-void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_scheme *scheme,
-                    unsigned columns, enum gm_role role, bool bold)
+void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_shot *shot,
+                    const struct gm_scheme *scheme, enum gm_role role, bool bold)
 {
-    const int title_end = column + gm_sheet_width(sheet, scheme->title);
-    const int end = gm_schemes_facts(sheet, row, scheme, title_end, columns, false, role);
+    size_t at = 0;
+    while (at < shot->scheme_count && shot->schemes[at] != scheme) {
+        at++;
+    }
+    const struct gm_scheme *same = at < shot->scheme_count ? shot->same[at] : NULL;
+    char title[128];
+    snprintf(title, sizeof title, "%s%s%s", scheme->title, same ? " = " : "", same ? same->title : "");
+    const int title_end = column + gm_sheet_width(sheet, title);
+    const int end = gm_schemes_facts(sheet, row, scheme, title_end, gm_schemes_claims(shot), false, role);
     const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, end, sheet->height);
-    gm_sheet_cut(&left, column, row, scheme->title, role, bold);
+    gm_sheet_cut(&left, column, row, title, role, bold);
 }
 
 /* ---- the formula ---- */

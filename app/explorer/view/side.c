@@ -221,7 +221,7 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
             shown++;
             gm_sheet_hit(sheet, 0, row, sheet->width,
                          (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = shot->schemes[i]});
-            gm_schemes_row(sheet, title_column(sheet), row++, shot->schemes[i], columns, GM_SECONDARY, false);
+            gm_schemes_row(sheet, title_column(sheet), row++, shot, shot->schemes[i], GM_SECONDARY, false);
         }
     }
     if (plan->more && plan->schemes > 0) {

@@ -76,9 +76,9 @@ void gm_schemes_heading(const struct gm_sheet *sheet, int row, const char *text)
    then its order. Returns where the title's room ends. */
 int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme, int title_end,
                      unsigned columns, bool give_way, enum gm_role role);
-/* A scheme's title at a column, and its facts. */
-void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_scheme *scheme,
-                    unsigned columns, enum gm_role role, bool bold);
+/* The title of a scheme that fits at a column, with that of another one whose steps are the same here, and its facts. */
+void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_shot *shot,
+                    const struct gm_scheme *scheme, enum gm_role role, bool bold);
 
 /* The formula with its reference, and the rows that it takes. */
 int gm_schemes_formula_rows(const struct gm_scheme *scheme);

@@ -150,7 +150,9 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
     double constants[BEST] = {0};
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (scheme->family != like->family || scheme == like || !gm_scheme_fits(scheme, &lane->problem)) {
+        const struct gm_scheme *same = gm_scheme_same_as(scheme, &lane->problem);
+        if (scheme->family != like->family || scheme == like || !gm_scheme_fits(scheme, &lane->problem) ||
+            (same && same->family == like->family)) {
             continue;
         }
         const struct gm_theory theory = gm_scheme_theory(scheme);
@@ -178,7 +180,7 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
     }
 }
 
-/* Whether a scheme is measured where none is named. */
+/* Whether a scheme is measured where none is named: of two names of one method one is. */
 static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *scheme, const struct gm_lane *lane)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -187,7 +189,9 @@ static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *schem
         entrant = strcmp(work->schemes[k], scheme->name) == 0;
     }
     const bool exact = work && work->is_exact && strcmp(work->is_exact, scheme->name) == 0 && grid->observed;
-    return entrant && !exact && gm_scheme_fits(scheme, &lane->problem);
+    const struct gm_scheme *same = entrant && !exact ? gm_scheme_same_as(scheme, &lane->problem) : NULL;
+    return entrant && !exact && gm_scheme_fits(scheme, &lane->problem) &&
+           !(same && is_entrant(grid, same, lane));
 }
 
 /* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */

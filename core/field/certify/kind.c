@@ -17,10 +17,12 @@
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
-#include "core/field/problems/dirac.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
+#include "core/field/user/form.h"
+#include "core/files/files.h"
+#include "core/model/equations.h"
 #include "core/run.h"
 
 static unsigned facets(const struct gm_problem *problem)
@@ -69,9 +71,11 @@ static void exact_nls(const struct gm_problem *problem, double x, double t, doub
     gm_nls_exact(gm_nls_of(problem), &problem->line, x, t, &values[0], &values[1]);
 }
 
-static void exact_dirac(const struct gm_problem *problem, double x, double t, double *values)
+static void exact_of_file(const struct gm_problem *problem, double x, double t, double *values)
 {
-    gm_dirac_exact(problem->parameters, x, t, values);
+    for (size_t c = 0; c < gm_field_of(problem)->form->dimension; c++) {
+        values[c] = gm_user_line_exact(problem->parameters, c, x, t);
+    }
 }
 
 static void exact_burgers(const struct gm_problem *problem, double x, double t, double *values)
@@ -165,6 +169,7 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
    of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
     const struct gm_problem *problem;
+    const char *file; /* of share/subjects, a multisymplectic form, in the place of that */
     const void *parameters;
     void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
     size_t numbers; /* of the exact solution at a node; 0: one, of which the state holds two levels */
@@ -212,9 +217,8 @@ static const struct equation equations[] = {
     {KDV, .dt = 0.04, .power = 1},
     {NLS, .meant = is_explicit_for_nls, .dt = 0.005},
     {NLS, .dt = 0.02, .power = 1},
-    {.problem = &gm_problem_dirac,
-     .parameters = &(const struct gm_dirac){.mass = 1, .coupling = 0.5, .frequency = 0.75},
-     .exact = exact_dirac,
+    {.file = "dirac",
+     .exact = exact_of_file,
      .numbers = 4,
      .line = {.points = 361, .dx = 60.0 / 361, .first = -30},
      .dt = 0.05,
@@ -336,6 +340,15 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
+static void note_same(struct gm_certificate *certificate, const struct gm_field_subject *subject,
+                      const double *y)
+{
+    const struct gm_settings settings = {0};
+    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
+                                   GM_SAME_STEPS};
+    gm_certificate_note_same(certificate, &trial, y);
+}
+
 static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -355,6 +368,9 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
         if (k == 0 && gm_field_of(&subject.problem)->form) {
             gm_field_note_form(certificate, &subject, y, 1);
         }
+        if (k == 0) {
+            note_same(certificate, &subject, y);
+        }
         if (k == 0 && equation->frames) {
             gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
         }
@@ -368,19 +384,48 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
     note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
 }
 
+/* The equation of a file. */
+struct read {
+    struct gm_user_system system;
+    struct gm_user_form form;
+    struct gm_problem problem;
+};
+
+/* False: out of memory. To be closed in both cases. */
+static bool open_file(struct read *read, struct equation *equation)
+{
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, equation->file);
+    struct gm_fault fault;
+    double *values = NULL;
+    const bool good = gm_equations_open(&read->system, file->text, file->length, NULL, 0, &fault) &&
+                      gm_user_form_derive(&read->form, &read->system) &&
+                      (values = gm_equations_start(&read->system, NULL)) != NULL &&
+                      gm_user_form_open(&read->problem, &read->form, values, &equation->line);
+    free(values);
+    read->problem.name = file->title;
+    equation->problem = &read->problem;
+    equation->parameters = read->problem.parameters;
+    return good;
+}
+
 /* Measures the claims of a scheme for fields on a line, on every equation that it fits. */
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     const struct gm_problem *measured = NULL;
     double farthest = -1;
     for (size_t i = 0; i < GM_COUNT(equations); i++) {
-        const struct equation *equation = &equations[i];
-        const struct gm_problem problem = problem_of(equation, equation->parameters, 0);
-        if (equation->problem != measured && gm_scheme_fits(scheme, &problem) &&
-            (!equation->meant || equation->meant(scheme))) {
-            measured = equation->problem;
-            measure(certificate, equation, &farthest);
+        struct equation equation = equations[i];
+        struct read read = {0};
+        const bool opened = !equation.file || open_file(&read, &equation);
+        const struct gm_problem problem =
+            opened ? problem_of(&equation, equation.parameters, 0) : (struct gm_problem){0};
+        if (opened && equation.problem != measured && gm_scheme_fits(scheme, &problem) &&
+            (!equation.meant || equation.meant(scheme))) {
+            measured = equation.problem;
+            measure(certificate, &equation, &farthest);
         }
+        gm_user_form_close(&read.problem);
+        gm_system_close(&read.system);
     }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
@@ -428,6 +473,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     if (!failing) {
         certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
         gm_field_note_form(certificate, &subject, y, size);
+        note_same(certificate, &subject, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {
@@ -466,6 +512,29 @@ static const struct gm_family *const families[] = {
     NULL,
 };
 
+static bool is_wave(const struct gm_problem *problem)
+{
+    return gm_field_of(problem)->wave != NULL;
+}
+
+/* a wave without a potential */
+static bool is_free(const struct gm_problem *problem)
+{
+    const double places[] = {-1.7, 0.3, 2.1};
+    double slopes[GM_COUNT(places)] = {0};
+    if (!is_wave(problem)) {
+        return false;
+    }
+    gm_field_of(problem)->wave->slopes(problem, places, slopes, GM_COUNT(places));
+    return slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
+}
+
+static const struct gm_same same[] = {
+    {"euler-box", "leapfrog", is_wave},
+    {"energy-conserving", "leapfrog", is_free},
+    {0},
+};
+
 const struct gm_kind gm_kind_field = {
     .name = "field",
     .problems = "waves on a line",
@@ -475,5 +544,6 @@ const struct gm_kind gm_kind_field = {
     .certify_on = certify_on,
     .most_certified = 100000,
     .families = families,
+    .same = same,
     .quantities = gm_field_quantities,
 };

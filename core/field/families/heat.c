@@ -173,11 +173,9 @@ static struct gm_progress advance(const struct gm_task *task)
         step.v[last] = gm_heat_exact(heat, fixed, gm_grid1_node(grid, last), t);
         row->make(&step);
         progress.evaluations++;
-        if (!gm_field_within(step.v, work->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
+        if (!gm_field_stepped(task, &progress, step.v, work->points)) {
             return progress;
         }
-        progress.done++;
     }
     memcpy(task->out, work->level[task->steps % 2], work->points * sizeof(double));
     return progress;

@@ -265,10 +265,7 @@ static struct gm_progress advance(const struct gm_task *task)
         } else {
             progress.status = row->make(work, &step, &progress);
         }
-        if (progress.status == GM_OK && !gm_field_within(work->level[2], points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, work->level[2], points)) {
             return progress;
         }
         double *past = work->level[0];
@@ -276,11 +273,8 @@ static struct gm_progress advance(const struct gm_task *task)
         work->level[1] = work->level[2];
         work->level[2] = past;
         step.first = false;
-        progress.done++;
     }
-    memcpy(task->out, work->level[1], size);
-    memcpy(task->out + points, work->level[0], size);
-    task->out[2 * points] = -task->dt;
+    gm_wave_write(task, work->level[1], work->level[0]);
     task->memory_out[0] = 1;
     return progress;
 }

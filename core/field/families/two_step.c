@@ -12,14 +12,15 @@
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    enum { ARRAYS = 8 };
+    enum { ARRAYS = 11 };
     const size_t points = problem->line.points, length = points + 2;
     struct gm_two_step_work *work = calloc(1, sizeof *work + ARRAYS * length * sizeof(double));
     if (!work) {
         return NULL;
     }
     double **const arrays[ARRAYS] = {&work->level[0], &work->level[1], &work->level[2], &work->force,
-                                     &work->right,    &work->guess,    &work->cells,    &work->change};
+                                     &work->right,    &work->guess,    &work->cells,    &work->change,
+                                     &work->rate[0],  &work->rate[1],  &work->rate[2]};
     work->points = points;
     for (size_t i = 0; i < ARRAYS; i++) {
         *arrays[i] = (double *)(void *)(work + 1) + i * length + 1;
@@ -45,9 +46,10 @@ GM_CLONES static bool within(const double *level, size_t points, double limit)
 
 /* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t,
    to second order from both sides, so that a change of dt costs no order. */
-void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                   const double *now, const double *other, double *next)
+void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
+    const double *other = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double over = 1 / (problem->line.dx * problem->line.dx);
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
@@ -100,15 +102,19 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     } else if (row->keeps_change) {
         subtract(work->change, task->y, task->y + points, points);
     }
+    if (row->keeps_rates) {
+        memcpy(work->rate[1], task->memory, size);
+        memcpy(work->rate[0], task->memory + points, size);
+    }
     for (int64_t k = 0; k < task->steps; k++) {
         if (k > 0 || regular) {
-            progress.status =
-                row->step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);
+            progress.status = row->step(work, task->problem, task->dt, &progress);
         } else {
             if (gap == task->dt) {
                 memcpy(next, work->level[0], size);
+                memcpy(work->rate[2], work->rate[0], size);
             } else {
-                row->start(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
+                row->start(work, task->problem, task->dt, gap);
             }
             if (row->keeps_change) {
                 subtract(work->change, next, work->level[1], points);
@@ -122,13 +128,16 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
         }
         gm_grid1_close(next, points, jump);
         next = rotate(work->level);
+        rotate(work->rate);
         progress.done++;
     }
-    memcpy(task->out, work->level[1], size);
-    memcpy(task->out + points, work->level[0], size);
-    task->out[2 * points] = -task->dt;
+    gm_wave_write(task, work->level[1], work->level[0]);
     if (remembers) {
         memcpy(task->memory_out, work->change, size);
+    }
+    if (row->keeps_rates) {
+        memcpy(task->memory_out, work->rate[1], size);
+        memcpy(task->memory_out + points, work->rate[0], size);
     }
     return progress;
 }

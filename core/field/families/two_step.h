@@ -13,18 +13,19 @@ struct gm_two_step_work {
     double *force;                 /* points + 2, from [-1] */
     double *right, *guess, *cells; /* of implicit schemes */
     double *change;                /* from the past to the present level, of schemes that keep it */
+    double *rate[3];               /* of the levels, likewise */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
 
-/* One step of length dt: next from past and now, both with their end points; status GM_OK. */
+/* One step of length dt: the next level from the past and the present one, both with their end points; status GM_OK. */
 typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                   const double *past, const double *now, double *next,
                                    struct gm_progress *progress);
 
-/* The level at t + dt from the present one and another at t + gap, gap neither dt nor -dt. */
+/* The next level, at t + dt, from the present one and that of the past, which is at t + gap here, gap neither dt nor
+   -dt. */
 typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                               double gap, const double *now, const double *other, double *next);
+                               double gap);
 gm_two_step_start gm_wave_start;
 
 /* The longest step dt of a wave for which (w dt)^2 <= square, w^2 = stiffness/dx^2 + V'' wherever u is. */
@@ -41,6 +42,7 @@ struct gm_two_step_row {
     enum gm_wave_law law;
     bool average;      /* the force is the quotient of V, not V' at the present level */
     bool keeps_change; /* work->change is the scheme's memory */
+    bool keeps_rates; /* work->rate of the present and the past level is, and steps and starts set the next */
 };
 
 /* Advances a wave problem by a scheme of two steps. */

@@ -13,6 +13,7 @@
 #include "core/tape.h"
 
 struct own {
+    struct gm_user_line line; /* first */
     struct gm_field facets;
     struct gm_form form;
     const struct gm_user_form *source;
@@ -20,8 +21,7 @@ struct own {
     double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* what lines say of it; NAN: nothing */
     const char *names[GM_MOST_OF_FORM];
     struct gm_form_potential potentials[GM_MOST_OF_FORM];
-    struct gm_tape function, gradient, hessian, starts, exact;
-    bool has_exact;
+    struct gm_tape function, gradient, hessian;
 };
 
 static const struct own *own_of(const struct gm_problem *problem)
@@ -53,14 +53,9 @@ bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *syste
 {
     const size_t n = system->n;
     struct gm_sparse hessian = {0};
-    bool *marked = calloc(system->variable_count, sizeof *marked), told = true;
+    bool *marked = calloc(system->variable_count, sizeof *marked);
     *form = (struct gm_user_form){.system = system};
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; i < n; i++) {
-        form->starts[i] = system->variables[i].start;
-        form->exact[i] = system->variables[i].exact;
-        told &= form->exact[i] != GM_NO_NODE;
-    }
     for (size_t i = 0; marked && i < n; i++) {
         marked[i] = true;
     }
@@ -74,9 +69,7 @@ bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *syste
     }
     free(hessian.entries);
     free(marked);
-    form->exact[0] = told ? form->exact[0] : GM_NO_NODE;
-    return good && gm_system_place(system, form->starts, n) &&
-           (!told || gm_system_place(system, form->exact, n)) && !system->graph.failed;
+    return good && gm_line_derive(&form->formulas, system) && !system->graph.failed;
 }
 
 /* The potentials, and their jumps; false: out of memory. */
@@ -138,7 +131,6 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
     problem->parameters = self;
     problem->facets = &self->facets;
     self->source = form;
-    self->has_exact = form->exact[0] != GM_NO_NODE;
     self->form = (struct gm_form){.dimension = n,
                                   .m = self->k,
                                   .k = self->l,
@@ -154,8 +146,7 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
     bool good = all && gm_tape_open(&self->function, &system->graph, &system->energy, 1, n, values) &&
                 gm_tape_open(&self->gradient, &system->graph, system->rates, n, n, values) &&
                 gm_tape_open(&self->hessian, &system->graph, form->hessian, n * n, n, values) &&
-                gm_tape_open(&self->starts, &system->graph, form->starts, n, 1, values) &&
-                (!self->has_exact || gm_tape_open(&self->exact, &system->graph, form->exact, n, 2, values));
+                gm_user_line_open(&self->line, system, form->formulas.start, n, form->formulas.exact, values);
     self->gradient.sines = gm_sines; /* no other engine computes forms */
     if (good) {
         gm_formula_evaluate(&system->graph, system->graph.count, values, all);
@@ -177,8 +168,8 @@ void gm_user_form_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->function, &self->gradient, &self->hessian, &self->starts,
-                                         &self->exact};
+        struct gm_tape *const tapes[] = {&self->function, &self->gradient, &self->hessian};
+        gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
         }
@@ -194,13 +185,7 @@ void gm_user_form_start(const struct gm_problem *problem, double *y)
     const struct own *self = own_of(problem);
     const size_t n = self->form.dimension, points = problem->line.points;
     double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-    for (size_t i = 0; i < points; i++) {
-        const double x = gm_grid1_node(&problem->line, i);
-        gm_tape_values(&self->starts, &x, s, 1);
-        for (size_t c = 0; c < n; c++) {
-            y[c * points + i] = s[c];
-        }
-    }
+    gm_user_line_start(&self->line, &problem->line, y);
     /* Gauss's formula of three points in every cell */
     static const double weights[] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
     const double apart = sqrt(0.15);
@@ -212,7 +197,7 @@ void gm_user_form_start(const struct gm_problem *problem, double *y)
         for (size_t k = 0; k < GM_COUNT(weights); k++) {
             const double x =
                 gm_grid1_node(&problem->line, i) + problem->line.dx * (0.5 + apart * ((double)k - 1));
-            gm_tape_values(&self->starts, &x, s, 1);
+            gm_tape_values(&self->line.start, &x, s, 1);
             gradients(self, s, slope, 1);
             for (size_t p = 0; p < self->form.potential_count; p++) {
                 const struct gm_form_potential *potential = &self->potentials[p];
@@ -222,18 +207,6 @@ void gm_user_form_start(const struct gm_problem *problem, double *y)
             }
         }
     }
-}
-
-double gm_user_form_exact(const struct gm_problem *problem, size_t component, double x, double t)
-{
-    const struct own *self = own_of(problem);
-    const double at[] = {x, t};
-    double s[GM_MOST_OF_FORM];
-    if (!self->has_exact) {
-        return NAN;
-    }
-    gm_tape_values(&self->exact, at, s, 1);
-    return s[component];
 }
 
 bool gm_user_form_is_potential(const struct gm_problem *problem, size_t component)
@@ -250,38 +223,19 @@ bool gm_user_form_is_potential(const struct gm_problem *problem, size_t componen
 static bool component_closes(const struct gm_problem *problem, size_t c, char *sentence, size_t size)
 {
     const struct own *self = own_of(problem);
-    const struct gm_grid1 *grid = &problem->line;
-    const char *name = self->source->system->variables[c].name;
     const bool is_potential = gm_user_form_is_potential(problem, c);
-    double low = INFINITY, high = -INFINITY, s[GM_MOST_OF_FORM], other[GM_MOST_OF_FORM];
-    for (size_t i = 0; i < grid->points; i++) {
-        const double x = gm_grid1_node(grid, i);
-        gm_tape_values(&self->starts, &x, s, 1);
-        if (!isfinite(s[c])) {
-            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name, x);
-            return false;
-        }
-        low = fmin(low, s[c]);
-        high = fmax(high, s[c]);
+    struct gm_line_ends ends;
+    if (!gm_user_line_closes(&self->line, &problem->line, c, is_potential ? NAN : self->jump[c], &ends,
+                             sentence, size)) {
+        return false;
     }
-    const double end = -grid->first;
-    gm_tape_values(&self->starts, &grid->first, s, 1);
-    gm_tape_values(&self->starts, &end, other, 1);
-    const double least = 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high)));
-    if (is_potential && fabs(self->told[c] - self->jump[c]) > 1e-3 * fmax(fabs(self->jump[c]), high - low)) {
+    if (is_potential &&
+        fabs(self->told[c] - self->jump[c]) > 1e-3 * fmax(fabs(self->jump[c]), ends.high - ends.low)) {
         snprintf(
             sentence, size,
             "%.60s gains %.6g around the ring, which follows from the others at the start, and not %.6g as jump "
             "says",
-            name, self->jump[c], self->told[c]);
-        return false;
-    }
-    if (!is_potential && !(fabs(other[c] - s[c] - self->jump[c]) <= least)) {
-        snprintf(
-            sentence, size,
-            "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other (jump: "
-            "tells by how much they differ)",
-            name, s[c], other[c]);
+            self->names[c], self->jump[c], self->told[c]);
         return false;
     }
     return true;
@@ -313,7 +267,7 @@ bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_
     for (size_t i = 0; i < problem->line.points; i++) {
         double s[GM_MOST_OF_FORM], here[GM_MOST_OF_FORM], further[GM_MOST_OF_FORM];
         const double x = gm_grid1_node(&problem->line, i);
-        gm_tape_values(&self->starts, &x, s, 1);
+        gm_tape_values(&self->line.start, &x, s, 1);
         gradients(self, s, here, 1);
         for (size_t c = 0; c < n; c++) {
             s[c] += gm_user_form_is_potential(problem, c) ? 0 : self->jump[c];

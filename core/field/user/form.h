@@ -4,14 +4,13 @@
 #define GM_CORE_FIELD_USER_FORM_H
 
 #include "core/field/field.h"
-#include "core/model/system.h"
+#include "core/user/line.h"
 
 /* Its formulas, of its system's graph. */
 struct gm_user_form {
     const struct gm_user_system *system;
     gm_node_id hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
-    /* in x, which is variable 0 there, and t, variable 1; exact[0] GM_NO_NODE: none is told */
-    gm_node_id starts[GM_MOST_OF_FORM], exact[GM_MOST_OF_FORM];
+    struct gm_line_formulas formulas;
 };
 
 /* Derives them; false where memory was refused. The graph grows. */
@@ -32,8 +31,5 @@ bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_
 
 /* Whether a component follows from the others but for a constant (gm_form). */
 bool gm_user_form_is_potential(const struct gm_problem *problem, size_t component);
-
-/* A component of the exact solution as the file tells it; NaN where it does not. */
-double gm_user_form_exact(const struct gm_problem *problem, size_t component, double x, double t);
 
 #endif

@@ -17,12 +17,13 @@
 #include "core/field/problems/wave.h"
 #include "core/tape.h"
 
-enum { ROOM = 128 }; /* of numbers that a tape computes together */
+enum { ROOM = 128 }; /* of slopes that a tape computes together */
 
 struct own {
+    struct gm_user_line line; /* first */
     struct gm_field facets;
-    struct gm_tape potential, slope, curvature, start, exact;
-    bool has_exact, brief; /* brief: Gauss's formula on one piece is exact for V' */
+    struct gm_tape potential, slope, curvature;
+    bool brief; /* Gauss's formula on one piece is exact for V' */
 };
 
 static const struct own *own_of(const struct gm_problem *problem)
@@ -136,32 +137,49 @@ static const struct gm_wave formulas = {
     .quotient_slope = quotient_slope,
 };
 
-bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values)
+static bool jump_of(const struct gm_user_system *system, const gm_node_id *node, const double *values,
+                    double *jump)
+{
+    struct gm_tape tape;
+    const bool good = gm_tape_open(&tape, &system->graph, node, 1, 0, values);
+    if (good) {
+        gm_tape_values(&tape, NULL, jump, 1);
+    }
+    gm_tape_close(&tape);
+    return good;
+}
+
+bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
+                       const struct gm_grid1 *grid)
 {
     struct own *self = calloc(1, sizeof *self);
     const struct gm_user_system *system = wave->system;
-    *problem = (struct gm_problem){.name = "wave equation", .kind = &gm_kind_field, .m = 1};
+    const struct gm_system_item *jump = gm_system_item_of(system, GM_WORD_JUMP, 0);
+    *problem = (struct gm_problem){.name = "wave equation",
+                                   .kind = &gm_kind_field,
+                                   .m = 1,
+                                   .n = gm_wave_size(grid->points),
+                                   .line = *grid};
     if (!self) {
         return false;
     }
     self->facets = (struct gm_field){.form = &gm_form_of_waves, .wave = &formulas};
     problem->facets = &self->facets;
     problem->parameters = self;
-    self->has_exact = wave->exact != GM_NO_NODE;
     self->brief = wave->degree <= EXACT;
     return gm_tape_open(&self->potential, &system->graph, &system->energy, 1, 1, values) &&
            gm_tape_open(&self->slope, &system->graph, &wave->by_u[0], 1, 1, values) &&
            gm_tape_open(&self->curvature, &system->graph, &wave->by_u[1], 1, 1, values) &&
-           gm_tape_open(&self->start, &system->graph, wave->start, GM_TYPED_START, 1, values) &&
-           (!self->has_exact || gm_tape_open(&self->exact, &system->graph, &wave->exact, 1, 2, values));
+           gm_user_line_open(&self->line, system, wave->start, GM_TYPED_START, &wave->exact, values) &&
+           (!jump || jump_of(system, jump->nodes, values, &problem->line.jump));
 }
 
 void gm_user_wave_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->potential, &self->slope, &self->curvature, &self->start,
-                                         &self->exact};
+        struct gm_tape *const tapes[] = {&self->potential, &self->slope, &self->curvature};
+        gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
         }
@@ -182,96 +200,41 @@ static double taylor(const double *rates, size_t apart, double t)
     return u;
 }
 
-static double near_start(const struct own *self, double x, double t)
-{
-    double rates[GM_TYPED_START];
-    gm_tape_values(&self->start, &x, rates, 1);
-    return taylor(rates, 1, t);
-}
-
-/* What the tape tells of nodes from number `first` on, at most ROOM, [k * that many + i]: how many. */
-static size_t rates_of(const struct own *self, const struct gm_grid1 *grid, size_t first,
-                       double rates[GM_TYPED_START * ROOM])
-{
-    const size_t some = grid->points - first < ROOM ? grid->points - first : ROOM;
-    double x[ROOM];
-    for (size_t i = 0; i < some; i++) {
-        x[i] = gm_grid1_node(grid, first + i);
-    }
-    gm_tape_values(&self->start, x, rates, some);
-    return some;
-}
-
-double gm_user_wave_exact(const struct gm_problem *problem, double x, double t)
-{
-    const struct own *self = own_of(problem);
-    const double place[] = {x, t};
-    double u = NAN;
-    if (self->has_exact) {
-        gm_tape_values(&self->exact, place, &u, 1);
-    }
-    return u;
-}
-
 void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y)
 {
     const struct own *self = own_of(problem);
     const size_t points = problem->line.points;
-    double rates[GM_TYPED_START * ROOM];
+    double rates[GM_LINE_BLOCK];
     for (size_t first = 0, some; first < points; first += some) {
-        some = rates_of(self, &problem->line, first, rates);
+        some = gm_user_line_block(&self->line, &problem->line, first, rates);
         for (size_t i = 0; i < some; i++) {
             const double x = gm_grid1_node(&problem->line, first + i);
             y[first + i] = rates[i];
-            y[points + first + i] =
-                self->has_exact ? gm_user_wave_exact(problem, x, gap) : taylor(rates + i, some, gap);
+            y[points + first + i] = self->line.exact.outputs > 0 ? gm_user_line_exact(&self->line, 0, x, gap)
+                                                                 : taylor(rates + i, some, gap);
         }
     }
     y[2 * points] = gap;
 }
 
-bool gm_user_wave_closes(const struct gm_problem *problem, const char *name, char *sentence, size_t size)
+bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size)
 {
     const struct gm_grid1 *grid = &problem->line;
-    const struct own *self = own_of(problem);
-    double low = INFINITY, high = -INFINITY;
-    double rates[GM_TYPED_START * ROOM];
-    for (size_t i = 0, first = 0, some = 0; i < grid->points; i++) {
-        if (i == first + some) {
-            first = i;
-            some = rates_of(self, grid, first, rates);
-        }
-        for (size_t k = 0; k < GM_TYPED_START; k++) {
-            if (!isfinite(rates[k * some + i - first])) {
-                static const char *const which[] = {"", "_t", "_tt", "_ttt", "_tttt"};
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, which[k],
-                         gm_grid1_node(grid, i));
-                return false;
-            }
-        }
-        low = fmin(low, rates[i - first]);
-        high = fmax(high, rates[i - first]);
-    }
-    const double left = near_start(self, grid->first, 0), right = near_start(self, -grid->first, 0);
+    struct gm_line_ends ends;
     if (grid->walls && grid->jump != 0) {
         snprintf(sentence, size, "a field between walls has no jump");
         return false;
     }
-    if (!grid->walls &&
-        !(fabs(right - left - grid->jump) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
-        snprintf(sentence, size,
-                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other "
-                 "(jump: tells by how much they differ)",
-                 name, left, right);
+    if (!gm_user_line_closes(problem->parameters, grid, 0, grid->jump, &ends, sentence, size)) {
         return false;
     }
     for (int i = 0; i <= 8 && grid->jump != 0; i++) {
-        const double u = low + (high - low) * i / 8, force = slope(problem, u),
+        const double u = ends.low + (ends.high - ends.low) * i / 8, force = slope(problem, u),
                      further = slope(problem, u + grid->jump);
         if (!(fabs(further - force) <= 1e-9 * fmax(1, fabs(force)))) {
             snprintf(sentence, size,
                      "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
-                     force, name, u, further, grid->jump);
+                     force, own_of(problem)->line.system->variables[0].name, u, further, grid->jump);
             return false;
         }
     }

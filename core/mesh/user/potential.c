@@ -13,20 +13,24 @@
 
 #include "core/basics.h"
 #include "core/memory.h"
-#include "core/tape.h"
+#include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
 
 struct own {
-    struct gm_potential functions; /* first: a potential is found to be this */
+    struct gm_user_line line; /* first; starts are u, u_t, u_x */
+    struct gm_potential functions;
     struct gm_mesh mesh;
     double alpha;
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
     struct gm_tape means /* V, V' */, bend /* V'' */, forces /* V', V'', V''' */;
-    struct gm_tape start /* u, u_t, u_x */, exact;
-    bool has_exact;
 };
+
+static const struct own *own_of(const struct gm_potential *potential)
+{
+    return (const struct own *)((const char *)potential - offsetof(struct own, functions));
+}
 
 size_t gm_user_mesh_order(const struct gm_user_wave *wave)
 {
@@ -50,7 +54,7 @@ static bool set_rule(void *data)
 static void first(const struct gm_potential *potential, const double *middle, const double *rise, size_t n,
                   double *w, double *w_m, double *w_r)
 {
-    const struct own *self = (const struct own *)potential;
+    const struct own *self = own_of(potential);
     const size_t nodes = self->nodes, most = ROOM / nodes;
     double at[ROOM], values[2 * ROOM];
     for (size_t from = 0; from < n; from += most) {
@@ -79,7 +83,7 @@ static void first(const struct gm_potential *potential, const double *middle, co
 static void second(const struct gm_potential *potential, double middle, double rise, double *w_mm,
                    double *w_mr, double *w_rr)
 {
-    const struct own *self = (const struct own *)potential;
+    const struct own *self = own_of(potential);
     double at[MOST_NODES], values[MOST_NODES];
     for (size_t k = 0; k < self->nodes; k++) {
         at[k] = middle + self->place[k] * (rise / 2);
@@ -96,7 +100,7 @@ static void second(const struct gm_potential *potential, double middle, double r
 
 static void force(const struct gm_potential *potential, double phi, double force[3])
 {
-    gm_tape_values(&((const struct own *)potential)->forces, &phi, force, 1);
+    gm_tape_values(&own_of(potential)->forces, &phi, force, 1);
 }
 
 static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
@@ -107,7 +111,7 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 static void start(const void *parameters, double x, double *value, double *slope, double *rate)
 {
     double of[3];
-    gm_tape_values(&((const struct own *)parameters)->start, &x, of, 1);
+    gm_tape_values(&((const struct own *)parameters)->line.start, &x, of, 1);
     *value = of[0];
     *rate = of[1];
     *slope = of[2];
@@ -115,13 +119,7 @@ static void start(const void *parameters, double x, double *value, double *slope
 
 static double exact(const void *parameters, double x, double t)
 {
-    const struct own *self = parameters;
-    const double place[] = {x, t};
-    double u = NAN;
-    if (self->has_exact) {
-        gm_tape_values(&self->exact, place, &u, 1);
-    }
-    return u;
+    return gm_user_line_exact(parameters, 0, x, t);
 }
 
 static const struct gm_moving_mesh facets = {.describe = describe, .start = start, .exact = exact};
@@ -170,14 +168,12 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                                   .first = -chosen->half_length,
                                   .length = 2 * chosen->half_length,
                                   .potential = &self->functions};
-    self->has_exact = wave->exact != GM_NO_NODE;
     self->nodes = gm_user_mesh_order(wave);
     if (!gm_memory_guard_gsl(set_rule, self) ||
         !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
         !gm_tape_open(&self->forces, graph, wave->by_u, GM_COUNT(wave->by_u), 1, values) ||
-        !gm_tape_open(&self->start, graph, begin, GM_COUNT(begin), 1, values) ||
-        (self->has_exact && !gm_tape_open(&self->exact, graph, &wave->exact, 1, 2, values))) {
+        !gm_user_line_open(&self->line, wave->system, begin, GM_COUNT(begin), &wave->exact, values)) {
         return false;
     }
     double slope, rate;
@@ -196,8 +192,8 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->forces, &self->start,
-                                         &self->exact};
+        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->forces};
+        gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
         }
@@ -206,9 +202,11 @@ void gm_user_mesh_close(struct gm_problem *problem)
     problem->parameters = NULL;
 }
 
-bool gm_user_mesh_rests(const struct gm_problem *problem, const char *name, char *sentence, size_t size)
+bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size)
 {
-    const struct gm_mesh *mesh = &((const struct own *)problem->parameters)->mesh;
+    const struct own *self = problem->parameters;
+    const struct gm_mesh *mesh = &self->mesh;
+    const char *name = self->line.system->variables[0].name;
     double largest = 0, ends[2] = {0};
     for (int i = 0; i <= SAMPLES; i++) {
         const double x = mesh->first + mesh->length * i / SAMPLES;

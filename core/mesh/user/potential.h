@@ -27,6 +27,6 @@ void gm_user_mesh_close(struct gm_problem *problem);
 double gm_user_mesh_alpha(const struct gm_problem *problem);
 
 /* Whether the start is finite, and rests at both ends but for a thousandth of its largest rate. A sentence if not. */
-bool gm_user_mesh_rests(const struct gm_problem *problem, const char *name, char *sentence, size_t size);
+bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif

@@ -273,7 +273,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         {GM_SYMPLECTIC, hamiltonian && differentiable, hamiltonian ? no_derivative : no_energy},
         {GM_CONFORMAL, damped && differentiable, damped ? no_derivative : "the system has no friction -c p"},
         {GM_POISSON_MAP, poisson && differentiable, poisson ? no_derivative : no_bracket},
-        {GM_KEEPS_VOLUME, ode->volume && n == 3 && differentiable,
+        {GM_KEEPS_VOLUME, ode->volume && subject->volume && n == 3 && differentiable,
          "the system is not of three components without divergence"},
         {GM_KEEPS_ENERGY, hamiltonian || poisson, no_energy},
         {GM_KEEPS_CONSTRAINTS, held, no_constraints},
@@ -318,6 +318,14 @@ static void doubt(struct gm_certificate *certificate)
     }
 }
 
+static void note_same(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const struct gm_settings settings = gm_subject_settings(subject->dt);
+    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
+                                   GM_SAME_STEPS};
+    gm_certificate_note_same(certificate, &trial, subject->start);
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -325,6 +333,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                                  .start = system->start,
                                  .dt = system->dt,
                                  .unit = 16 * fabs(system->dt),
+                                 .volume = true,
                                  .kept = system->kept,
                                  .kept_count = system->kept_count};
     for (size_t c = 0; c < subject.problem.n; c++) {
@@ -332,6 +341,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
     measure(certificate, &subject);
+    note_same(certificate, &subject);
     /* an order is of short steps, and dt need not be one: that of a map is all of it */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
@@ -355,10 +365,12 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     for (size_t i = 0; i < gm_subject_count(); i++) {
-        const struct gm_subject subject = gm_subject_at(i);
-        if (gm_subject_fits(&subject, scheme)) {
+        struct gm_subject subject;
+        if (gm_subject_open(&subject, i, scheme)) {
             measure(certificate, &subject);
+            note_same(certificate, &subject);
         }
+        gm_subject_close(&subject);
     }
     /* a scheme that chooses its order has to follow its tolerance */
     certificate->order_holds = scheme->order == 0
@@ -373,6 +385,37 @@ static const struct gm_family *const families[] = {
     NULL,
 };
 
+static bool is_linear(const struct gm_problem *problem)
+{
+    return gm_ode_of(problem)->linear;
+}
+
+/* H = T(p) + V(q), T quadratic, without a force or a constraint */
+static bool is_natural(const struct gm_problem *problem)
+{
+    return (~facets(problem) & (GM_NEEDS_NYSTROM | GM_NEEDS_ENERGY | GM_NEEDS_ACTION)) == 0;
+}
+
+/* H = T(p) + V(q), without a force or a constraint: the flows of all q commute, and so do those of all p */
+static bool is_separable(const struct gm_problem *problem)
+{
+    return (~facets(problem) & (GM_NEEDS_SPLIT | GM_NEEDS_ENERGY)) == 0;
+}
+
+static const struct gm_same same[] = {
+    {"variational-midpoint2", "midpoint", is_natural},
+    {"variational-trapezoidal2", "verlet", is_natural},
+    {"variational-simpson4", "lobatto4", is_natural},
+    {"trapezoidal", "midpoint", is_linear},
+    {"avf2", "midpoint", is_linear},
+    {"discrete-gradient2", "midpoint", is_linear},
+    {"kahan2", "midpoint", is_linear},
+    {"avf4", "rk4sym", is_linear},
+    {"volume-splitting1", "symplectic-euler-adjoint", is_separable},
+    {"volume-splitting2", "verlet-position", is_separable},
+    {0},
+};
+
 const struct gm_kind gm_kind_ode = {
     .name = "ode",
     .problems = "ordinary differential equations",
@@ -385,5 +428,6 @@ const struct gm_kind gm_kind_ode = {
     .certify_on = certify_on,
     .most_certified = GM_SUBJECT_COMPONENTS,
     .families = families,
+    .same = same,
     .quantities = gm_ode_quantities,
 };

@@ -3,6 +3,7 @@
 #define GM_CORE_ODE_CERTIFY_MEASURE_H
 
 #include "core/certify.h"
+#include "core/ode/user/model.h"
 
 /* What kind.c certifies by: the problems that schemes are certified on, and the measurements. */
 
@@ -12,17 +13,22 @@ enum { GM_SUBJECT_COMPONENTS = 4096, GM_SUBJECT_TANGENTS = 64, GM_SUBJECT_INVARI
 struct gm_subject {
     struct gm_problem problem; /* m = 1 */
     const double *start;
-    double dt;     /* of one step; large enough that RK4 shows a symplecticity defect above 1e-6 */
-    double unit;   /* of the times at which the order is measured */
-    double scale;  /* of the components */
-    unsigned only; /* facets: not for schemes that need none of them; 0: for all */
+    double dt;    /* of one step; large enough that RK4 shows a symplecticity defect above 1e-6 */
+    double unit;  /* of the times at which the order is measured */
+    double scale; /* of the components */
+    bool
+        volume; /* of a system without divergence; beside an energy it tells of no scheme that conserves it */
     const struct gm_kept *kept; /* beside the energy; a name that is NULL is the problem's */
     size_t kept_count;
+    struct gm_user_system system; /* that the problem is of, where it is one that was read */
+    struct gm_user_model model;
 };
 
 size_t gm_subject_count(void);
-struct gm_subject gm_subject_at(size_t index);
-bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme);
+/* Whether the scheme is measured on it; false also where memory is short. It does not move while it is open, and is to be
+   closed in all cases. */
+bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_scheme *scheme);
+void gm_subject_close(struct gm_subject *subject);
 
 /* The components that a scheme maps: the state, or with a second copy of phase space both. */
 size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme);

@@ -2,13 +2,17 @@
 /* The certification problems: non-linear, not chaotic over the times that are used, each with structure of
    its own. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "core/basics.h"
+#include "core/files/files.h"
+#include "core/model/equations.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/problem.h"
 
-static const double well = 0.3, no_well = 0, friction = 0.4, perturbation = 0.05, omega = 5, strength = 2;
-static const double abc_constants[] = {1, 0.8, 0.6};
+static const double strength = 2;
 static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
 
 /* Quantities that a motion conserves, as sums of factor y_first y_second, or factor y_first alone; a factor 0 ends one. */
@@ -47,96 +51,139 @@ static const struct term ring_square[] = {{1, 0, 0},   {1, 1, 1},   {1, 2, 2}, {
                                           {1, 5, 5},   {1, 6, 6},   {1, 7, 7}, {1, 8, 8}, {1, 9, 9},
                                           {1, 10, 10}, {1, 11, 11}, {0, 0, 0}};
 
+#define FPU_START                                                                                            \
+    {                                                                                                        \
+        0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2                                    \
+    }
 #define KEPT(terms)                                                                                          \
     {                                                                                                        \
         .value = sum_of_terms, .data = terms                                                                 \
     }
 
-static const struct {
+/* The problem is one in C with these parameters, or that of a built-in file: one of share/subjects, or a system. */
+static const struct row {
     const struct gm_problem *problem;
     const void *parameters;
+    const char *file;
+    struct gm_system_value value; /* of a parameter of the file, where it is not that of the file */
     double dt;
     unsigned only; /* facets: not for schemes that need none of them; 0: for all */
     double start[12];
     struct gm_kept kept[GM_SUBJECT_INVARIANTS];
-} subjects[] = {
-    {&gm_problem_pendulum, NULL, 0.6, 0, {0.6, 1.1}, {{0}}},
-    {&gm_problem_particles, &well, 0.6, 0, {0.5, -0.4, 0.3, 0.8}, {{0}}},
-    {&gm_problem_particles, &no_well, 0.6, 0, {0.7, -0.2, 0.4, -0.9}, {KEPT(momentum)}},
-    {&gm_problem_kepler, NULL, 0.3, 0, {0.8, 0.1, -0.2, 1.2}, {KEPT(angular_momentum)}},
+    const char *name; /* where it is not that of the file */
+} rows[] = {
+    {.file = "pendulum", .dt = 0.6, .start = {0.6, 1.1}},
+    {.file = "particles", .dt = 0.6, .start = {0.5, -0.4, 0.3, 0.8}},
+    {.file = "particles",
+     .value = {"a", "0"},
+     .dt = 0.6,
+     .start = {0.7, -0.2, 0.4, -0.9},
+     .kept = {KEPT(momentum)}},
+    {.file = "kepler", .dt = 0.3, .start = {0.8, 0.1, -0.2, 1.2}, .kept = {KEPT(angular_momentum)}},
     /* not of the form q' A p, as angular momentum is, which more schemes conserve */
-    {&gm_problem_oscillator, NULL, 0.1, GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN, {0.8, -0.5}, {KEPT(circle)}},
-    {&gm_problem_damped_pendulum, &friction, 0.6, GM_NEEDS_FRICTION, {0.6, 1.1}, {{0}}},
-    {&gm_problem_spherical_pendulum,
-     NULL,
-     0.3,
-     GM_NEEDS_CONSTRAINTS,
-     {0.6, 0, -0.8, 0.4, 0.7, 0.3},
-     {KEPT(vertical_momentum)}},
-    {&gm_problem_henon_heiles, NULL, 0.6, 0, {0.1, -0.1, 0.3, 0.2}, {{0}}},
-    {&gm_problem_product, NULL, 0.3, 0, {0.5, -0.6}, {{0}}},
-    {&gm_problem_fish_eye, NULL, 0.3, GM_NEEDS_INSEPARABLE, {0.8, 0.1, -0.2, 0.7}, {KEPT(angular_momentum)}},
-    {&gm_problem_vortices_four,
-     &strength,
-     0.6,
-     0,
-     {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
-     {KEPT(impulse_x), KEPT(impulse_y), KEPT(angular_impulse)}},
-    {&gm_problem_rigid_body, NULL, 0.6, 0, {0.9, 0.5, -0.7}, {KEPT(sphere), KEPT(ellipsoid)}},
-    {&gm_problem_abc, abc_constants, 0.6, 0, {0.5, 1.1, -0.4}, {{0}}},
-    {&gm_problem_linear, trace_free, 0.6, GM_NEEDS_VOLUME, {0.5, 1.1, -0.4}, {{0}}},
-    {&gm_problem_kepler_perturbed,
-     &perturbation,
-     0.3,
-     GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
-     {0.8, 0.1, -0.2, 1.2},
-     {KEPT(angular_momentum)}},
-    {&gm_problem_ring,
-     NULL,
-     0.3,
-     GM_NEEDS_SEMILINEAR,
-     {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
-     {KEPT(ring_sum), KEPT(ring_square)}},
-    {&gm_problem_fpu,
-     &omega,
-     0.3,
-     GM_NEEDS_FAST_LINEAR,
-     {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-     {{0}}},
+    {.file = "oscillator",
+     .dt = 0.1,
+     .only = GM_NEEDS_SPLIT | GM_NEEDS_HAMILTONIAN,
+     .start = {0.8, -0.5},
+     .kept = {KEPT(circle)}},
+    {.file = "damped-pendulum",
+     .dt = 0.6,
+     .only = GM_NEEDS_FRICTION,
+     .start = {0.6, 1.1},
+     .name = "damped pendulum"},
+    {.file = "bowl",
+     .dt = 0.3,
+     .only = GM_NEEDS_CONSTRAINTS,
+     .start = {1, 0, 0.25, 0.4, 0.7, 0.4},
+     .kept = {KEPT(vertical_momentum)}},
+    {.file = "henon-heiles", .dt = 0.6, .start = {0.1, -0.1, 0.3, 0.2}},
+    {.file = "product", .dt = 0.3, .start = {0.5, -0.6}},
+    {.file = "fish-eye",
+     .dt = 0.3,
+     .only = GM_NEEDS_INSEPARABLE,
+     .start = {0.8, 0.1, -0.2, 0.7},
+     .kept = {KEPT(angular_momentum)}},
+    {&gm_problem_vortices_four, &strength, .dt = 0.6, .start = {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
+     .kept = {KEPT(impulse_x), KEPT(impulse_y), KEPT(angular_impulse)}},
+    {.file = "rigid-body", .dt = 0.6, .start = {0.9, 0.5, -0.7}, .kept = {KEPT(sphere), KEPT(ellipsoid)}},
+    {.file = "abc", .dt = 0.6, .start = {0.5, 1.1, -0.4}},
+    {&gm_problem_linear, trace_free, .dt = 0.6, .only = GM_NEEDS_VOLUME, .start = {0.5, 1.1, -0.4}},
+    {.file = "kepler",
+     .value = {"perturbation", "0.05"},
+     .dt = 0.3,
+     .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
+     .start = {0.8, 0.1, -0.2, 1.2},
+     .kept = {KEPT(angular_momentum)},
+     .name = "kepler-perturbed"},
+    {&gm_problem_ring, .dt = 0.3, .only = GM_NEEDS_SEMILINEAR,
+     .start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
+     .kept = {KEPT(ring_sum), KEPT(ring_square)}},
+    {.file = "fpu", .dt = 0.3, .only = GM_NEEDS_FAST_LINEAR, .start = FPU_START},
     /* (h Omega)^2 = 0.09, with which two copies of phase space bear the binding that they are given here */
-    {&gm_problem_fpu,
-     &omega,
-     0.06,
-     GM_NEEDS_HAMILTONIAN,
-     {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
-     {{0}}},
+    {.file = "fpu", .dt = 0.06, .only = GM_NEEDS_HAMILTONIAN, .start = FPU_START},
 };
 
 size_t gm_subject_count(void)
 {
-    return GM_COUNT(subjects);
+    return GM_COUNT(rows);
 }
 
-struct gm_subject gm_subject_at(size_t index)
+/* The problem of a row that is read; false: out of memory. */
+static bool read_problem(struct gm_subject *subject, const struct row *row)
 {
-    struct gm_subject subject = {.problem = *subjects[index].problem,
-                                 .start = subjects[index].start,
-                                 .dt = subjects[index].dt,
-                                 .unit = 1,
-                                 .scale = 1,
-                                 .only = subjects[index].only,
-                                 .kept = subjects[index].kept};
-    subject.problem.parameters = subjects[index].parameters;
-    while (subject.kept_count < GM_SUBJECT_INVARIANTS && subject.kept[subject.kept_count].value) {
-        subject.kept_count++;
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, row->file);
+    file = file ? file : gm_built_in_find(GM_FILE_SYSTEM, row->file);
+    struct gm_fault fault;
+    double *values = NULL;
+    const bool good = gm_equations_open(&subject->system, file->text, file->length, &row->value,
+                                        row->value.name != NULL, &fault) &&
+                      gm_user_model_open(&subject->model, &subject->system) &&
+                      (values = gm_equations_start(&subject->system, NULL)) != NULL;
+    if (good) {
+        memcpy(values, row->start, subject->system.n * sizeof *values);
     }
-    return subject;
+    const bool opened = good && gm_user_problem_open(&subject->problem, &subject->model, values);
+    subject->problem.name = row->name ? row->name : row->file;
+    free(values);
+    return opened;
 }
 
-bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme)
+bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_scheme *scheme)
 {
-    const bool meant = subject->only == 0 || (scheme->needs & subject->only) != 0;
-    return meant && gm_scheme_fits(scheme, &subject->problem);
+    const struct row *row = &rows[index];
+    *subject =
+        (struct gm_subject){.start = row->start, .dt = row->dt, .unit = 1, .scale = 1, .kept = row->kept};
+    while (subject->kept_count < GM_SUBJECT_INVARIANTS && row->kept[subject->kept_count].value) {
+        subject->kept_count++;
+    }
+    if (row->only != 0 && (scheme->needs & row->only) == 0) {
+        return false;
+    }
+    if (row->problem) {
+        subject->problem = *row->problem;
+        subject->problem.parameters = row->parameters;
+    } else if (!read_problem(subject, row)) {
+        return false;
+    }
+    const struct gm_ode *ode = gm_ode_of(&subject->problem);
+    subject->volume = !ode->hamiltonian && !ode->poisson;
+    if (!gm_scheme_fits(scheme, &subject->problem) ||
+        (!subject->volume && (scheme->needs & GM_NEEDS_VOLUME) != 0)) {
+        return false;
+    }
+    if (!row->problem) {
+        gm_user_problem_take_compiled(&subject->problem, scheme->family->over_kernels);
+    }
+    return true;
+}
+
+void gm_subject_close(struct gm_subject *subject)
+{
+    if (subject->model.system) {
+        gm_user_problem_close(&subject->problem);
+    }
+    gm_user_model_close(&subject->model);
+    gm_system_close(&subject->system);
 }
 
 size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme)

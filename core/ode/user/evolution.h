@@ -6,8 +6,8 @@
 #ifndef GM_CORE_ODE_USER_EVOLUTION_H
 #define GM_CORE_ODE_USER_EVOLUTION_H
 
-#include "core/model/system.h"
 #include "core/ode/ode.h"
+#include "core/user/line.h"
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 
@@ -18,14 +18,15 @@ struct gm_user_evolution {
     gm_node_id rates[GM_MOST_FIELDS]; /* R = line + rest, */
     gm_node_id lines[GM_MOST_FIELDS]; /* the first linear with constant coefficients */
     gm_node_id rests[GM_MOST_FIELDS];
-    gm_node_id linear[GM_MOST_FIELDS];                        /* the lines, in the system's own variables */
-    gm_node_id masses[GM_MOST_FIELDS];                        /* M u */
-    gm_node_id starts[GM_MOST_FIELDS], exact[GM_MOST_FIELDS]; /* exact[0] GM_NO_NODE: none is told */
+    gm_node_id linear[GM_MOST_FIELDS]; /* the lines, in the system's own variables */
+    gm_node_id masses[GM_MOST_FIELDS]; /* M u */
+    struct gm_line_formulas formulas;
     gm_node_id *densities; /* of the items that are invariants or observed, in their order */
     size_t density_count;
     gm_node_id
         kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
     size_t kinked; /* in which */
+    struct gm_arena *arena;
 };
 
 /* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */
@@ -45,9 +46,6 @@ bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, 
 
 /* The state at t = 0. */
 void gm_user_evolution_start(const struct gm_problem *problem, double *y);
-
-/* The exact solution of a field as the file tells it; NaN where it does not. */
-double gm_user_evolution_exact(const struct gm_problem *problem, size_t field, double x, double t);
 
 /* The integral of a density, or of its magnitude. */
 double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,

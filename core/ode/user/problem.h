@@ -24,6 +24,8 @@ void **gm_user_problem_note(const struct gm_problem *problem);
 /* From the next step on it is advanced by these loops, as far as they go, which outlive it; NULL: by the
    interpreter again, which a run can that was opened while it was. The numbers stay the same. */
 void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops);
+/* Takes the loops that the build compiled of these formulas, if there are such (`over` as above). */
+void gm_user_problem_take_compiled(struct gm_problem *problem, int over);
 /* Those that advance it; NULL: the interpreter. */
 const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem);
 

@@ -121,7 +121,7 @@ static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, con
 {
     const struct gm_system_scene *system_scene = lane->owner;
     size_t count = 0;
-    for (size_t row = system_scene->first_start; row < system_scene->row_count; row++) {
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count; row++) {
         const size_t c = system_scene->variables[row];
         if (c >= aim->places || fabs(aim->variables[c] - start[c]) <= 1e-9 * fmax(1, fabs(start[c]))) {
             continue;
@@ -160,9 +160,7 @@ size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, dou
     aim.before = aim.step + aim.places;
     memcpy(aim.variables, start, system->n * sizeof *start);
     memcpy(aim.variables + system->initial, start, system->n * sizeof *start);
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
-        aim.variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
+    gm_system_put_parameters(lane, aim.variables);
     look(&aim);
     size_t count = 0;
     if (choose_body(&aim)) {

@@ -145,14 +145,14 @@ static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 }
 
 /* What one lane has shown up to now. */
-static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
+static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight,
+                                 const struct gm_paths *paths, double *numbers)
 {
     struct gm_seen range = nothing;
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
     const size_t dimensions = sight->dimensions;
-    hold(&range, past->values, past->count * past->width / dimensions, dimensions);
-    hold(&range, trail->values, trail->count * trail->width / dimensions, dimensions);
+    hold(&range, paths->past.points, paths->past.count * sight->bodies, dimensions);
+    hold(&range, paths->trail.points, paths->trail.count * sight->bodies, dimensions);
     if (is_disc(lane, sight)) {
         const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
         hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
@@ -164,6 +164,9 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sig
     }
     if (dimensions == 2) {
         gm_system_hold_levels(lane, sight, &range);
+    }
+    if (sight->over_time) {
+        range.low[0] = range.high[0] = 0; /* whose axis is that of all times */
     }
     return range;
 }
@@ -181,7 +184,8 @@ static void hold_range(struct gm_seen *range, const struct gm_seen *other)
 static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 {
     const struct gm_system_lane *one = own_of(a), *other = own_of(b);
-    return one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
+    return one->owner == other->owner && one->members == other->members && one->spread == other->spread &&
+           one->shape == other->shape &&
            memcmp(one->values, other->values,
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
@@ -195,7 +199,8 @@ static void find_left(const struct gm_lane *const *lanes, size_t count, struct g
     for (size_t i = 0; i < count; i++) {
         double least = extent(&ranges[i]);
         for (size_t k = 0; k < count; k++) {
-            const bool seen = ranges[k].high[0] >= ranges[k].low[0];
+            const bool ended = lanes[k]->run->status != GM_OK && i != k; /* and has shown less */
+            const bool seen = ranges[k].high[0] >= ranges[k].low[0] && !ended;
             least = seen && is_same(lanes[k], lanes[i]) ? fmin(least, extent(&ranges[k])) : least;
         }
         ranges[i].left = extent(&ranges[i]) > fmax(farthest * least, 1e-9);
@@ -225,8 +230,10 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
 {
     struct gm_seen *seen = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
+    bool alike = true;
     find_left(lanes, count, ranges);
     for (size_t i = 0; i < count; i++) {
+        alike = alike && own_of(lanes[i])->owner == own_of(lanes[0])->owner;
         seen[i] = range_like(lanes, count, i, ranges);
         if (!seen[i].left) {
             hold_range(&all, &seen[i]);
@@ -239,7 +246,7 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
         for (size_t k = 0; k < count; k++) {
             left = left && (seen[k].left || lanes[k]->shown.panel != lanes[i]->shown.panel);
         }
-        ranges[i] = left || most > largest_ratio * least ? nothing : all;
+        ranges[i] = left || !alike || most > largest_ratio * least ? nothing : all;
         ranges[i].left = left;
         for (size_t k = 0; k < count; k++) {
             if (lanes[k]->shown.panel == lanes[i]->shown.panel && seen[k].left == left) {
@@ -281,14 +288,13 @@ static void wrap(const struct gm_sight *sight, double *point)
 
 /* The path of a body, from entry `first` on, and where it is now; broken where an angle starts anew. Returns
    how many points, of room for twice the entries and two. */
-static size_t path_of(const struct gm_lane *lane, size_t track, const struct gm_sight *sight, size_t body,
-                      size_t first, const double *now, double *points)
+static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, size_t body, size_t first,
+                      const double *now, double *points)
 {
-    const struct gm_entries *entries = &lane->entries[track];
     size_t count = 0;
-    for (size_t i = first; i <= entries->count; i++) {
+    for (size_t i = first; i <= path->count; i++) {
         double point[2];
-        memcpy(point, i < entries->count ? entries->values + i * entries->width + 2 * body : now + 2 * body,
+        memcpy(point, i < path->count ? path->points + i * path->width + 2 * body : now + 2 * body,
                sizeof point);
         wrap(sight, point);
         for (size_t k = 0; k < 2 && count > 0; k++) {
@@ -318,22 +324,53 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     return chords == 0 || sum < longest_chord * (double)chords;
 }
 
-static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_sight *sight, size_t body, const double *now, double *points)
+/* Leaves the means of groups of points where there are many, which is what slow motion is of a swing that is fast. */
+static size_t average(double *points, size_t count)
 {
-    const struct gm_entries *trail = &lane->entries[GM_TRACK_TRAIL];
+    enum { SHOWN = 128 };
+    const size_t group = (count + SHOWN - 1) / SHOWN;
+    size_t made = 0;
+    for (size_t i = 0; i < count; i += group, made++) {
+        const size_t end = i + group < count ? i + group : count;
+        double sum[2] = {0, 0};
+        for (size_t k = 2 * i; k < 2 * end; k++) {
+            sum[k % 2] += points[k] / (double)(end - i);
+        }
+        memcpy(points + 2 * made, sum, sizeof sum);
+    }
+    return made;
+}
+
+static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                      const struct gm_paths *paths, size_t body, const double *now)
+{
+    const struct gm_sight *sight = gm_system_sight(lane->parameters);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const size_t count = path_of(lane, GM_TRACK_PAST, sight, body, 0, now, points);
+    const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
+    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    size_t count = path_of(&paths->past, sight, body, 0, now, points);
+    if (sight->over_time) { /* with the steps, where they are apart; of several values the last one in full */
+        const bool last = body + 1 == sight->bodies;
+        const struct gm_style style = {role, 0.9, 1.6, last ? GM_SOLID : gm_lane_dash(body)};
+        count = last ? count : average(points, count);
+        gm_mark_line(picture, panel, style, points, count, false);
+        gm_mark_switches(picture, panel, lane, false);
+        gm_mark_points(picture, panel, (struct gm_style){role, 1, 3.4, GM_SOLID}, points,
+                       last && count < 1500 ? count : 0);
+        return;
+    }
     if (is_curve(panel, points, count)) {
         gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
-        const size_t end =
-            path_of(lane, GM_TRACK_PAST, sight, body, gm_system_bright_from(lane), now, points);
+        const size_t end = path_of(&paths->past, sight, body, gm_system_bright_from(lane), now, points);
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
         return;
     }
     gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.25, .width = 1.6}, points,
                    count);
-    const size_t recent = path_of(lane, GM_TRACK_TRAIL, sight, body, trail->count / 2, now, points);
+    const size_t recent = path_of(&paths->trail, sight, body, paths->trail.count / 2, now, points);
     if (is_curve(panel, points, recent)) {
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2, GM_SOLID}, points, recent);
     }
@@ -392,19 +429,14 @@ static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const 
 }
 
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_sight *sight, double *numbers)
+                      const struct gm_paths *paths, double *numbers)
 {
+    const struct gm_sight *sight = gm_system_sight(lane->parameters);
     const struct gm_view view = gm_lane_view(lane);
     struct gm_view before = view;
     before.state = view.start;
     before.t = view.t0;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
-    const size_t most = past->count > trail->count ? past->count : trail->count;
-    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
-    if (!points) {
-        return;
-    }
     if (is_disc(lane, sight)) {
         draw_disc(picture, panel, lane);
         return;
@@ -416,22 +448,22 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     for (size_t body = 0; body < sight->bodies; body++) {
         wrap(sight, numbers + 2 * body);
         gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
-                       numbers + 2 * body, sight->fixed[body] ? 0 : 1);
+                       numbers + 2 * body, sight->fixed[body] || sight->over_time ? 0 : 1);
     }
     gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         if (!sight->fixed[body]) {
-            draw_body(picture, panel, lane, sight, body, numbers, points);
+            draw_body(picture, panel, lane, paths, body, numbers);
         }
     }
     for (size_t rod = 0; rod < sight->rods; rod++) {
         gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.8, 3, GM_SOLID},
                      numbers + 2 * sight->bodies + 4 * rod, 2, false);
     }
+    const double width = sight->over_time ? 5 : sight->rods > 0 ? 13 : 10;
     for (int fixed = 1; fixed >= 0; fixed--) { /* what moves stands in front */
         for (size_t body = 0; body < sight->bodies; body++) {
-            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, sight->rods > 0 ? 13 : 10,
-                                           GM_SOLID};
+            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, width, GM_SOLID};
             wrap(sight, numbers + 2 * body);
             gm_mark_points(picture, panel, style, numbers + 2 * body,
                            sight->fixed[body] == (fixed == 1) ? 1 : 0);
@@ -443,14 +475,17 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
 static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
 {
     const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
-    return strcmp(sight->name, "view") == 0 ||
+    return (strcmp(sight->name, "view") == 0 && !sight->over_time) ||
            (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5);
 }
 
-static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_sight *sight,
-                      const struct gm_seen *range)
+static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_walk *walk,
+                      const struct gm_sight *sight, const struct gm_seen *range)
 {
     set_axis(picture, &panel->x, sight->labels[0], sight->angles[0], range->low[0], range->high[0]);
+    if (sight->over_time) {
+        gm_time_axis(&panel->x, walk->lanes, walk->count);
+    }
     set_axis(picture, &panel->y, sight->labels[1], sight->angles[1], range->low[1], range->high[1]);
     panel->axes = sight->labels[0] != NULL;
     panel->equal = is_equal(sight, panel);
@@ -490,25 +525,35 @@ static const char *value_now(struct gm_picture *picture, const struct gm_lane *l
 
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_sight *sight = gm_system_sight(lanes[0]->parameters);
-    double *numbers = gm_picture_memory(picture, (gm_sight_numbers(sight) + 1) * sizeof *numbers);
+    size_t most = 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t own = gm_sight_numbers(gm_system_sight(lanes[i]->parameters));
+        most = own > most ? own : most;
+    }
+    double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
     struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
-    if (!numbers || !ranges) {
+    struct gm_paths *paths = gm_picture_memory(picture, count * sizeof *paths);
+    if (!numbers || !ranges || !paths) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = lane_range(lanes[i], sight, numbers);
+        const struct gm_sight *sight = gm_system_sight(lanes[i]->parameters);
+        paths[i] = (struct gm_paths){gm_system_path(picture, lanes[i], GM_TRACK_PAST, sight),
+                                     gm_system_path(picture, lanes[i], GM_TRACK_TRAIL, sight)};
+        ranges[i] = lane_range(lanes[i], sight, &paths[i], numbers);
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
     const struct gm_lane *leader = NULL; /* the first of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct gm_sight *sight = gm_system_sight(walk.lane->parameters);
+        size_t lane = 0;
+        while (lanes[lane] != walk.lane) {
+            lane++;
+        }
         if (walk.first) {
-            struct gm_seen range = ranges[0];
-            for (size_t i = 0; i < count; i++) {
-                range = lanes[i] == walk.lane ? ranges[i] : range;
-            }
+            const struct gm_seen range = ranges[lane];
             panel = add_panel(picture, &walk,
                               range.left ? "on a scale of its own" : value_now(picture, walk.lane));
             if (sight->dimensions == 3) {
@@ -518,7 +563,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                 }
                 space = gm_system_space(picture, panel, walk.lane, &range, names);
             } else {
-                set_plane(picture, panel, sight, &range);
+                set_plane(picture, panel, &walk, sight, &range);
             }
         }
         if (sight->dimensions == 2 && (walk.first || !is_same(walk.lane, leader))) {
@@ -526,9 +571,9 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
         }
         leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
-            gm_system_draw_in_space(picture, panel, &space, walk.lane);
+            gm_system_draw_in_space(picture, panel, &space, walk.lane, &paths[lane]);
         } else {
-            draw_lane(picture, panel, walk.lane, sight, numbers);
+            draw_lane(picture, panel, walk.lane, &paths[lane], numbers);
         }
     }
 }
@@ -660,10 +705,10 @@ static const char *told(struct gm_picture *picture, const struct gm_lane *const 
     const char *text = "";
     char number[64];
     size_t shown = 0;
-    for (size_t row = 0; row < system_scene->first_start && shown < TOLD_PARAMETERS; row++) {
+    for (size_t row = 0; row < system_scene->row_count && shown < TOLD_PARAMETERS; row++) {
         const struct gm_parameter *parameter = &system_scene->rows[row];
         const double value = gm_parameter_get(parameter, lanes[0]->parameters);
-        bool same = parameter->offset >= offsetof(struct gm_system_lane, values);
+        bool same = gm_system_is_parameter(system_scene, row);
         for (size_t i = 1; i < count; i++) {
             same &= value == gm_parameter_get(parameter, lanes[i]->parameters);
         }
@@ -695,10 +740,10 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
     const char *name = gm_system_title(&system_scene->system) ? system_scene->scene.title
                                                               : typeset(picture, system_scene->scene.title);
-    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, name);
-    if (!gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
+    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
+    if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
         picture->title =
-            gm_picture_text(picture, "%s, by %s", picture->title,
+            gm_picture_text(picture, "%s, by %s", picture->title ? picture->title : name,
                             one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
     }
     picture->subtitle = gm_picture_text(

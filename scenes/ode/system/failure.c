@@ -44,10 +44,8 @@ static bool tell_part(const struct gm_system_scene *system_scene, const struct g
         const bool is_time = i == system->n && !system->timed;
         variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
     }
-    for (size_t row = GM_SYSTEM_ROWS; variables && row < system_scene->first_start; row++) {
-        variables[system_scene->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
     if (variables && values) {
+        gm_system_put_parameters(lane, variables);
         gm_formula_evaluate(graph, graph->count, variables, values);
     }
     for (size_t i = 0; variables && values && i <= system->n && !told; i++) {

@@ -207,7 +207,7 @@ static bool follow(const struct level *level, struct box *found, const struct bo
 void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range)
 {
     struct level level;
-    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+    if (sight->over_time || !gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
         return;
     }
     for (size_t number = 0; take_level(&level, lane, &number);) {
@@ -286,6 +286,9 @@ static bool is_drawn(const struct gm_system_scene *system_scene, const struct gm
     double values[2] = {0, 1};
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
+        if (gm_system_scene_of(&view) != system_scene) {
+            continue;
+        }
         gm_system_values(&system_scene->of_items[item - system_scene->system.items], &view,
                          view.problem->m - 1, values);
         if (values[1] > 0) {

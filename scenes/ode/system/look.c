@@ -62,6 +62,22 @@ static void put_exact(const struct gm_view *view, double *variables)
     }
 }
 
+bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t row)
+{
+    const size_t number = system_scene->variables[row];
+    return row >= GM_SYSTEM_ROWS && number >= system_scene->system.parameters &&
+           number < system_scene->system.velocities;
+}
+
+void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables)
+{
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+        if (gm_system_is_parameter(lane->owner, row)) {
+            variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+        }
+    }
+}
+
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables)
 {
     const struct gm_system_lane *lane = view->parameters;
@@ -74,9 +90,7 @@ void gm_system_variables(const struct gm_view *view, size_t member, bool exact, 
         variables[i] = view->state[i * m + member];
         variables[system->initial + i] = view->start[i * m + member];
     }
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
-        variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
+    gm_system_put_parameters(lane, variables);
     variables[system->n] = view->t;
     if (exact) {
         put_exact(view, variables);
@@ -145,12 +159,37 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     for (size_t i = 0; i < n; i++) {
         fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
     }
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->first_start; row++) {
-        fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
+        if (gm_system_is_parameter(lane->owner, row)) {
+            fill(variables + lane->owner->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+        }
     }
     if (tape->last_used > system->exact) {
         put_all_exact(view, variables, count);
     }
     gm_tape_values(tape, variables, values, count);
     free(variables);
+}
+
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight)
+{
+    enum { BATCH = 256 };
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_entries *entries = &lane->entries[track];
+    const size_t n = entries->width, width = sight->dimensions * sight->bodies;
+    double *points = gm_picture_memory(picture, (entries->count * width + 1) * sizeof *points),
+           *states = gm_picture_memory(picture, BATCH * (n + gm_sight_numbers(sight)) * sizeof *states);
+    for (size_t first = 0, count; points && states && first < entries->count; first += count) {
+        count = entries->count - first < BATCH ? entries->count - first : BATCH;
+        for (size_t i = 0; i < n * count; i++) {
+            states[i] = entries->values[(first + i % count) * n + i / count];
+        }
+        double *values = states + n * count;
+        gm_system_values_of(&sight->tape, &view, states, entries->times + first, count, values);
+        for (size_t i = 0; i < width * count; i++) {
+            points[first * width + i] = values[i % width * count + i / width];
+        }
+    }
+    return (struct gm_path){points, points && states ? entries->count : 0, width};
 }

@@ -3,11 +3,16 @@
 #ifndef GM_SCENES_ODE_SYSTEM_LOOK_H
 #define GM_SCENES_ODE_SYSTEM_LOOK_H
 
+#include <stdint.h>
+
 #include "core/ode/user/problem.h"
 #include "core/tape.h"
 #include "scenes/common/camera.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/written.h"
+
+/* Of a row that is no variable of the system: a choice, or a row of others. */
+#define GM_NO_VARIABLE SIZE_MAX
 
 /* A way to look at the state: bodies and rods, or one point, in a plane or in space. */
 struct gm_sight {
@@ -17,6 +22,7 @@ struct gm_sight {
     struct gm_tape tape;   /* of all variables to these numbers */
     bool *fixed;           /* of each body: it does not move */
     const char *labels[3]; /* of the axes; NULL: they have no names */
+    bool over_time;        /* the first axis is the time */
     bool angles[2];        /* an axis is an angle */
     long components[2];    /* an axis is this component of the state; -1: it is none */
 };
@@ -25,6 +31,8 @@ enum {
     GM_SYSTEM_ROWS =
         2 /* dt and until, then the system's own; members, spread, shape and show are behind those */
 };
+/* behind the system's own */
+enum { GM_ROW_MEMBERS, GM_ROW_SPREAD, GM_ROW_SHAPE, GM_ROW_SHOW, GM_COMMON_ROWS };
 enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
 enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and last the modified energy, where there is one */ };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
@@ -35,9 +43,12 @@ struct gm_system_scene {
     struct gm_scene scene;
     struct gm_user_system system;
     struct gm_user_model model;
-    struct gm_parameter *rows, *common; /* all of them, and those behind the system's own */
-    size_t *variables;                  /* of each row: its number among the system's */
-    size_t row_count, first_start;      /* where the system's own end, and where values of the start begin */
+    struct gm_parameter *rows, *common;   /* all of them, and those behind the system's own */
+    size_t *variables;                    /* of each row: its number among the system's, or GM_NO_VARIABLE */
+    size_t row_count;                     /* where the system's own end */
+    struct gm_system_scene *first, *next; /* of the systems of one file (variants.h); NULL: it is alone */
+    const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* of choices, NULL behind the last */
+    const char *lacks;                                            /* why it has not what others have */
     struct gm_observable *observables;
     struct gm_tape *formulas; /* of each observable */
     struct gm_tape *terms;    /* of each error: the sum of the magnitudes of its terms */
@@ -76,6 +87,11 @@ struct gm_system_lane {
     double values[]; /* of the rows from first_value on; behind them whether each row was given, as bytes */
 };
 
+/* Whether a row is a parameter of the system. */
+bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t row);
+/* Puts a lane's parameters among the values of all variables. */
+void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables);
+
 /* The scene that a view is of. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
 
@@ -87,6 +103,18 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
                          const double *times, size_t count, double *values);
+/* The numbers of a sight's bodies in every entry of a track: `width` of each entry. */
+struct gm_path {
+    const double *points;
+    size_t count, width;
+};
+/* The path of a lane's last member in a track of states; it lies in the picture's memory, and is empty if that is short. */
+struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
+                              const struct gm_sight *sight);
+/* Both of a lane. */
+struct gm_paths {
+    struct gm_path past, trail;
+};
 /* How many numbers a sight tells of a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
 /* From which entry of the past on the path of a body is bright: a part of the whole run. */

@@ -10,8 +10,11 @@
 
 #include "core/linear/curve.h"
 #include "core/model/scope.h"
+#include "core/ode/families/adaptive/variational_time.h"
+#include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
+#include "core/schemes.h"
 #include "scenes/common/rows.h"
 #include "scenes/ode/system/pieces.h"
 
@@ -352,10 +355,44 @@ static bool add_observed(struct gm_system_scene *system_scene, const struct gm_s
     struct gm_observable row = GM_OBSERVABLE(item->name, observed, item->name);
     const struct gm_system_option *condition = gm_system_option(item, GM_OPTION_WHILE);
     gm_written_options(&row, item);
+    row.symbol = gm_system_option_text(item, GM_OPTION_ERROR, NULL);
+    row.error = row.symbol != NULL;
+    row.logarithmic |= row.error;
     if (row.period > 0 && system_scene->scene.follow == 0) {
         system_scene->scene.follow = FOLLOWED; /* so that an angle is seen in every part of a turn */
     }
     return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
+}
+
+/* The step of a scheme that chooses it by the discrete energy balance, and of others dt. */
+static double tau(const struct gm_view *view)
+{
+    const bool chosen = view->scheme->family->parameters == gm_settings_of_variational_time;
+    return view->memory && chosen ? view->memory[GM_VARIATIONAL_TAU] : view->dt;
+}
+
+static double restarts(const struct gm_view *view)
+{
+    const bool counted = view->scheme->family == &gm_family_variational_time;
+    return view->memory && counted ? view->memory[GM_VARIATIONAL_RESTARTS] : 0;
+}
+
+/* What the file's schemes choose, if one of them is such. */
+static bool add_steps(struct gm_system_scene *system_scene)
+{
+    const char *list = system_scene->system.texts[GM_WORD_SCHEMES];
+    char name[64];
+    bool chosen = false;
+    while (gm_listed_word(&list, name, sizeof name)) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        chosen = chosen || (scheme && scheme->family->parameters == gm_settings_of_variational_time);
+    }
+    return !chosen ||
+           (add_observable(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE("tau", tau, "time step τ"),
+                           GM_NO_NODE, GM_NO_NODE) &&
+            add_observable(system_scene,
+                           (struct gm_observable)GM_OBSERVABLE("restarts", restarts, "restarts"), GM_NO_NODE,
+                           GM_NO_NODE));
 }
 
 /* What the file names: observe:, invariant:, casimir:, symmetry:. */
@@ -457,12 +494,12 @@ static bool refuse_twice(const struct gm_system_scene *system_scene, const char 
 bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                                 char *sentence)
 {
-    const size_t most = system_scene->system.item_count + 7;
+    const size_t most = system_scene->system.item_count + 9;
     system_scene->observables = calloc(most, sizeof *system_scene->observables);
     system_scene->formulas = calloc(most, sizeof *system_scene->formulas);
     system_scene->terms = calloc(most, sizeof *system_scene->terms);
     bool good = system_scene->observables && system_scene->formulas && system_scene->terms &&
-                add_energy(system_scene, problem) && add_named(system_scene) &&
+                add_energy(system_scene, problem) && add_steps(system_scene) && add_named(system_scene) &&
                 add_defects(system_scene, problem) && add_solution_error(system_scene) &&
                 add_area(system_scene);
     system_scene->scene.observables = system_scene->observables;

@@ -26,7 +26,9 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
         known[i] = NAN;
     }
     for (size_t row = GM_SYSTEM_ROWS; known && row < system_scene->row_count; row++) {
-        known[system_scene->variables[row]] = !given || given[row] ? lane->values[row - GM_SYSTEM_ROWS] : NAN;
+        if (system_scene->variables[row] != GM_NO_VARIABLE && (!given || given[row])) {
+            known[system_scene->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+        }
     }
     double *values = known ? gm_equations_start(&system_scene->system, known) : NULL;
     free(known);

@@ -132,7 +132,8 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
     bool told = first && (in_space || sight->rods == 0);
     for (size_t k = 0; told && k < sight->dimensions; k++) {
         const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
-        told = at->operation == GM_VARIABLE && at->a < system->n;
+        told = at->operation == GM_VARIABLE && at->a <= system->n;
+        sight->over_time = sight->over_time || (told && k == 0 && !in_space && at->a == system->n);
         if (told) {
             const bool several = in_space && sight->bodies > 1;
             const char *common = several ? common_name(system_scene, k) : system->variables[at->a].name;
@@ -141,9 +142,9 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
         }
     }
     for (size_t k = 0; k < 3 && !told; k++) {
-        sight->labels[k] = in_space ? usual[k] : NULL;
+        sight->labels[k] = in_space ? usual[k] : k == 0 && sight->over_time ? "t" : NULL;
     }
-    if (sight->bodies > 1 && sight->components[0] >= 0) {
+    if (sight->bodies > 1 && sight->components[0] >= 0 && !sight->over_time) {
         sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
         for (size_t i = 1; i < sight->bodies; i++) {
             if (!sight->fixed[i]) {
@@ -226,7 +227,7 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
     }
     const struct gm_sight *first = &system_scene->sights[0];
     system_scene->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
-    if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1) {
+    if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1 && !first->over_time) {
         system_scene->disc[0] = (size_t)first->components[0];
         system_scene->disc[1] = (size_t)first->components[1];
     }

@@ -111,35 +111,44 @@ static bool is_curve(const struct gm_space *space, const double *points, size_t 
 }
 
 /* The path of a body from entry `first` on, and where it is now. Returns how many points. */
-static size_t path_of(const struct gm_entries *entries, size_t body, size_t first, const double *now,
+static size_t path_of(const struct gm_path *path, size_t body, size_t first, const double *now,
                       double *points)
 {
-    for (size_t i = first; i <= entries->count; i++) {
-        const double *at = i < entries->count ? entries->values + i * entries->width : now;
+    for (size_t i = first; i <= path->count; i++) {
+        const double *at = i < path->count ? path->points + i * path->width : now;
         memcpy(points + 3 * (i - first), at + 3 * body, 3 * sizeof *points);
     }
-    return entries->count + 1 - first;
+    return path->count + 1 - first;
 }
 
-static void draw_path(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
-                      const struct gm_lane *lane, size_t body, const double *now, double *points)
+/* The paths of all bodies that move, which are at `now`. */
+static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
+                       const struct gm_lane *lane, const struct gm_paths *paths, const double *now)
 {
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
+    const struct gm_sight *sight = gm_system_sight(lane->parameters);
+    const struct gm_path *past = &paths->past, *trail = &paths->trail;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    struct gm_stroke_in_space stroke = {.style = {role, 0.95, 2.6, GM_SOLID}, .fades = true};
-    const size_t count = path_of(past, body, 0, now, points);
-    if (is_curve(space, points, count)) {
-        gm_space_line(picture, panel, space,
-                      (struct gm_stroke_in_space){.style = {role, 0.55, 1.4, GM_SOLID}}, points, count);
-        const size_t end = path_of(past, body, gm_system_bright_from(lane), now, points);
-        gm_space_line(picture, panel, space, stroke, points, end);
-        return;
-    }
-    gm_space_points(picture, panel, space, (struct gm_style){.role = role, .alpha = 0.4, .width = 1.8},
-                    points, count);
-    const size_t recent = path_of(trail, body, trail->count / 2, now, points);
-    if (is_curve(space, points, recent)) {
-        gm_space_line(picture, panel, space, stroke, points, recent);
+    const struct gm_stroke_in_space faint = {.style = {role, 0.55, 1.4, GM_SOLID}},
+                                    bright = {.style = {role, 0.95, 2.6, GM_SOLID}, .fades = true};
+    const size_t most = past->count > trail->count ? past->count : trail->count,
+                 from = gm_system_bright_from(lane);
+    double *points = gm_picture_memory(picture, 3 * (most + 1) * sizeof *points);
+    for (size_t body = 0; points && past->count > 0 && body < sight->bodies; body++) {
+        if (sight->fixed[body]) {
+            continue;
+        }
+        const size_t count = path_of(past, body, 0, now, points);
+        if (is_curve(space, points, count)) {
+            gm_space_line(picture, panel, space, faint, points, count);
+            gm_space_line(picture, panel, space, bright, points, path_of(past, body, from, now, points));
+            continue;
+        }
+        gm_space_points(picture, panel, space, (struct gm_style){.role = role, .alpha = 0.4, .width = 1.8},
+                        points, count);
+        const size_t recent = path_of(trail, body, trail->count / 2, now, points);
+        if (is_curve(space, points, recent)) {
+            gm_space_line(picture, panel, space, bright, points, recent);
+        }
     }
 }
 
@@ -175,15 +184,12 @@ static size_t choose_bodies(const struct gm_sight *sight, const double *numbers,
 }
 
 void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
-                             const struct gm_lane *lane)
+                             const struct gm_lane *lane, const struct gm_paths *paths)
 {
     const struct gm_sight *sight = gm_system_sight(lane->parameters);
     const struct gm_view view = gm_lane_view(lane), before = at_start(lane);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
-    const size_t entries = (past->count > trail->count ? past->count : trail->count) + 1;
-    double *points =
-        gm_picture_memory(picture, 3 * (entries > sight->bodies ? entries : sight->bodies) * sizeof *points);
+    double *points = gm_picture_memory(picture, (3 * sight->bodies + 1) * sizeof *points);
     double *numbers = gm_picture_memory(picture, (gm_sight_numbers(sight) + 1) * sizeof *numbers);
     if (!points || !numbers) {
         return;
@@ -196,11 +202,7 @@ void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel,
     gm_space_points(picture, panel, space, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 6},
                     points, choose_bodies(sight, numbers, false, points));
     gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
-    for (size_t body = 0; body < sight->bodies; body++) {
-        if (!sight->fixed[body]) {
-            draw_path(picture, panel, space, lane, body, numbers, points);
-        }
-    }
+    draw_paths(picture, panel, space, lane, paths, numbers);
     for (size_t rod = 0; rod < sight->rods; rod++) {
         const double *ends = numbers + 3 * sight->bodies + 6 * rod;
         gm_space_segment(picture, panel, space, (struct gm_style){GM_INK, 0.9, 3.6, GM_SOLID}, ends,

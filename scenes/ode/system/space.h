@@ -21,6 +21,6 @@ struct gm_space gm_system_space(struct gm_picture *picture, struct gm_panel *pan
                                 const char *const names[3]);
 /* Draws the lane in that space, behind and before the surfaces that are its own. */
 void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
-                             const struct gm_lane *lane);
+                             const struct gm_lane *lane, const struct gm_paths *paths);
 
 #endif

@@ -112,8 +112,7 @@ static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian
     static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
     static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
     size_t row = GM_SYSTEM_ROWS;
-    while (row < system_scene->first_start &&
-           system_scene->rows[row].lowest == system_scene->rows[row].highest) {
+    while (system_scene->rows[row].lowest == system_scene->rows[row].highest) { /* a start has a range */
         row++;
     }
     const struct gm_parameter *parameter = &system_scene->rows[row];

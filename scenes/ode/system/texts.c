@@ -214,6 +214,9 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
     }
     size_t ahead = 0;
     for (size_t i = 0; i < count; i++) {
+        if (((const struct gm_system_lane *)lanes[i]->parameters)->owner != lane->owner) {
+            return otherwise; /* another word of a choice has texts of its own */
+        }
         values[i] = values_of(picture, lanes, count, i, item);
         ahead = fabs(lanes[i]->run->t) > fabs(lanes[ahead]->run->t) ? i : ahead;
         if (!values[i].numbers) {

@@ -18,7 +18,6 @@
 #include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
-#include "core/linear/differences.h"
 
 static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
 
@@ -307,11 +306,7 @@ struct gm_progress gm_any_form_advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         guess(work, known);
         progress.status = gm_collocation_step(work, task->dt, &progress);
-        if (progress.status == GM_OK &&
-            !gm_field_within(work->high, work->state * work->r * work->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, work->high, work->state * work->r * work->points)) {
             return progress;
         }
         double *low = work->low;
@@ -320,7 +315,6 @@ struct gm_progress gm_any_form_advance(const struct gm_task *task)
         shift(&work->z, work->past_z);
         shift(&work->y, work->past_y);
         known = known <= GM_COLLOCATION_PAST ? known + 1 : known;
-        progress.done++;
     }
     remember(work, known, task->memory_out);
     find_state(work, task->dt, task->out);
@@ -353,34 +347,14 @@ double gm_any_form_integral(const struct gm_problem *problem, const struct gm_sc
 
 /* ---- the discrete multisymplectic law ---- */
 
-/* Memories before and after a step, and a state that is not looked at. */
-struct base {
-    const struct gm_law *law;
-    double *given, *made, *state;
-};
-
-/* gm_map: s at the stages to s at those behind a step. */
-static bool one_step(const void *context, const double *from, double *to)
-{
-    const struct base *base = context;
-    const size_t size = of_level(base->law->work) * sizeof *to;
-    memcpy(base->given + ARRAYS, from, size);
-    if (!gm_law_step(base->law, 1, base->law->y, base->given, base->state, base->made)) {
-        return false;
-    }
-    memcpy(to, base->made + ARRAYS, size);
-    return true;
-}
-
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)
 {
-    const size_t low = of_level(law->work), size = gm_any_form_memory(law->problem, law->scheme);
-    double *given = gm_arena_take(law->arena, 2 * size + law->problem->n, sizeof *given);
-    const struct base base = {law, given, given + size, given + 2 * size};
-    memcpy(given, law->memory, size * sizeof *given);
-    if (!gm_differentiate(one_step, &base, low, law->memory + ARRAYS, tangent, low, next)) {
-        gm_arena_leave(law->arena);
-    }
+    const size_t n = law->problem->n, low = of_level(law->work) * sizeof *next;
+    const size_t size = n + gm_any_form_memory(law->problem, law->scheme);
+    double *direction = gm_arena_take(law->arena, 2 * size, sizeof *direction), *slope = direction + size;
+    memcpy(direction + n + ARRAYS, tangent, low);
+    gm_law_differentiate(law, law->y, law->memory, direction, slope);
+    memcpy(next, slope + n + ARRAYS, low);
 }
 
 /* Advances tangents from s at the stages. */

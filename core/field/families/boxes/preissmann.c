@@ -120,9 +120,10 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
 }
 
 static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                               const double *past, const double *now, double *next,
                                struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     enum { MOST = 30 }; /* which cost what Newton's method does, 5 solves: reached for dt > 1 */
     const size_t points = work->points;
     const double dx = problem->line.dx, jump = problem->line.jump;

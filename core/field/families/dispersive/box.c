@@ -306,20 +306,14 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
             /* what rounding leaves of an imaginary part */
             memset(next + points, 0, size);
         }
-        if (progress.status == GM_OK && !gm_field_within(next, 2 * points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, next, 2 * points)) {
             return progress;
         }
-        progress.done++;
     }
-    memcpy(task->out, next, size);
     if (equation->complex_valued) {
-        memcpy(task->out + points, next + points, size);
+        memcpy(task->out, next, 2 * size);
     } else {
-        memcpy(task->out + points, now, size);
-        task->out[2 * points] = -task->dt;
+        gm_wave_write(task, next, now);
     }
     return progress;
 }

@@ -11,29 +11,16 @@
 
 #include "core/field/families/dispersive/box.h"
 #include "core/field/multisymplectic.h"
-#include "core/linear/differences.h"
 
-/* A solution, real parts and then imaginary ones, and the states of a step aside. */
+/* A solution, real parts and then imaginary ones. */
 struct base {
     const struct gm_law *law;
     double *now, *next, *cells; /* the means are those of the cells between both levels */
-    double *before, *after;
 };
 
 static size_t field_of(const struct gm_problem *problem)
 {
     return (gm_field_of(problem)->dispersive->complex_valued ? 2 : 1) * problem->line.points;
-}
-
-/* gm_map: the field to the next level of it. */
-static bool one_step(const void *context, const double *from, double *to)
-{
-    const struct base *base = context;
-    const size_t size = field_of(base->law->problem) * sizeof *to;
-    memcpy(base->before, from, size);
-    const bool good = gm_law_step(base->law, 1, base->before, NULL, base->after, NULL);
-    memcpy(to, base->after, size);
-    return good;
 }
 
 static void cell_means(const struct base *base)
@@ -51,13 +38,14 @@ static void cell_means(const struct base *base)
 /* The level of the state and the next, with the means between. */
 static struct base base_of(const struct gm_law *law)
 {
-    const size_t n = law->problem->n, size = 2 * law->problem->line.points;
-    double *now = gm_arena_take(law->arena, 3 * size + 2 * n, sizeof *now), *more = now + 3 * size;
-    const struct base base = {law, now, now + size, now + 2 * size, more, more + n};
-    memcpy(now, law->y, field_of(law->problem) * sizeof *now);
-    if (!one_step(&base, now, base.next)) {
+    const size_t size = 2 * law->problem->line.points, field = field_of(law->problem) * sizeof(double);
+    double *now = gm_arena_take(law->arena, 3 * size + law->problem->n, sizeof *now), *after = now + 3 * size;
+    const struct base base = {law, now, now + size, now + 2 * size};
+    if (!gm_law_step(law, 1, law->y, NULL, after, NULL)) {
         gm_arena_leave(law->arena);
     }
+    memcpy(now, law->y, field);
+    memcpy(base.next, after, field);
     cell_means(&base);
     return base;
 }
@@ -67,16 +55,14 @@ static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
     const struct gm_problem *problem = law->problem;
     const size_t points = problem->line.points, field = field_of(problem);
     const struct base base = base_of(law);
-    double *now = gm_arena_take(law->arena, 4 * points, sizeof *now), *next = now + 2 * points;
+    double *now = gm_arena_take(law->arena, 4 * points + 2, sizeof *now), *next = now + 2 * points + 1;
     for (size_t k = 0; k < 2; k++) {
         for (size_t at = 0; at < field; at += points) {
             gm_tangent_start(now + at, points, 2 + (double)k, 0.3 + 0.4 * (double)k + (double)(at / points));
         }
-        const bool good =
-            law->by_differences
-                ? gm_differentiate(one_step, &base, field, base.now, now, field, next)
-                : gm_dispersive_tangent(law->work, problem, law->dt, base.cells, now, next) == GM_OK;
-        if (!good) {
+        if (law->by_differences) {
+            gm_law_differentiate(law, law->y, NULL, now, next);
+        } else if (gm_dispersive_tangent(law->work, problem, law->dt, base.cells, now, next) != GM_OK) {
             gm_arena_leave(law->arena);
         }
         gm_field_of(problem)->dispersive->complete(problem, law->dt, base.cells, now, next, &faces[k]);

@@ -19,7 +19,6 @@
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/linear/differences.h"
 
 static size_t shifted(size_t i, long by, size_t points)
 {
@@ -61,34 +60,32 @@ static void kdv_nodes_step(const struct gm_problem *problem, bool centred, doubl
 }
 
 static enum gm_status kdv_step(struct gm_two_step_work *work, const struct gm_problem *problem, bool centred,
-                               double dt, const double *past, const double *now, double *next,
-                               struct gm_progress *progress)
+                               double dt, struct gm_progress *progress)
 {
-    kdv_nodes_step(problem, centred, dt, NULL, past, now, next, work->force);
+    double *const *level = work->level;
+    kdv_nodes_step(problem, centred, dt, NULL, level[0], level[1], level[2], work->force);
     progress->evaluations++;
     return GM_OK;
 }
 
 static enum gm_status kdv_euler(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                const double *past, const double *now, double *next,
                                 struct gm_progress *progress)
 {
-    return kdv_step(work, problem, false, dt, past, now, next, progress);
+    return kdv_step(work, problem, false, dt, progress);
 }
 
 static enum gm_status kdv_centred(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                  const double *past, const double *now, double *next,
                                   struct gm_progress *progress)
 {
-    return kdv_step(work, problem, true, dt, past, now, next, progress);
+    return kdv_step(work, problem, true, dt, progress);
 }
 
 /* An Euler step: once, so that the order stays 2. */
-static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                      const double *now, const double *other, double *next)
+static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
     (void)gap;
-    (void)other;
+    const double *now = work->level[1];
+    double *next = work->level[2];
     const size_t points = problem->line.points;
     find_flux(problem, 1, NULL, now, work->force);
     for (size_t i = 0; i < points; i++) {
@@ -128,11 +125,11 @@ static const struct gm_two_step_row kdv_rows[] = {
    with centred differences for the midpoint scheme. phi of every level is free up to a constant, which its
    differences do not see; the tangents have no mean, so that it is periodic. */
 
-/* A solution, u or Schroedinger's p^{n-1} and q^n, and the states of a step aside. */
+/* A solution, u or Schroedinger's p^{n-1} and q^n. */
 struct base {
     const struct gm_law *law; /* ahead in time */
     bool kdv, centred;
-    double *past, *now, *before, *after;
+    double *past, *now;
 };
 
 /* A tangent at three levels: u and phi, or of Schroedinger's equation p, p, - and -, q, q. */
@@ -141,29 +138,21 @@ struct tangent {
     double *first[3], *second[3];
 };
 
-/* gm_map: u at two levels, the present one first, to the next; or p, q to p, q. */
-static bool one_step(const void *context, const double *from, double *to)
-{
-    const struct base *base = context;
-    const size_t points = base->law->problem->line.points;
-    memcpy(base->before, from, 2 * points * sizeof *to);
-    base->before[2 * points] = -base->law->dt;
-    const bool good = gm_law_step(base->law, 1, base->before, NULL, base->after, NULL);
-    memcpy(to, base->after, (base->kdv ? 1 : 2) * points * sizeof *to);
-    return good;
-}
-
-/* What a step makes of the two arrays of `direction`, as one_step has them. */
+/* What a step makes of two arrays, u at the present level and the past one, or p and q, along the two of `direction`:
+   the first of the state behind it, or both. */
 static void by_own_steps(const struct base *base, const double *first, const double *second,
                          const double *direction, double *slope)
 {
-    const size_t points = base->law->problem->line.points;
-    double *from = gm_arena_take(base->law->arena, 2 * points, sizeof *from);
+    const size_t n = base->law->problem->n, points = base->law->problem->line.points;
+    double *from = gm_arena_take(base->law->arena, 3 * n, sizeof *from), *along = from + n, *to = along + n;
     memcpy(from, first, points * sizeof *from);
     memcpy(from + points, second, points * sizeof *from);
-    if (!gm_differentiate(one_step, base, 2 * points, from, direction, (base->kdv ? 1 : 2) * points, slope)) {
-        gm_arena_leave(base->law->arena);
+    memcpy(along, direction, 2 * points * sizeof *along);
+    if (base->kdv) {
+        from[2 * points] = -base->law->dt;
     }
+    gm_law_differentiate(base->law, from, NULL, along, to);
+    memcpy(slope, to, (base->kdv ? 1 : 2) * points * sizeof *slope);
 }
 
 /* phi from D u = ..., around the ring, or both rings of every other node. */
@@ -240,7 +229,7 @@ static void advance_nls(const struct base *base, double phase, double waves, con
     if (base->law->by_differences) {
         by_own_steps(base, base->past, base->now, direction, made);
         memcpy(direction, made, 2 * size);
-    } else if (one_step(base, from, made)) { /* p^n comes first */
+    } else if (gm_law_step(base->law, 1, from, NULL, made, NULL)) { /* p^n comes first */
         nls_nodes_tangent(base->law->problem, base->law->dt, made, base->now, direction, direction + points);
     } else {
         gm_arena_leave(base->law->arena);
@@ -286,16 +275,14 @@ double gm_nodes_form(const struct gm_law *law)
     }
     struct gm_law ahead = *law;
     ahead.dt = kdv ? fabs(law->dt) : law->dt;
-    double *past = gm_arena_take(law->arena, 14 * points + 2 * gm_wave_size(points), sizeof *past);
-    double *now = past + points, *levels = past + 2 * points, *before = past + 14 * points;
+    double *past = gm_arena_take(law->arena, 14 * points, sizeof *past);
+    double *now = past + points, *levels = past + 2 * points;
     const struct base base = {
         .law = &ahead,
         .kdv = kdv,
         .centred = kdv && row->law == GM_LAW_CENTRED,
         .past = past,
         .now = now,
-        .before = before,
-        .after = before + gm_wave_size(points),
     };
     memcpy(past, has_past ? law->y + points : law->y, size);
     memcpy(now, has_past ? law->y : law->y + points, size);

@@ -136,18 +136,14 @@ static struct gm_progress advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         step(work, task->problem, task->dt, now, other);
         progress.evaluations += 4;
-        if (!gm_field_within(other, work->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
+        if (!gm_field_stepped(task, &progress, other, work->points)) {
             return progress;
         }
         double *past = now;
         now = other;
         other = past;
-        progress.done++;
     }
-    memcpy(task->out, now, size);
-    memcpy(task->out + work->points, other, size);
-    task->out[2 * work->points] = -task->dt;
+    gm_wave_write(task, now, other);
     return progress;
 }
 

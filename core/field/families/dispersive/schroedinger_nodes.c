@@ -56,11 +56,9 @@ static struct gm_progress advance(const struct gm_task *task)
         }
         nls_second(grid, task->dt, p, q);
         progress.evaluations++;
-        if (!gm_field_within(p, 2 * grid->points, task->limit)) {
-            progress.status = GM_BLOW_UP;
+        if (!gm_field_stepped(task, &progress, p, 2 * grid->points)) {
             return progress;
         }
-        progress.done++;
     }
     return progress;
 }

@@ -80,11 +80,9 @@ static struct gm_progress advance(const struct gm_task *task)
         gm_fourier_inverse(work->fourier, (double complex *)(void *)psi);
         nonlinear_half(psi, points, task->dt / 2);
         progress.evaluations++;
-        if (!gm_field_within(psi, 2 * points, task->limit)) {
-            progress.status = GM_BLOW_UP;
+        if (!gm_field_stepped(task, &progress, psi, 2 * points)) {
             return progress;
         }
-        progress.done++;
     }
     for (size_t i = 0; i < points; i++) {
         task->out[i] = psi[2 * i];

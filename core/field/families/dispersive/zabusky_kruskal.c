@@ -19,8 +19,10 @@ static double twice_rate(const struct gm_problem *problem, const double *u, size
 }
 
 static enum gm_status step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                           const double *past, const double *now, double *next, struct gm_progress *progress)
+                           struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double dx = problem->line.dx;
     const double convection = gm_kdv_of(problem)->eta * dt / (3 * dx),
                  third = gm_kdv_of(problem)->mu * dt / (dx * dx * dx);
@@ -41,11 +43,11 @@ static enum gm_status step(struct gm_two_step_work *work, const struct gm_proble
 }
 
 /* An Euler step: once, so that the order stays 2. */
-static void start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                  const double *now, const double *other, double *next)
+static void start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
     (void)gap;
-    (void)other;
+    const double *now = work->level[1];
+    double *next = work->level[2];
     for (size_t i = 0; i < work->points; i++) {
         next[i] = now[i] + dt / 2 * twice_rate(problem, now, i);
     }

@@ -14,7 +14,6 @@
 
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/linear/differences.h"
 #include "core/linear/ring/ring.h"
 
 /* Where the state holds two levels, a step is made aside. */
@@ -43,12 +42,10 @@ struct tangent {
     double *past, *now, *next, *v_past, *v_now, *v_next;
 };
 
-/* A solution, and arrays of a step aside. */
 struct base {
     const struct gm_law *law;
     struct gm_levels levels;
     double *earlier, *later; /* V'' in the cells of both rows */
-    double *y, *memory_out;
 };
 
 static size_t left_of(size_t i, size_t points)
@@ -150,40 +147,24 @@ static bool linearised_box(const struct base *base, const struct tangent *a)
     return good;
 }
 
-/* gm_map: u at two levels, with u_t if the scheme keeps it, to the next level of the same. */
-static bool one_step(const void *context, const double *from, double *to)
-{
-    const struct base *base = context;
-    const size_t points = base->law->problem->line.points, size = points * sizeof *to;
-    const bool keeps = base->levels.v_now != NULL;
-    double *out = base->y + gm_wave_size(points);
-    memcpy(base->y, from, 2 * size);
-    base->y[2 * points] = -base->law->dt;
-    const bool good = gm_law_step(base->law, 1, base->y, keeps ? from + 2 * points : NULL, out,
-                                  keeps ? base->memory_out : NULL);
-    memcpy(to, out, size);
-    memcpy(to + points, base->memory_out, keeps ? size : 0);
-    return good;
-}
-
-static bool by_own_steps(const struct base *base, const struct tangent *a)
+static void by_own_steps(const struct base *base, const struct tangent *a)
 {
     const struct gm_levels *of = &base->levels;
-    const size_t points = base->law->problem->line.points, size = points * sizeof(double);
-    const size_t levels = of->v_now ? 4 : 2;
+    const size_t points = base->law->problem->line.points, n = base->law->problem->n;
+    const size_t levels = of->v_now ? 4 : 2, size = points * sizeof(double), all = n + 2 * points;
     const double *const from_levels[] = {of->now, of->past, of->v_now, of->v_past};
     const double *const directions[] = {a->now, a->past, a->v_now, a->v_past};
-    double *from = gm_arena_take(base->law->arena, (2 * levels + 2) * points, sizeof *from);
-    double *direction = from + levels * points, *slope = direction + levels * points;
+    double *from = gm_arena_take(base->law->arena, 3 * all, sizeof *from);
+    double *direction = from + all, *slope = direction + all;
     for (size_t k = 0; k < levels; k++) {
-        memcpy(from + k * points, from_levels[k], size);
-        memcpy(direction + k * points, directions[k], size);
+        const size_t at = k < 2 ? k * points : n + (k - 2) * points;
+        memcpy(from + at, from_levels[k], size);
+        memcpy(direction + at, directions[k], size);
     }
-    const bool good =
-        gm_differentiate(one_step, base, levels * points, from, direction, levels / 2 * points, slope);
+    from[2 * points] = -base->law->dt;
+    gm_law_differentiate(base->law, from, of->v_now ? from + n : NULL, direction, slope);
     memcpy(a->next, slope, size);
-    memcpy(a->v_next, slope + points, levels == 4 ? size : 0);
-    return good;
+    memcpy(a->v_next, slope + n, levels == 4 ? size : 0);
 }
 
 struct nodes {
@@ -286,10 +267,8 @@ static struct base base_of(const struct gm_law *law)
     const struct gm_problem *problem = law->problem;
     const size_t points = problem->line.points;
     struct base base = {.law = law, .levels = gm_levels_of(law)};
-    base.earlier = gm_arena_take(law->arena, 4 * points + 2 * gm_wave_size(points), sizeof *base.earlier);
+    base.earlier = gm_arena_take(law->arena, 2 * points, sizeof *base.earlier);
     base.later = base.earlier + points;
-    base.memory_out = base.later + points;
-    base.y = base.memory_out + 2 * points;
     if (law_of(law) == GM_LAW_CELLS) {
         cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
         cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
@@ -313,7 +292,7 @@ static struct tangent tangent_of(const struct base *base, size_t which)
     }
     bool good = true;
     if (base->law->by_differences) {
-        good = by_own_steps(base, &a);
+        by_own_steps(base, &a);
     } else if (kind == GM_LAW_CELLS) {
         good = linearised_box(base, &a);
     } else if (kind == GM_LAW_CENTRED) {

@@ -31,9 +31,10 @@ GM_CLONES static void explicit_step(const double *restrict past, const double *r
 }
 
 static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                               const double *past, const double *now, double *next,
                                struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double dx = problem->line.dx;
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     explicit_step(past - 1, now - 1, work->force - 1, next - 1, work->points, dt * dt / (dx * dx), dt * dt);
@@ -65,9 +66,10 @@ static double solve_node(const struct gm_problem *problem, double square, double
 /* Solved for the change from level to level, which is kept apart from the levels: there it would be rounded
    as they are, and the energy would wander twenty times as far. */
 static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem,
-                                        double dt, const double *past, const double *now, double *next,
-                                        struct gm_progress *progress)
+                                        double dt, struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double square = dt * dt, ratio = square / (problem->line.dx * problem->line.dx);
     for (size_t i = 0; i < work->points; i++) {
         const double before = work->change[i];
@@ -86,9 +88,10 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
 /* M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s) with the upper triangles M+, K+: here
        v = D_t^- u,   w = D_x^- u,   -D_t^+ v + D_x^+ w = V'(u) */
 static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                const double *past, const double *now, double *next,
                                 struct gm_progress *progress)
 {
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
     const double dx = problem->line.dx;
     double *v = work->right, *w = work->guess;
     gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);

@@ -28,7 +28,6 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/linear/differences.h"
 #include "core/linear/settled.h"
 
 enum { STAGES = 3 };
@@ -235,20 +234,14 @@ static struct gm_progress advance(const struct gm_task *task)
     for (int64_t k = 0; k < task->steps; k++) {
         progress.status =
             make_step(work, task->scheme->coefficients, task->problem, task->dt, NULL, &progress);
-        if (progress.status == GM_OK && !gm_field_within(work->u, points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-        }
-        if (progress.status != GM_OK) {
+        if (!gm_field_stepped(task, &progress, work->u, points)) {
             return progress;
         }
-        progress.done++;
     }
     memcpy(task->memory_out, work->u, size);
     memcpy(task->memory_out + points, work->v, size);
     task->memory_out[2 * points] = 1;
-    memcpy(task->out, work->u, size);
-    memcpy(task->out + points, work->before, size);
-    task->out[2 * points] = -task->dt;
+    gm_wave_write(task, work->u, work->before);
     return progress;
 }
 
@@ -277,24 +270,6 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 
 /* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
-/* gm_map: u and v to the same a step later. */
-static bool one_step(const void *context, const double *from, double *to)
-{
-    const struct gm_law *law = context;
-    struct work *work = law->work;
-    const size_t points = work->points, size = points * sizeof *to;
-    struct gm_progress uncounted = {.status = GM_OK};
-    memcpy(work->u, from, size);
-    memcpy(work->v, from + points, size);
-    work->fresh = false;
-    if (make_step(work, law->scheme->coefficients, law->problem, law->dt, NULL, &uncounted) != GM_OK) {
-        return false;
-    }
-    memcpy(to, work->u, size);
-    memcpy(to + points, work->v, size);
-    return true;
-}
-
 /* Advances tangent 0 or 1, u and then v, with V'' at the kicks, and finds its faces. */
 static void advance_tangent(const struct gm_law *law, const double *curvature, size_t which,
                             struct gm_faces *faces)
@@ -306,15 +281,18 @@ static void advance_tangent(const struct gm_law *law, const double *curvature, s
     const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
     const double length = 2 * law->problem->line.dx;
     struct gm_progress uncounted = {.status = GM_OK};
-    double *start = gm_arena_take(law->arena, 4 * points, sizeof *start), *end = start + 2 * points;
+    const size_t n = law->problem->n, all = n + memory(law->problem, law->scheme);
+    double *direction = gm_arena_take(law->arena, 2 * all, sizeof *direction), *start = direction + n,
+           *end = start + all;
     gm_tangent_start(start, points, waves, phase);
     gm_tangent_start(start + points, points, waves, phase + 1);
-    const bool good = !law->by_differences ||
-                      gm_differentiate(one_step, law, 2 * points, law->memory, start, 2 * points, end);
+    if (law->by_differences) {
+        gm_law_differentiate(law, law->y, law->memory, direction, direction + all);
+    }
     memcpy(work->u, start, size);
     memcpy(work->v, start + points, size);
     work->fresh = false;
-    if (!good || make_step(work, row, law->problem, law->dt, curvature, &uncounted) != GM_OK) {
+    if (make_step(work, row, law->problem, law->dt, curvature, &uncounted) != GM_OK) {
         gm_arena_leave(law->arena);
     }
     if (!law->by_differences) {
@@ -348,8 +326,10 @@ static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
     struct work *work = law->work;
     const size_t points = work->points,
                  kicks = ((const struct gm_lobatto_row *)law->scheme->coefficients)->kicks;
-    double *curvature = gm_arena_take(law->arena, (kicks + 2) * points, sizeof *curvature);
-    if (!one_step(law, law->memory, curvature + kicks * points)) {
+    const size_t more = law->problem->n + memory(law->problem, law->scheme);
+    double *curvature = gm_arena_take(law->arena, kicks * points + more, sizeof *curvature),
+           *out = curvature + kicks * points;
+    if (!gm_law_step(law, 1, law->y, law->memory, out, out + law->problem->n)) {
         gm_arena_leave(law->arena);
     }
     for (size_t at = 0; at < kicks * points; at++) {

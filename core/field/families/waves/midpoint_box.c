@@ -9,36 +9,11 @@
    each other: the solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels
    of the state. Razafindralandy et al. (2018), the multisymplectic midpoint scheme. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
-
-struct work {
-    size_t points;
-    double *u[3], *v[3], *force; /* past, present, next */
-};
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    const size_t points = problem->line.points;
-    struct work *work = malloc(sizeof *work + 7 * points * sizeof(double));
-    if (!work) {
-        return NULL;
-    }
-    double *memory = (double *)(void *)(work + 1);
-    work->points = points;
-    for (size_t k = 0; k < 3; k++) {
-        work->u[k] = memory + 2 * k * points;
-        work->v[k] = memory + (2 * k + 1) * points;
-    }
-    work->force = memory + 6 * points;
-    return work;
-}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -75,73 +50,36 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 /* The first level after a change of the step: Heun's method, once. */
-static void first_level(struct work *work, const struct gm_problem *problem, double dt)
+static void first_level(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                        double gap)
 {
-    double *const *u = work->u, *const *v = work->v;
-    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
+    (void)gap;
+    const double *now = work->level[1];
+    double *next = work->level[2], *const *v = work->rate;
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
-        v[2][i] = acceleration(problem, u[1], i, 1, work->force[i]);
-        u[2][i] = u[1][i] + dt * (v[1][i] + dt / 2 * v[2][i]);
+        v[2][i] = acceleration(problem, now, i, 1, work->force[i]);
+        next[i] = now[i] + dt * (v[1][i] + dt / 2 * v[2][i]);
     }
-    gm_field_of(problem)->wave->slopes(problem, u[2], work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, next, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
-        v[2][i] = v[1][i] + dt / 2 * (v[2][i] + acceleration(problem, u[2], i, 1, work->force[i]));
+        v[2][i] = v[1][i] + dt / 2 * (v[2][i] + acceleration(problem, next, i, 1, work->force[i]));
     }
 }
 
-static void centred_step(struct work *work, const struct gm_problem *problem, double dt)
+static enum gm_status centred_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                   struct gm_progress *progress)
 {
-    double *const *u = work->u, *const *v = work->v;
-    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
+    const double *past = work->level[0], *now = work->level[1];
+    double *next = work->level[2];
+    double *const *v = work->rate;
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
-        u[2][i] = u[0][i] + 2 * dt * v[1][i];
-        v[2][i] = v[0][i] + 2 * dt * acceleration(problem, u[1], i, 2, work->force[i]);
+        next[i] = past[i] + 2 * dt * v[1][i];
+        v[2][i] = v[0][i] + 2 * dt * acceleration(problem, now, i, 2, work->force[i]);
     }
-}
-
-static void rotate(double *level[3])
-{
-    double *past = level[0];
-    level[0] = level[1];
-    level[1] = level[2];
-    level[2] = past;
-}
-
-static struct gm_progress advance(const struct gm_task *task)
-{
-    struct work *work = task->workspace;
-    const size_t points = work->points, size = points * sizeof(double);
-    const double gap = task->y[2 * points];
-    struct gm_progress progress = {.status = GM_OK};
-    memcpy(work->u[1], task->y, size);
-    memcpy(work->u[0], task->y + points, size);
-    memcpy(work->v[1], task->memory, size);
-    memcpy(work->v[0], task->memory + points, size);
-    for (int64_t k = 0; k < task->steps; k++) {
-        if (k > 0 || gap == -task->dt) {
-            centred_step(work, task->problem, task->dt);
-            progress.evaluations++;
-        } else if (gap == task->dt) {
-            memcpy(work->u[2], work->u[0], size);
-            memcpy(work->v[2], work->v[0], size);
-        } else {
-            first_level(work, task->problem, task->dt);
-            progress.evaluations += 2;
-        }
-        if (!gm_field_within(work->u[2], points, task->limit)) {
-            progress.status = GM_BLOW_UP;
-            return progress;
-        }
-        rotate(work->u);
-        rotate(work->v);
-        progress.done++;
-    }
-    memcpy(task->out, work->u[1], size);
-    memcpy(task->out + points, work->u[0], size);
-    task->out[2 * points] = -task->dt;
-    memcpy(task->memory_out, work->v[1], size);
-    memcpy(task->memory_out + points, work->v[0], size);
-    return progress;
+    progress->evaluations++;
+    return GM_OK;
 }
 
 /* Of both levels, with the slopes that the scheme takes. */
@@ -166,7 +104,8 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
     return grid->dx * sum;
 }
 
-static const struct gm_two_step_row row = {.law = GM_LAW_CENTRED};
+static const struct gm_two_step_row row = {
+    .step = centred_step, .start = first_level, .law = GM_LAW_CENTRED, .keeps_rates = true};
 
 static const struct gm_scheme schemes[] = {
     {
@@ -188,11 +127,11 @@ const struct gm_family gm_family_midpoint_box = {
     .title = "multisymplectic midpoint",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = advance,
+    .loop = gm_two_step_advance,
     .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
     .form = gm_wave_form,
     .wave_energy = wave_energy,
 };

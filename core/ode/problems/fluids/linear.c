@@ -55,6 +55,7 @@ const struct gm_problem gm_problem_linear = {
         &(const struct gm_ode){
             .components = "y1 y2 y3",
             .volume = &(const struct gm_volume){.pieces = 2, .flow = flow},
+            .linear = true,
             .loops = GM_LOOPS(linear),
         },
 };

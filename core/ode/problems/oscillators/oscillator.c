@@ -18,6 +18,7 @@ const struct gm_problem gm_problem_oscillator = {
         &(const struct gm_ode){
             .components = "q p",
             .quadratic = true,
+            .linear = true,
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator,
                                                           .formula = gm_formula_oscillator},
@@ -35,6 +36,7 @@ const struct gm_problem gm_problem_oscillator_tangent = {
         &(const struct gm_ode){
             .components = "q xi1 xi2 p eta1 eta2",
             .quadratic = true,
+            .linear = true,
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator_tangent,
                                                           .partial = true,

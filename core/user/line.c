@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/user/line.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+size_t gm_line_components(const struct gm_user_system *system)
+{
+    return system->kind == GM_FIELD ? 1 : system->n;
+}
+
+bool gm_line_is_solved(const struct gm_user_system *system)
+{
+    bool solved = true;
+    for (size_t c = 0; c < gm_line_components(system); c++) {
+        solved &= system->variables[c].exact != GM_NO_NODE;
+    }
+    return solved;
+}
+
+bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *system)
+{
+    const size_t components = gm_line_components(system);
+    for (size_t c = 0; c < components; c++) {
+        formulas->start[c] = system->variables[c].start;
+        formulas->exact[c] = system->variables[c].exact;
+    }
+    return gm_system_place(system, formulas->start, components) &&
+           (!gm_line_is_solved(system) || gm_system_place(system, formulas->exact, components));
+}
+
+bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *system,
+                       const gm_node_id *start, size_t outputs, const gm_node_id *exact, const double *values)
+{
+    line->system = system;
+    return gm_tape_open(&line->start, &system->graph, start, outputs, 1, values) &&
+           (!gm_line_is_solved(system) ||
+            gm_tape_open(&line->exact, &system->graph, exact, gm_line_components(system), 2, values));
+}
+
+void gm_user_line_close(struct gm_user_line *line)
+{
+    gm_tape_close(&line->start);
+    gm_tape_close(&line->exact);
+}
+
+double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t)
+{
+    const double place[] = {x, t};
+    double values[GM_MOST_OF_MATRICES];
+    if (line->exact.outputs == 0) {
+        return NAN;
+    }
+    gm_tape_values(&line->exact, place, values, 1);
+    return values[component];
+}
+
+size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
+                          double values[GM_LINE_BLOCK])
+{
+    const size_t some = grid->points - first < GM_LINE_ROOM ? grid->points - first : GM_LINE_ROOM;
+    double x[GM_LINE_ROOM];
+    for (size_t i = 0; i < some; i++) {
+        x[i] = gm_grid1_node(grid, first + i);
+    }
+    gm_tape_values(&line->start, x, values, some);
+    return some;
+}
+
+void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y)
+{
+    double values[GM_LINE_BLOCK];
+    for (size_t first = 0, some; first < grid->points; first += some) {
+        some = gm_user_line_block(line, grid, first, values);
+        for (size_t k = 0; k < line->start.outputs; k++) {
+            memcpy(y + k * grid->points + first, values + k * some, some * sizeof *y);
+        }
+    }
+}
+
+/* Whether number i of a block is finite: the component, and what is derived of it. */
+static bool is_finite(const struct gm_user_line *line, const double *values, size_t some, size_t i,
+                      size_t component, const char **suffix)
+{
+    static const char *const derived[] = {"_t", "_tt", "_ttt", "_tttt"};
+    const size_t components = gm_line_components(line->system);
+    for (size_t k = 0; k < line->start.outputs; k++) {
+        *suffix = k < components ? "" : derived[k - components];
+        if ((k == component || k >= components) && !isfinite(values[k * some + i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
+                         double jump, struct gm_line_ends *ends, char *sentence, size_t size)
+{
+    const char *name = line->system->variables[component].name, *suffix;
+    double values[GM_LINE_BLOCK];
+    *ends = (struct gm_line_ends){.low = INFINITY, .high = -INFINITY};
+    for (size_t first = 0, some; first < grid->points; first += some) {
+        some = gm_user_line_block(line, grid, first, values);
+        for (size_t i = 0; i < some; i++) {
+            if (!is_finite(line, values, some, i, component, &suffix)) {
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, suffix,
+                         gm_grid1_node(grid, first + i));
+                return false;
+            }
+            ends->low = fmin(ends->low, values[component * some + i]);
+            ends->high = fmax(ends->high, values[component * some + i]);
+        }
+    }
+    const double x[] = {grid->first, -grid->first};
+    gm_tape_values(&line->start, x, values, 2);
+    ends->left = values[2 * component];
+    ends->right = values[2 * component + 1];
+    const double largest = fmax(fabs(ends->low), fabs(ends->high));
+    if (!grid->walls && !isnan(jump) &&
+        !(fabs(ends->right - ends->left - jump) <= 1e-3 * fmax(ends->high - ends->low, 1e-12 * largest))) {
+        snprintf(
+            sentence, size,
+            "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other%s",
+            name, ends->left, ends->right,
+            line->system->kind == GM_EVOLUTION ? "" : " (jump: tells by how much they differ)");
+        return false;
+    }
+    return true;
+}

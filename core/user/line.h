@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a file tells of the components of a field on a line, with the values of its parameters: how they start, and their
+   exact solution. */
+#ifndef GM_CORE_USER_LINE_H
+#define GM_CORE_USER_LINE_H
+
+#include "core/grid1.h"
+#include "core/model/system.h"
+#include "core/tape.h"
+
+/* The formulas, with x as variable 0 and t as variable 1. */
+struct gm_line_formulas {
+    gm_node_id start[GM_MOST_OF_MATRICES], exact[GM_MOST_OF_MATRICES];
+};
+/* How many components a state has at each node: of waves one, with another level of it. */
+size_t gm_line_components(const struct gm_user_system *system);
+/* Whether the exact solution of all of them is known. */
+bool gm_line_is_solved(const struct gm_user_system *system);
+/* Derives the formulas; false where memory was refused. The graph grows. */
+bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *system);
+
+/* First in the parameters of every problem that is made of such a file. */
+struct gm_user_line {
+    const struct gm_user_system *system;
+    struct gm_tape start; /* of x: the components, and behind them derivatives over t of the first */
+    struct gm_tape exact; /* of x and t; without outputs where it is not known */
+};
+/* `values` are those of all variables (gm_equations_start); of what starts there are `outputs`. False where memory was
+   refused. To be closed in both cases. */
+bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *system,
+                       const gm_node_id *start, size_t outputs, const gm_node_id *exact,
+                       const double *values);
+void gm_user_line_close(struct gm_user_line *line);
+
+/* The exact solution of a component; NaN where it is not known. */
+double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
+
+/* What starts at nodes from number `first` on, at most GM_LINE_ROOM, [output * that many + i]: how many. */
+enum { GM_LINE_ROOM = 128, GM_LINE_BLOCK = GM_LINE_ROOM * GM_MOST_OF_MATRICES };
+size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
+                          double values[GM_LINE_BLOCK]);
+/* Of all nodes, [output * points + node]. */
+void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y);
+
+/* Between which values a component starts, and where at both ends. */
+struct gm_line_ends {
+    double low, high, left, right;
+};
+/* Whether a component's start is finite, and, on a ring, the same at both ends but for the jump (NaN: it need not be) and
+   a thousandth of its range. A sentence if not. */
+bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
+                         double jump, struct gm_line_ends *ends, char *sentence, size_t size);
+
+#endif

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The systems of one file, and the rows that their tables have in common. */
+#include "scenes/ode/system/variants.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/memory.h"
+#include "scenes/ode/system/pieces.h"
+
+enum { MOST_BUILDING = 16 };
+
+/* Guards the list of a scene's systems, which grows while lanes are opened. */
+static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
+
+/* The rows of all, those of the first system first. */
+struct tables {
+    struct gm_parameter *rows; /* with the common ones behind them */
+    struct gm_observable *observables;
+    size_t row_count, observable_count;
+};
+
+/* The number of the row, of so many of that size, that begins with the key; their number: there is none. */
+static size_t find(const void *rows, size_t size, size_t count, const char *key)
+{
+    size_t i = 0;
+    while (i < count && strcmp(*(const char *const *)((const char *)rows + i * size), key) != 0) {
+        i++;
+    }
+    return i;
+}
+
+/* Whether another value of a row is another system: of a choice, and of what the equations are built on where no words
+   make the scene anew. */
+static bool builds(const struct gm_system_scene *scene, size_t row)
+{
+    const size_t number = scene->variables[row];
+    const struct gm_system_variable *variable =
+        number != GM_NO_VARIABLE ? &scene->system.variables[number] : NULL;
+    return row >= GM_SYSTEM_ROWS &&
+           (scene->rows[row].type == GM_CHOICE ||
+            (variable && variable->fixed && !isnan(variable->low) && !scene->scene.words));
+}
+
+/* Adds what a system has beside those of the same keys, whose ranges hold those of all. */
+static void add(struct tables *tables, const struct gm_system_scene *other)
+{
+    for (size_t i = 0; i < other->row_count; i++) {
+        const size_t row = find(tables->rows, sizeof *tables->rows, tables->row_count, other->rows[i].key);
+        struct gm_parameter *to = &tables->rows[row], own = other->rows[i];
+        if (builds(other, i) && own.type != GM_CHOICE) {
+            own.lowest = other->system.variables[other->variables[i]].low;
+            own.highest = other->system.variables[other->variables[i]].high;
+        }
+        if (row == tables->row_count) {
+            *to = own;
+            to->offset += (row - i) * sizeof(double);
+            tables->row_count++;
+        }
+        to->lowest = fmin(to->lowest, own.lowest);
+        to->highest = fmax(to->highest, own.highest);
+    }
+    for (size_t i = 0; i < other->observable_count; i++) {
+        struct gm_observable *rows = tables->observables;
+        if (find(rows, sizeof *rows, tables->observable_count, other->observables[i].key) ==
+            tables->observable_count) {
+            rows[tables->observable_count++] = other->observables[i];
+        }
+    }
+}
+
+static double nothing(const struct gm_view *view)
+{
+    (void)view;
+    return NAN;
+}
+
+/* A system takes the rows: its values and formulas stand where each now is. False: out of memory. */
+static bool take(struct gm_system_scene *own, const struct tables *tables)
+{
+    const size_t rows = tables->row_count, count = tables->observable_count,
+                 size = sizeof *own->initial + rows * (sizeof(double) + 1);
+    const struct gm_system_scene before = *own;
+    char text[GM_CHOICE_SIZE + 32];
+    own->rows = calloc(rows + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *own->rows);
+    own->variables = calloc(rows, sizeof *own->variables);
+    own->initial = calloc(1, size);
+    own->observables = calloc(count + 1, sizeof *own->observables);
+    own->formulas = calloc(count + 1, sizeof *own->formulas);
+    own->terms = calloc(count + 1, sizeof *own->terms);
+    const bool good =
+        own->rows && own->variables && own->initial && own->observables && own->formulas && own->terms;
+    for (size_t row = 0; good && row < rows; row++) {
+        const struct gm_parameter *to = &tables->rows[row];
+        const size_t from = find(before.rows, sizeof *to, before.row_count, to->key);
+        const bool found = from < before.row_count;
+        own->variables[row] = found ? before.variables[from] : GM_NO_VARIABLE;
+        gm_parameter_set(to, own->initial,
+                         found ? gm_parameter_format(&before.rows[from], before.initial, text, sizeof text)
+                               : to->standard);
+    }
+    for (size_t i = 0; good && i < count; i++) {
+        const struct gm_observable *row = &tables->observables[i];
+        const size_t from = find(before.observables, sizeof *row, before.observable_count, row->key);
+        if (from < before.observable_count) {
+            own->observables[i] = before.observables[from];
+            own->formulas[i] = before.formulas[from];
+            own->terms[i] = before.terms[from];
+            before.formulas[from] = before.terms[from] = (struct gm_tape){0};
+        } else {
+            own->observables[i] = (struct gm_observable){.key = row->key,
+                                                         .title = row->title,
+                                                         .unit = row->unit,
+                                                         .evaluate = nothing,
+                                                         .missing = own->lacks,
+                                                         .logarithmic = row->logarithmic};
+        }
+    }
+    for (size_t i = 0; good && i < before.observable_count; i++) { /* what no row of the scene is */
+        gm_tape_close(&before.formulas[i]);
+        gm_tape_close(&before.terms[i]);
+    }
+    struct gm_system_scene gone = good ? before : *own;
+    if (good) {
+        memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
+        memcpy(own->rows, tables->rows, (rows + GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *own->rows);
+        own->common = own->rows + rows;
+        own->scene.parameter_count += rows - own->row_count;
+        own->row_count = rows;
+        own->observable_count = own->scene.observable_count = count;
+        own->scene.size = size;
+        own->scene.initial = own->initial;
+        own->scene.parameters = own->rows;
+        own->scene.observables = own->observables;
+    } else {
+        *own = before;
+    }
+    free(gone.rows);
+    free(gone.variables);
+    free(gone.initial);
+    free(gone.observables);
+    free(gone.formulas);
+    free(gone.terms);
+    return good;
+}
+
+/* Puts a system among those of the file, with their rows. */
+static bool join(struct gm_system_scene *own, struct gm_system_scene *first, const struct tables *tables)
+{
+    own->scene.asked = first->scene.asked;
+    own->scene.asked_count = first->scene.asked_count;
+    own->first = take(own, tables) ? first : NULL;
+    return own->first != NULL;
+}
+
+bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value)
+{
+    own->lacks = gm_system_kept_text(own, "with %s=%s there is none", key, value);
+    return own->lacks != NULL;
+}
+
+bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
+                     char *sentence)
+{
+    const struct gm_written_choices *choices = &first->system.choices;
+    size_t building = 0, rows = first->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS,
+           observables = first->observable_count + 1;
+    for (size_t row = 0; row < first->row_count; row++) {
+        building += builds(first, row);
+    }
+    for (size_t i = 0; i < choices->count; i++) {
+        const struct gm_written_choice *choice = &choices->list[i];
+        for (size_t k = 0; k < choice->count; k++) {
+            const struct gm_system_value word = {choice->name, choice->words[k]};
+            struct gm_system_scene *other =
+                k != choice->chosen ? make(first, &word, 1, fault, sentence) : NULL;
+            if (other) {
+                other->next = first->next;
+                first->next = other;
+                rows += other->row_count;
+                observables += other->observable_count;
+            } else if (k != choice->chosen) {
+                return false;
+            }
+        }
+    }
+    struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
+                            .observables = calloc(observables, sizeof *tables.observables)};
+    const struct gm_written_choice *usual = choices->list;
+    bool good =
+        tables.rows && tables.observables && gm_system_lack(first, usual->name, usual->words[usual->chosen]);
+    for (const struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+        add(&tables, other);
+    }
+    if (good) {
+        memcpy(tables.rows + tables.row_count, first->common,
+               (GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *tables.rows);
+    }
+    for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+        good = join(other, first, &tables);
+    }
+    free(tables.rows);
+    free(tables.observables);
+    return good || gm_refuse(sentence, "not enough memory");
+}
+
+/* Whether a system is that of a lane's values. */
+static bool is_of(const struct gm_system_scene *other, const struct gm_system_lane *lane)
+{
+    for (size_t row = 0; other->first && row < other->row_count; row++) {
+        if (builds(other, row) && gm_parameter_get(&other->rows[row], lane) !=
+                                      gm_parameter_get(&other->rows[row], other->initial)) {
+            return false;
+        }
+    }
+    return other->first != NULL;
+}
+
+/* Makes one that there is not yet. */
+static struct gm_system_scene *add_variant(struct gm_system_scene *first, const struct gm_system_lane *lane,
+                                           gm_system_maker make, char *sentence)
+{
+    struct gm_system_value values[MOST_BUILDING];
+    char texts[MOST_BUILDING][GM_CHOICE_SIZE + 32];
+    size_t count = 0;
+    struct gm_fault fault;
+    const unsigned long refusals = gm_memory_refusals();
+    for (size_t row = 0; row < first->row_count && count < MOST_BUILDING; row++) {
+        if (builds(first, row)) {
+            const struct gm_parameter *at = &first->rows[row];
+            values[count] = (struct gm_system_value){
+                at->key, gm_parameter_format(at, lane, texts[count], sizeof texts[count])};
+            count++;
+        }
+    }
+    struct gm_system_scene *made = make(first, values, count, &fault, sentence);
+    const struct tables tables = {first->rows, first->observables, first->row_count, first->observable_count};
+    if (made) {
+        made->next = first->next;
+        first->next = made;
+    }
+    return made && join(made, first, &tables) && gm_memory_refusals() == refusals ? made : NULL;
+}
+
+bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence)
+{
+    struct gm_system_scene *first = lane->owner->first, *other = first;
+    if (!first) {
+        return true;
+    }
+    pthread_mutex_lock(&listing);
+    while (other && !is_of(other, lane)) {
+        other = other->next;
+    }
+    gm_refuse(sentence, "not enough memory");
+    other = other ? other : add_variant(first, lane, make, sentence);
+    pthread_mutex_unlock(&listing);
+    lane->owner = other ? other : lane->owner;
+    return other != NULL;
+}

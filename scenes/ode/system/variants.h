@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The systems of one file: one for each of the words of its choices, and of the values of parameters that equations are
+   built on. Their tables have the same rows, so that lanes of several are one scene. */
+#ifndef GM_SCENES_ODE_SYSTEM_VARIANTS_H
+#define GM_SCENES_ODE_SYSTEM_VARIANTS_H
+
+#include "scenes/ode/system/look.h"
+
+/* Makes the scene of the text with these values; NULL with a fault, or with a sentence alone. */
+typedef struct gm_system_scene *(*gm_system_maker)(const struct gm_system_scene *first,
+                                                   const struct gm_system_value *values, size_t count,
+                                                   struct gm_fault *fault, char *sentence);
+
+/* Makes the systems of all words of the choices, and gives them and the first one the rows of all. False with a fault,
+   or with a sentence alone. */
+bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
+                     char *sentence);
+/* Says of a system by which value it lacks what others have. False: out of memory. */
+bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value);
+/* Gives a lane the system that its values mean. False with a sentence. */
+bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence);
+
+#endif
