@@ -11,8 +11,9 @@
 #include "core/arena.h"
 #include "scenes/common/scene.h"
 
-void gm_arguments_close(struct gm_arguments *arguments)
+void gm_arguments_close(void *self)
 {
+    struct gm_arguments *arguments = self;
     for (int i = 0; i < arguments->count; i++) {
         free(arguments->words[i]);
     }
@@ -20,14 +21,9 @@ void gm_arguments_close(struct gm_arguments *arguments)
     *arguments = (struct gm_arguments){0};
 }
 
-static void close_list(void *arguments)
-{
-    gm_arguments_close(arguments);
-}
-
 struct gm_arguments *gm_arguments_in(struct gm_arena *arena)
 {
-    return gm_arena_keep(arena, gm_arena_take(arena, 1, sizeof(struct gm_arguments)), close_list);
+    return gm_arena_keep(arena, gm_arena_take(arena, 1, sizeof(struct gm_arguments)), gm_arguments_close);
 }
 
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word)

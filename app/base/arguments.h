@@ -14,7 +14,7 @@ struct gm_arguments { /* {0} is an empty list */
     char **words;     /* its own copies, and a NULL behind the last */
     int count;
 };
-void gm_arguments_close(struct gm_arguments *arguments);
+void gm_arguments_close(void *arguments);
 /* An empty list that closes with the arena, in a body of it. */
 struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
 

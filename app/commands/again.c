@@ -44,11 +44,6 @@ _Noreturn static void refuse(const struct gm_options *options, const char *why)
     gm_command_end(options, GM_EXIT_FILE, "%s cannot be made again: %s", options->arguments.words[0], why);
 }
 
-static void close_request(void *request)
-{
-    gm_request_close(request);
-}
-
 static void close_lane(void *lane)
 {
     gm_lane_close(lane);
@@ -226,7 +221,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     if (!take_look(&print.look, texts)) {
         refuse(options, "its size is damaged");
     }
-    gm_arena_keep(options->arena, request, close_request);
+    gm_arena_keep(options->arena, request, gm_request_close);
     if (!gm_request_recall(request, texts[ARGUMENTS], message)) {
         refuse(options, message);
     }

@@ -59,17 +59,12 @@ void gm_put_duration(double seconds, char *text, size_t size)
     snprintf(text, size, count < 1e5 ? "%.*f %s" : "%.*g %s", count < 9.5 ? 1 : 0, count, units[unit].name);
 }
 
-static void close_request(void *request)
-{
-    gm_request_close(request);
-}
-
 struct gm_request *gm_command_parse(const struct gm_options *options, int count, char *const words[],
                                     size_t schemes)
 {
     char message[GM_MESSAGE];
     struct gm_request *request = gm_arena_take(options->arena, 1, sizeof *request);
-    gm_arena_keep(options->arena, request, close_request);
+    gm_arena_keep(options->arena, request, gm_request_close);
     if (!gm_request_parse(request, count, words, schemes, message)) {
         gm_command_end(options, gm_request_refusal(request), "%s", message);
     }

@@ -11,6 +11,7 @@
 #include "app/output/say.h"
 #include "app/words/names.h"
 #include "app/words/system.h"
+#include "app/words/words.h"
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/derivative.h"
@@ -690,13 +691,20 @@ static struct report *open_report(const struct gm_options *options, const struct
     return report;
 }
 
-/* What is told of a system can be run too: its schemes, members and observables are those of a scene. */
-static void check_scene(const struct gm_options *options)
+/* A system that is listed can be run too: its schemes, members and observables are those of a scene. Words without a
+   file must be keys of it. */
+static void check_scene(const struct gm_options *options, bool typed)
 {
-    char message[GM_MESSAGE];
+    char message[GM_MESSAGE] = "not enough memory";
+    char *const *words = options->arguments.words;
+    const int count = options->arguments.count;
     struct gm_system_trial trial;
-    const bool good = gm_system_try(&trial, options->arguments.count, options->arguments.words, message);
-    const int status = trial.status;
+    struct gm_words read = {0};
+    const bool good =
+        gm_system_try(&trial, count, words, message) &&
+        (!typed || gm_words_read(&read, trial.scene, count - 1, words + 1, GM_RUN_SCHEMES, message));
+    const int status = trial.scene ? GM_EXIT_USAGE : trial.status;
+    gm_words_close(&read);
     gm_system_trial_close(&trial);
     if (!good) {
         gm_command_end(options, status, "%s", message);
@@ -734,7 +742,7 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
-    check_scene(options);
+    check_scene(options, !file);
     const double *start = start_of(report);
     const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
     /* what was not checked for want of memory is not called unchecked */

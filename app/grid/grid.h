@@ -179,7 +179,7 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
                   const char *measure, char *message);
 /* Makes the runs; stopped, the others stay untried. False with a sentence. */
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
-void gm_grid_close(struct gm_grid *grid);
+void gm_grid_close(void *grid);
 
 /* For gm_chart_write: `grid` is a struct gm_grid. Fills an empty picture; writes the cells as CSV, false with errno. */
 void gm_grid_draw(const void *grid, struct gm_picture *picture);

@@ -39,11 +39,6 @@ struct gm_grid_line *gm_grid_add(struct gm_grid *grid, const struct gm_scheme *s
     return line;
 }
 
-static void close_request(void *request)
-{
-    gm_request_close(request);
-}
-
 void gm_cells_open(struct gm_grid *grid)
 {
     char message[GM_MESSAGE];
@@ -65,7 +60,7 @@ void gm_cells_open(struct gm_grid *grid)
     if (!gm_request_parse(&grid->request, words->count, words->words, row->schemes, message)) {
         gm_arena_refuse(grid->arena, "%s", message);
     }
-    gm_arena_keep(grid->arena, &grid->request, close_request);
+    gm_arena_keep(grid->arena, &grid->request, gm_request_close);
     row->lay_out(grid, words);
 }
 

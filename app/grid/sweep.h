@@ -47,7 +47,7 @@ struct gm_sweep {
    (GM_MESSAGE bytes). To be closed in both cases. */
 bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
                    char *message);
-void gm_sweep_close(struct gm_sweep *sweep);
+void gm_sweep_close(void *sweep);
 
 /* How many runs the share has, and the number of its k-th. */
 size_t gm_sweep_share(const struct gm_sweep *sweep);
@@ -130,7 +130,7 @@ bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
 /* Takes the row of a run, or those of a table; false with a sentence where that cannot be read. */
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row);
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message);
-void gm_sweep_chart_close(struct gm_sweep_chart *chart);
+void gm_sweep_chart_close(void *chart);
 void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
 
 /* The run that a map shows at (x, y), in the units of its axes; `map` is its number among the panels. False

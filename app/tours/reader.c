@@ -306,11 +306,6 @@ static const struct entry *entry_of(const struct entry *entries, size_t count, e
     return NULL;
 }
 
-static void close_request(void *request)
-{
-    gm_request_close(request);
-}
-
 /* entries[0] is the step's title. */
 static void read_step(const struct reader *reader, const struct entry *entries, size_t count)
 {
@@ -321,7 +316,7 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
     }
     struct gm_tour_step *step = &tour->steps[tour->count++];
     *step = (struct gm_tour_step){.until = NAN, .seconds = usual_seconds};
-    gm_arena_keep(reader->arena, &step->request, close_request);
+    gm_arena_keep(reader->arena, &step->request, gm_request_close);
     for (size_t i = 0; i < count; i++) {
         take_entry(reader, &entries[i], step);
     }

@@ -637,8 +637,9 @@ void gm_changes_drop(struct gm_request *request,
     }
 }
 
-void gm_request_close(struct gm_request *request)
+void gm_request_close(void *self)
 {
+    struct gm_request *request = self;
     for (size_t i = 0; i < request->count; i++) {
         free(request->lanes[i].parameters);
     }

@@ -58,7 +58,7 @@ bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *sce
                           char *const words[], size_t schemes, char *message);
 /* The same of the arguments of a request that was made once, as text: a key may have no effect any more. */
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
-void gm_request_close(struct gm_request *request);
+void gm_request_close(void *request);
 
 /* Whether the runs of a comparison end together, as they do not where steps= is typed beside several steps; a
    sentence if not. */

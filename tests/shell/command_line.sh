@@ -42,6 +42,7 @@ refused 1 'no ending of .npz, .csv, .pvd, .xdmf' run disc --save=a.hdf5
 refused 1 'did you mean kepler$' list keplr
 refused 1 'did you mean schemes$' list schems
 refused 1 'not "xyzzy"$' list xyzzy
+refused 1 'has no parameter "nonsense"' list system 'H=p^2/2 + q^2/2' q=1 p=0 nonsense=4
 # what makes the square's mesh has no effect on one from a file, and nothing is named without a file
 refused 1 '^geomint: rows= has no effect here: the mesh comes from a file$' \
     run room "mesh=$meshes/room-small.msh" rows=20,30 steps=1

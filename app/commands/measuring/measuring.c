@@ -72,11 +72,6 @@ static void print_json(const struct gm_grid *grid, const struct gm_study_printer
     }
 }
 
-static void close_grid(void *grid)
-{
-    gm_grid_close(grid);
-}
-
 int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
                      const struct gm_study_printer *printer)
 {
@@ -87,7 +82,7 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
                       message)) {
         gm_command_end(options, gm_request_refusal(&grid->request), "%s", message);
     }
-    gm_arena_keep(options->arena, grid, close_grid);
+    gm_arena_keep(options->arena, grid, gm_grid_close);
     gm_command_confirm(options, &grid->request);
     grid->jobs = options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
     gm_catch_interrupts();

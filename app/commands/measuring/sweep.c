@@ -112,11 +112,6 @@ static void draw(const void *chart, struct gm_picture *picture)
     gm_sweep_chart_draw(chart, picture);
 }
 
-static void close_chart(void *chart)
-{
-    gm_sweep_chart_close(chart);
-}
-
 /* The picture of a table that is complete; its words are those of the sweep. */
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
@@ -125,7 +120,7 @@ static int paint(const struct gm_sweep *sweep, const struct gm_options *options,
     gm_arena_need(options->arena, gm_arguments_split(words, sweep->arguments));
     struct gm_sweep_chart *chart = gm_sweep_chart_open(sweep, message);
     if (chart) {
-        gm_arena_keep(options->arena, chart, close_chart);
+        gm_arena_keep(options->arena, chart, gm_sweep_chart_close);
     }
     if (!chart || !gm_sweep_chart_read(chart, path, message)) {
         return gm_give_up(GM_EXIT_FILE, "%s", message);
@@ -173,11 +168,6 @@ static void name_missing(size_t run, const char *words)
     gm_complain("run %zu has no row: geomint %s", run, words);
 }
 
-static void close_sweep(void *sweep)
-{
-    gm_sweep_close(sweep);
-}
-
 static int join(const struct gm_options *options, struct gm_sweep *sweep)
 {
     char message[GM_MESSAGE];
@@ -202,7 +192,7 @@ int gm_command_sweep(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_sweep *sweep =
-        gm_arena_keep(options->arena, gm_arena_take(options->arena, 1, sizeof *sweep), close_sweep);
+        gm_arena_keep(options->arena, gm_arena_take(options->arena, 1, sizeof *sweep), gm_sweep_close);
     if (options->join) {
         return gm_finish(join(options, sweep));
     }

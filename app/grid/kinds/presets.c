@@ -46,8 +46,9 @@ bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, c
     return (grid->row->measure ? grid->row->measure : gm_cells_measure)(grid, listener, message);
 }
 
-void gm_grid_close(struct gm_grid *grid)
+void gm_grid_close(void *self)
 {
+    struct gm_grid *grid = self;
     gm_arena_close(grid->arena);
     *grid = (struct gm_grid){0};
 }

@@ -174,8 +174,9 @@ bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *m
     return true;
 }
 
-void gm_sweep_chart_close(struct gm_sweep_chart *chart)
+void gm_sweep_chart_close(void *self)
 {
+    struct gm_sweep_chart *chart = self;
     if (chart) {
         free(chart->cells);
         free(chart);

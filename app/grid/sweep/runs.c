@@ -258,8 +258,9 @@ bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments,
     return (sweep->arguments && sweep->head) || gm_refuse(message, "not enough memory");
 }
 
-void gm_sweep_close(struct gm_sweep *sweep)
+void gm_sweep_close(void *self)
 {
+    struct gm_sweep *sweep = self;
     gm_words_close(&sweep->words);
     free(sweep->arguments);
     free(sweep->head);
