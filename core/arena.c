@@ -10,6 +10,7 @@
 /* A block of memory stands behind its entry; a thing that was kept stands elsewhere. */
 struct gm_arena_entry {
     struct gm_arena_entry *before, *after;
+    size_t number; /* of those that were taken: a block that is resized has the number that it had */
     void *thing;
     void (*close)(void *thing); /* NULL: a block */
     _Alignas(max_align_t) unsigned char block[];
@@ -17,6 +18,7 @@ struct gm_arena_entry {
 
 struct gm_arena {
     struct gm_arena_entry *top;
+    size_t taken;
     jmp_buf *leave; /* NULL: no body runs */
     char reason[512];
 };
@@ -28,9 +30,9 @@ struct gm_arena *gm_arena_open(void)
     return calloc(1, sizeof(struct gm_arena));
 }
 
-void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top)
+void gm_arena_release(struct gm_arena *arena, size_t mark)
 {
-    while (arena->top != top) {
+    while (arena->top && arena->top->number > mark) {
         struct gm_arena_entry *entry = arena->top;
         arena->top = entry->before;
         if (arena->top) {
@@ -61,15 +63,15 @@ void gm_arena_drop(struct gm_arena *arena, const void *thing)
     free(entry);
 }
 
-struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena)
+size_t gm_arena_mark(const struct gm_arena *arena)
 {
-    return arena->top;
+    return arena->taken;
 }
 
 void gm_arena_close(struct gm_arena *arena)
 {
     if (arena) {
-        gm_arena_release(arena, NULL);
+        gm_arena_release(arena, 0);
         free(arena);
     }
 }
@@ -79,7 +81,7 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
     if (!arena) {
         return false;
     }
-    struct gm_arena_entry *const top = arena->top;
+    const size_t mark = gm_arena_mark(arena);
     jmp_buf *const outer = arena->leave;
     jmp_buf here;
     bool whole = false;
@@ -90,7 +92,7 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
     }
     arena->leave = outer;
     if (!whole) {
-        gm_arena_release(arena, top);
+        gm_arena_release(arena, mark);
     }
     return whole;
 }
@@ -132,6 +134,7 @@ void gm_arena_need(struct gm_arena *arena, bool there)
 static struct gm_arena_entry *add(struct gm_arena *arena, struct gm_arena_entry *entry)
 {
     entry->before = arena->top;
+    entry->number = ++arena->taken;
     if (arena->top) {
         arena->top->after = entry;
     }
@@ -178,9 +181,10 @@ char *gm_arena_print(struct gm_arena *arena, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    const size_t size = (size_t)vsnprintf(NULL, 0, format, arguments) + 1;
+    const int letters = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    char *text = gm_arena_take(arena, size, 1);
+    const size_t size = (size_t)letters + 1;
+    char *text = letters >= 0 ? gm_arena_take(arena, size, 1) : refused(arena);
     if (text) {
         va_start(arguments, format);
         vsnprintf(text, size, format, arguments);

@@ -12,7 +12,6 @@
 #include <stddef.h>
 
 struct gm_arena;
-struct gm_arena_entry;
 
 /* NULL: out of memory. */
 struct gm_arena *gm_arena_open(void);
@@ -29,7 +28,7 @@ const char *gm_arena_reason(const struct gm_arena *arena);
 void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size);
 /* A block that was taken (or NULL), with another size; what is new is not set. */
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size);
-/* A text. */
+/* A text; refused where one of its values has no letters, as where memory is. */
 __attribute__((format(printf, 2, 3))) char *gm_arena_print(struct gm_arena *arena, const char *format, ...);
 /* Closes the thing with the arena; at once, if the memory to note it is refused. A thing that is NULL was refused. */
 void *gm_arena_keep(struct gm_arena *arena, void *thing, void (*close)(void *thing));
@@ -37,9 +36,9 @@ void *gm_arena_keep(struct gm_arena *arena, void *thing, void (*close)(void *thi
 /* Closes a thing that was kept before the others. */
 void gm_arena_drop(struct gm_arena *arena, const void *thing);
 
-/* What was taken last; and closes all that was taken after it. Scratch memory lies between the two. */
-struct gm_arena_entry *gm_arena_top(const struct gm_arena *arena);
-void gm_arena_release(struct gm_arena *arena, struct gm_arena_entry *top);
+/* A mark behind what has been taken; and closes all that was taken after it. Scratch memory lies between the two. */
+size_t gm_arena_mark(const struct gm_arena *arena);
+void gm_arena_release(struct gm_arena *arena, size_t mark);
 
 /* Leaves the body, for lack of memory, unless what another one was to make is there. */
 void gm_arena_need(struct gm_arena *arena, bool there);

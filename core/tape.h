@@ -5,7 +5,8 @@
 #ifndef GM_CORE_TAPE_H
 #define GM_CORE_TAPE_H
 
-#include "core/expression/graph.h"
+#include "core/arena.h"
+#include "core/expression/derivative.h"
 
 /* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums number
    `to`. */
@@ -62,6 +63,14 @@ struct gm_tape {
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
                   size_t inputs, const double *values);
 void gm_tape_close(struct gm_tape *tape);
+/* In the body of an arena: leaves it where the tape was not opened, else the arena closes it. */
+void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
+
+/* In the body of an arena: leaves it where a matrix was not derived, else the arena holds its entries. */
+void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
+/* So many nodes, and behind them those of a matrix. */
+gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
+                            const struct gm_sparse *jacobian);
 
 /* Goes through the operations one by one, those that are repeated and the terms of sums as well: false at the
    end. `at` is {0} at first. */

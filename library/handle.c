@@ -532,10 +532,12 @@ static bool put_lane(FILE *stream, const struct gm_drive *drive)
     gm_lane_warning(drive->lane, warning, sizeof warning);
     char *meta = gm_meta_text(drive->lane, gm_status_name(run->status), sentence);
     if (meta) {
-        fprintf(stream, "%.*s,\"warning\":", (int)strlen(meta) - 1, meta); /* without its last brace */
-        gm_json_put_text(stream, warning);
-        fprintf(stream, ",\"evaluations\":%.0f,\"solves\":%.0f}", gm_run_per_member(run, run->evaluations),
-                gm_run_per_member(run, run->solves));
+        fprintf(stream, "%.*s", (int)strlen(meta) - 1, meta); /* without its last brace */
+        struct gm_row row = {.stream = stream, .form = GM_ROW_JSON, .begun = true};
+        gm_row_text(&row, "warning", warning);
+        gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
+        gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
+        fputc('}', stream);
     }
     free(meta);
     return meta != NULL;

@@ -154,10 +154,7 @@ char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
         fputc(' ', stream);
         gm_arguments_put(stream, arguments->words[i]);
     }
-    if (fclose(stream) != 0) {
-        free(text);
-        return NULL;
-    }
+    fclose(stream);
     return text;
 }
 

@@ -1,7 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
-   name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
-   GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
 #ifndef GM_APP_BASE_FILES_H
 #define GM_APP_BASE_FILES_H
 
@@ -9,6 +6,10 @@
 #include <stddef.h>
 
 #include "core/files/files.h"
+
+/* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
+   name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
+   GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
 
 struct gm_file {
     const struct gm_built_in *built_in; /* NULL: it is at the path */
@@ -35,5 +36,20 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
                    const void *data, char *message);
 /* Whether that folder can be opened, or there is none; false with the sentence. */
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
+
+/* Where in some words something is wrong. */
+struct gm_word_place {
+    int word;      /* below 0: nowhere in them */
+    size_t offset; /* in bytes */
+};
+
+struct gm_fault;
+
+/* Reports what is wrong with the text of a file, with its line and column (GM_MESSAGE bytes). */
+void gm_place_report(const char *path, const char *text, const struct gm_fault *fault, char *message);
+
+/* Appends to a message (GM_MESSAGE bytes) the line of a text that is wrong, and below it a line with a caret
+   at the place. Only what is ASCII is shown as it is. */
+void gm_place_show(const char *text, size_t length, size_t offset, char *message);
 
 #endif

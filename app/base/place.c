@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where in a text something is wrong, for people to see. */
-#include "app/base/place.h"
+#include "app/base/files.h"
 
 #include <stdio.h>
 #include <string.h>

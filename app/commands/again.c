@@ -16,7 +16,7 @@
 #include "core/expression/lines.h"
 #include "core/schemes.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 /* The texts that it reads. */
 enum {

@@ -15,6 +15,7 @@
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
+#include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -209,8 +210,7 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
     char key[64];
     snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
     const struct gm_common_key *common = gm_common_key_find(key);
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, key),
-                              *row = parameter ? parameter : gm_setting_find(key);
+    const struct gm_parameter *row = gm_word_parameter(scene, key);
     if (strcmp(key, "scheme") == 0) {
         offer_schemes(&stem, scene);
     } else if (common) {
@@ -271,15 +271,14 @@ static void offer_options(const struct gm_command_row *command, const char *word
 /* What a command takes that is no option. */
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
+    static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
     const struct stem stem = whole(word);
     switch (command->bit) {
     case GM_LIST:
-        offer(&stem, "scenes", "");
-        offer(&stem, "systems", "");
-        offer(&stem, "rooms", "");
-        offer(&stem, "schemes", "");
-        offer(&stem, "figures", "");
-        offer(&stem, "tours", "");
+        for (size_t i = 0; i < GM_COUNT(lists); i++) {
+            offer(&stem, lists[i], "");
+        }
+        offer_schemes(&stem, NULL);
         offer_scenes(&stem);
         return;
     case GM_FIGURES:

@@ -2,7 +2,6 @@
 /* geomint figures: published figures made again by as many processes as there are processors, on one page
    with what the documents say and whether it holds; beside them, or alone, systems of somebody's own. */
 #include <errno.h>
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

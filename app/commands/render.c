@@ -175,6 +175,9 @@ static bool resume(struct work *work, char *message)
     }
     const bool read = gm_checkpoint_read(work->checkpoint, &work->frames, &frame, work->lanes,
                                          work->request->count, &spoilt);
+    if (gm_memory_was_short()) {
+        return gm_refuse(message, "not enough memory to read %.300s", work->checkpoint);
+    }
     if (read && frame < first) {
         return true;
     }

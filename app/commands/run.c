@@ -99,69 +99,64 @@ static const char *tell_end(const struct outcome *outcome, char *sentence, size_
     return gm_status_name(lane->run->status);
 }
 
-/* Why values are null, where any is. */
-static void print_json_reasons(const struct outcome *outcome)
-{
-    const char *front = ",\"reasons\":{";
-    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
-        const char *reason = missing(outcome, i);
-        if (reason) {
-            fputs(front, stdout);
-            gm_json_pair(told(outcome, i)->key, reason);
-            front = ",";
-        }
-    }
-    fputs(front[1] ? "" : "}", stdout);
-}
-
 static void print_json(const struct outcome *outcome, const struct gm_options *options)
 {
     const struct gm_lane *lane = outcome->drive.lane;
     const struct gm_run *run = lane->run;
-    char sentence[GM_MESSAGE];
+    const size_t count = outcome->outputs->chosen.count;
+    char sentence[GM_MESSAGE], key[128];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
-    printf("{");
-    gm_json_pair("scene", lane->scene->name);
-    gm_meta_source(stdout, lane->scene);
-    printf(",");
-    gm_json_pair("scheme", lane->scheme->name);
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_text(&row, "scene", lane->scene->name);
+    gm_meta_source(&row, lane->scene);
+    gm_row_text(&row, "scheme", lane->scheme->name);
     if (gm_engine_of(lane)) {
-        putchar(',');
-        gm_json_pair("engine", gm_engine_of(lane));
+        gm_row_text(&row, "engine", gm_engine_of(lane));
     }
-    printf(",\"parameters\":");
-    gm_meta_parameters(stdout, lane);
-    printf(",\"status\":\"%s\",\"message\":\"%s\",\"warning\":\"%s\",\"t\":", status, sentence,
-           outcome->warning);
-    gm_json_number(run->t);
+    gm_meta_parameters(&row, lane);
+    gm_row_text(&row, "status", status);
+    gm_row_text(&row, "message", sentence);
+    gm_row_text(&row, "warning", outcome->warning);
+    gm_row_number(&row, "t", run->t, 17);
     if (lane->scene->stop) {
-        printf(",\"stopped\":%s", gm_lane_stopped(lane) ? "true" : "false");
+        gm_row_flag(&row, "stopped", gm_lane_stopped(lane));
     }
-    printf(",\"steps\":%" PRId64 ",\"evaluations\":%.0f,\"solves\":%.0f", run->steps,
-           gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
+    gm_row_count(&row, "steps", (double)run->steps);
+    gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
+    gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
     if (run->factor_solves > 0) {
-        printf(",\"factor_solves\":%.0f", gm_run_per_member(run, run->factor_solves));
+        gm_row_count(&row, "factor_solves", gm_run_per_member(run, run->factor_solves));
     }
-    printf(",\"seconds\":%.6g,\"observables\":{", outcome->drive.seconds);
-    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
-        printf("%s\"%s\":", i ? "," : "", told(outcome, i)->key);
-        gm_json_number(outcome->values[i]);
+    printf(",\"seconds\":%.6g", outcome->drive.seconds);
+    struct gm_row observables = gm_row_open(&row, "observables", '}');
+    for (size_t i = 0; i < count; i++) {
+        gm_row_number(&observables, told(outcome, i)->key, outcome->values[i], 17);
     }
-    for (size_t i = 0; outcome->maxima && i < outcome->outputs->chosen.count; i++) {
-        printf(",\"%s_max\":", told(outcome, i)->key);
-        gm_json_number(outcome->maxima[i]);
+    for (size_t i = 0; outcome->maxima && i < count; i++) {
+        snprintf(key, sizeof key, "%s_max", told(outcome, i)->key);
+        gm_row_number(&observables, key, outcome->maxima[i], 17);
     }
-    printf("}");
-    print_json_reasons(outcome);
-    if (options->state) {
-        const double *y = gm_run_state(run);
-        printf(",\"layout\":\"y[component * m + member], n = %zu components, m = %zu members\",\"state\":[",
-               lane->problem.n, lane->problem.m);
-        for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
-            fputs(i ? "," : "", stdout);
-            gm_json_number(y[i]); /* null: a tracer that was lost */
+    gm_row_close(&observables);
+    bool reasoned = false;
+    for (size_t i = 0; i < count; i++) {
+        reasoned |= missing(outcome, i) != NULL;
+    }
+    if (reasoned) { /* why values are null */
+        struct gm_row reasons = gm_row_open(&row, "reasons", '}');
+        for (size_t i = 0; i < count; i++) {
+            if (missing(outcome, i)) {
+                gm_row_text(&reasons, told(outcome, i)->key, missing(outcome, i));
+            }
         }
-        printf("]");
+        gm_row_close(&reasons);
+    }
+    if (options->state) {
+        char layout[128];
+        snprintf(layout, sizeof layout, "y[component * m + member], n = %zu components, m = %zu members",
+                 lane->problem.n, lane->problem.m);
+        gm_row_text(&row, "layout", layout);
+        /* null: a tracer that was lost */
+        gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }
     printf("}\n");
 }
@@ -266,10 +261,7 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
             }
         }
     }
-    if (fclose(stream) != 0) {
-        free(text);
-        return NULL;
-    }
+    fclose(stream);
     return text;
 }
 

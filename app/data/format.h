@@ -14,8 +14,6 @@
 /* Bytes at places of open files, all of them or none: false with errno, of a file that is too short EIO. */
 
 bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place);
-/* As many of them as can be written; with errno, where that is not all. */
-size_t gm_bytes_write_most(int file, const void *bytes, size_t size, uint64_t place);
 bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place);
 
 /* Copies bytes to another file, none where `to` is below 0, and goes on with their checksum (CRC-32). */

@@ -2,46 +2,40 @@
 /* What was run, as JSON. */
 #include "app/data/save.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 
 #include "app/output/row.h"
-#include "core/basics.h"
 
-void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
+void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane)
 {
     const struct gm_scene *scene = lane->scene;
     char text[GM_TEXT_SIZE];
-    fputc('{', stream);
+    struct gm_row parameters = gm_row_open(row, "parameters", '}');
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        const struct gm_parameter *row = &scene->parameters[i];
-        if (gm_scene_idle(scene, lane->parameters, row->key)) {
+        const struct gm_parameter *parameter = &scene->parameters[i];
+        if (gm_scene_idle(scene, lane->parameters, parameter->key)) {
             continue;
         }
-        fprintf(stream, "%s\"%s\":", i ? "," : "", row->key); /* the first, the step, always has an effect */
-        if (row->type == GM_TEXT) {
-            gm_json_put_text(stream, gm_parameter_format(row, lane->parameters, text, sizeof text));
-        } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
-            fprintf(stream, "\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
+        if (parameter->type == GM_REAL || parameter->type == GM_INTEGER) {
+            gm_row_number(&parameters, parameter->key, gm_parameter_get(parameter, lane->parameters), 17);
         } else {
-            gm_json_put_number(stream, gm_parameter_get(row, lane->parameters));
+            gm_row_text(&parameters, parameter->key,
+                        gm_parameter_format(parameter, lane->parameters, text, sizeof text));
         }
     }
-    for (const struct gm_parameter *const *row = lane->scheme->family->parameters; row && *row; row++) {
-        fprintf(stream, ",\"%s\":\"%s\"", (*row)->key,
-                gm_parameter_format(*row, &lane->settings, text, sizeof text));
+    for (const struct gm_parameter *const *set = lane->scheme->family->parameters; set && *set; set++) {
+        gm_row_text(&parameters, (*set)->key, gm_parameter_format(*set, &lane->settings, text, sizeof text));
     }
-    fputc('}', stream);
+    gm_row_close(&parameters);
 }
 
-void gm_meta_source(FILE *stream, const struct gm_scene *scene)
+void gm_meta_source(struct gm_row *row, const struct gm_scene *scene)
 {
-    const char *const texts[] = {scene->text, scene->room}, *const keys[] = {"system", "room"};
-    for (size_t i = 0; i < GM_COUNT(texts); i++) {
-        if (texts[i]) {
-            fprintf(stream, ",\"%s\":", keys[i]);
-            gm_json_put_text(stream, texts[i]);
-        }
+    if (scene->text) {
+        gm_row_text(row, "system", scene->text);
+    }
+    if (scene->room) {
+        gm_row_text(row, "room", scene->room);
     }
 }
 
@@ -53,20 +47,19 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
     if (!stream) {
         return NULL;
     }
-    fprintf(stream, "{\"version\":\"geomint %s\",\"scene\":\"%s\"", GM_VERSION, lane->scene->name);
-    gm_meta_source(stream, lane->scene);
-    fprintf(stream, ",\"scheme\":\"%s\",\"parameters\":", lane->scheme->name);
-    gm_meta_parameters(stream, lane);
-    fprintf(stream, ",\"status\":\"%s\",\"message\":", status);
-    gm_json_put_text(stream, sentence);
-    fputs(",\"t\":", stream);
-    gm_json_put_number(stream, lane->run->t);
-    fprintf(stream, ",\"steps\":%" PRId64 ",\"units\":{\"t\":", lane->run->steps);
-    gm_json_put_text(stream, lane->scene->time ? lane->scene->time : "");
+    struct gm_row row = gm_row_begin(stream);
+    gm_row_text(&row, "version", "geomint " GM_VERSION);
+    gm_row_text(&row, "scene", lane->scene->name);
+    gm_meta_source(&row, lane->scene);
+    gm_row_text(&row, "scheme", lane->scheme->name);
+    gm_meta_parameters(&row, lane);
+    gm_row_text(&row, "status", status);
+    gm_row_text(&row, "message", sentence);
+    gm_row_number(&row, "t", lane->run->t, 17);
+    gm_row_count(&row, "steps", (double)lane->run->steps);
+    struct gm_row units = gm_row_open(&row, "units", '}');
+    gm_row_text(&units, "t", lane->scene->time ? lane->scene->time : "");
     fputs("}}", stream);
-    if (fclose(stream) != 0) {
-        free(text);
-        return NULL;
-    }
+    fclose(stream);
     return text;
 }

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "app/output/row.h"
 #include "app/words/request.h"
 #include "core/run.h"
 #include "scenes/common/lane.h"
@@ -76,11 +77,11 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
 
 /* What was run, as JSON. */
 
-/* {"key":value,...}: every parameter of the lane, those at their defaults too, and of its scheme. */
-void gm_meta_parameters(FILE *stream, const struct gm_lane *lane);
+/* "parameters":{"key":value,...}: every parameter of the lane, those at their defaults too, and of its scheme. */
+void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane);
 
-/* ,"system":TEXT or ,"room":TEXT: what the scene was made of, where it was made of a text. */
-void gm_meta_source(FILE *stream, const struct gm_scene *scene);
+/* "system":TEXT or "room":TEXT: what the scene was made of, where it was made of a text. */
+void gm_meta_source(struct gm_row *row, const struct gm_scene *scene);
 
 /* {"scene":...}: scene, scheme, parameters, how it ended (a status word and a sentence), t, steps, version,
    and the unit of time, the only one that there is; malloc'ed, NULL when memory is short. */

@@ -11,6 +11,7 @@
 #include "app/base/interrupt.h"
 #include "app/output/printer.h"
 #include "app/words/drive.h"
+#include "app/words/words.h"
 #include "core/memory.h"
 #include "render/clock.h"
 
@@ -115,11 +116,6 @@ size_t gm_figure_lanes(const struct gm_request *request, const char *lanes, size
     }
     gm_arguments_close(&words);
     return count;
-}
-
-static bool is_parameter(const struct gm_request *request, const char *key)
-{
-    return gm_scene_parameter(request->scene, key) || gm_setting_find(key);
 }
 
 /* The largest value of an observable after the time `from`, up to `to`. */
@@ -346,7 +342,7 @@ static void label(const struct gm_figure_job *job, const struct gm_request *requ
     for (int i = 0; i < words.count && used < size; i++) {
         char key[64];
         snprintf(key, sizeof key, "%.*s", (int)strcspn(words.words[i], "="), words.words[i]);
-        if (strchr(words.words[i], ',') && is_parameter(request, key)) {
+        if (strchr(words.words[i], ',') && gm_word_parameter(request->scene, key)) {
             used += (size_t)snprintf(text + used, size - used, " %s=%s", key,
                                      value_of(request, lane, key, value, sizeof value));
         }

@@ -14,7 +14,7 @@
 #include "app/base/arguments.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
-#include "render/files/base64.h"
+#include "render/files/images.h"
 
 /* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
 static const char style[] =

@@ -3,7 +3,6 @@
 #include "app/grid/certified_lane.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "app/base/arguments.h"

@@ -23,11 +23,11 @@ struct head {
     char magic[16];
     uint64_t identity_size, body_size;
     int64_t position;  /* the frame of a render */
-    uint32_t checksum; /* of the identity and the body */
+    uint32_t checksum; /* of the identity, the body and this head, where it is 0 itself */
     uint32_t lanes;
 };
 
-static const char magic[16] = "geomint state 1";
+static const char magic[16] = "geomint state 2";
 
 struct record {
     unsigned char *bytes; /* NULL: the lane has not begun */
@@ -153,15 +153,16 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
                                .lanes = (uint32_t)pause->count}};
     struct head *head = &writing.head;
     memcpy(head->magic, magic, sizeof magic);
-    head->checksum = libdeflate_crc32(0, pause->identity, head->identity_size);
+    uint32_t checksum = libdeflate_crc32(0, pause->identity, head->identity_size);
     for (size_t i = 0; i < pause->count; i++) {
         const struct record *record = &pause->records[i];
-        head->checksum = libdeflate_crc32(head->checksum, &record->size, sizeof record->size);
+        checksum = libdeflate_crc32(checksum, &record->size, sizeof record->size);
         if (record->size > 0) { /* of NULL it would begin anew */
-            head->checksum = libdeflate_crc32(head->checksum, record->bytes, record->size);
+            checksum = libdeflate_crc32(checksum, record->bytes, record->size);
         }
         head->body_size += sizeof record->size + record->size;
     }
+    head->checksum = libdeflate_crc32(checksum, head, sizeof *head);
     return gm_temporary_make(path, write_file, &writing) ||
            gm_temporary_refuse(message, path, strerror(errno));
 }
@@ -201,7 +202,10 @@ static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
     if (!bytes) {
         return "does not fit into memory";
     }
-    if (fread(bytes, 1, size, file) != size || libdeflate_crc32(0, bytes, size) != head.checksum) {
+    const bool whole = fread(bytes, 1, size, file) == size;
+    const uint32_t checksum = head.checksum;
+    head.checksum = 0;
+    if (!whole || libdeflate_crc32(libdeflate_crc32(0, bytes, size), &head, sizeof head) != checksum) {
         return "is damaged";
     }
     if (head.identity_size != strlen(pause->identity) ||

@@ -114,7 +114,7 @@ bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long 
                          const struct gm_lane *const *lanes, size_t count, char *message);
 
 /* Puts lanes just opened into the state of the file and sets *frame; false if there is no file, or it is
-   damaged or of another render or program. With *spoilt the lanes have to be opened anew. */
+   damaged or of another render or program, or if memory was short (core/memory.h). With *spoilt the lanes have to be opened anew. */
 bool gm_checkpoint_read(const char *path, const struct gm_frames *frames, long *frame,
                         struct gm_lane *const *lanes, size_t count, bool *spoilt);
 

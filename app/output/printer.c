@@ -18,8 +18,7 @@
 #include "render/drawing/glyphs.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/pdf.h"
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 struct gm_printer {
     struct gm_canvas *canvas; /* of PNG */

@@ -3,7 +3,7 @@
 #define GM_APP_OUTPUT_PRINTER_H
 
 #include "app/words/request.h"
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "render/layout/appearance.h"
 #include "render/picture/picture.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/base/arguments.h"
 #include "app/words/request.h"
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "render/layout/appearance.h"
 
 /* What a PNG tells of how it was made: enough for `geomint again`. */

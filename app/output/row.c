@@ -10,6 +10,36 @@
 
 #include "render/cells/text.h"
 
+/* A string of JSON. */
+static void put_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    while (*text) {
+        const char *letter = text;
+        const uint32_t code = gm_text_next(&text);
+        if (code == '\n') {
+            fputs("\\n", stream);
+        } else if (code < ' ') {
+            fprintf(stream, "\\u%04x", (unsigned)code);
+        } else if (code == 0xFFFD) { /* malformed bytes, too */
+            fputs("\\ufffd", stream);
+        } else {
+            fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
+        }
+    }
+    fputc('"', stream);
+}
+
+/* What is no number is null. */
+static void put_number(FILE *stream, double value)
+{
+    if (isfinite(value)) {
+        fprintf(stream, "%.17g", value);
+    } else {
+        fputs("null", stream);
+    }
+}
+
 static void begin(struct gm_row *row, const char *key)
 {
     fputs(row->begun ? "," : "", row->stream);
@@ -17,7 +47,7 @@ static void begin(struct gm_row *row, const char *key)
     if (row->form == GM_ROW_HEAD) {
         fputs(key, row->stream);
     } else if (row->form == GM_ROW_JSON && key) {
-        gm_json_put_text(row->stream, key);
+        put_text(row->stream, key);
         fputc(':', row->stream);
     }
 }
@@ -28,7 +58,7 @@ void gm_row_text(struct gm_row *row, const char *key, const char *text)
     if (!text) {
         fputs("null", row->stream);
     } else if (row->form == GM_ROW_JSON) {
-        gm_json_put_text(row->stream, text);
+        put_text(row->stream, text);
     } else if (row->form == GM_ROW_CSV) {
         gm_csv_put_text(row->stream, text);
     }
@@ -38,7 +68,7 @@ void gm_row_number(struct gm_row *row, const char *key, double value, int digits
 {
     begin(row, key);
     if (row->form == GM_ROW_JSON) {
-        gm_json_put_number(row->stream, value);
+        put_number(row->stream, value);
     } else if (row->form == GM_ROW_CSV && !isnan(value)) {
         fprintf(row->stream, "%.*g", digits, value);
     }
@@ -63,7 +93,7 @@ void gm_row_list(struct gm_row *row, const char *key, const double *values, size
     begin(row, key);
     for (size_t i = 0; i < count; i++) {
         fputc(i ? ',' : '[', row->stream);
-        gm_json_put_number(row->stream, values[i]);
+        put_number(row->stream, values[i]);
     }
     fputc(']', row->stream);
 }
@@ -84,53 +114,6 @@ struct gm_row gm_row_open(struct gm_row *row, const char *key, char end)
 void gm_row_close(const struct gm_row *row)
 {
     fputc(row->end, row->stream);
-}
-
-void gm_json_put_text(FILE *stream, const char *text)
-{
-    fputc('"', stream);
-    while (*text) {
-        const char *letter = text;
-        const uint32_t code = gm_text_next(&text);
-        if (code == '\n') {
-            fputs("\\n", stream);
-        } else if (code < ' ') {
-            fprintf(stream, "\\u%04x", (unsigned)code);
-        } else if (code == 0xFFFD) { /* malformed bytes, too */
-            fputs("\\ufffd", stream);
-        } else {
-            fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
-        }
-    }
-    fputc('"', stream);
-}
-
-void gm_json_pair(const char *key, const char *text)
-{
-    gm_json_put_text(stdout, key);
-    putchar(':');
-    gm_json_put_text(stdout, text);
-}
-
-void gm_json_put_number(FILE *stream, double value)
-{
-    if (isfinite(value)) {
-        fprintf(stream, "%.17g", value);
-    } else {
-        fputs("null", stream);
-    }
-}
-
-void gm_json_number(double value)
-{
-    gm_json_put_number(stdout, value);
-}
-
-void gm_json_number_pair(const char *key, double value)
-{
-    gm_json_put_text(stdout, key);
-    putchar(':');
-    gm_json_number(value);
 }
 
 void gm_csv_put_quoted(FILE *stream, const char *text)

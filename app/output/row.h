@@ -16,7 +16,7 @@ struct gm_row {
     char end;   /* of JSON */
 };
 
-/* NULL is null, in JSON alone. */
+/* NULL is null, in JSON alone, where bytes that are no UTF-8 become U+FFFD. */
 void gm_row_text(struct gm_row *row, const char *key, const char *text);
 /* With so many digits; in JSON with 17. NAN is an empty cell, or null. */
 void gm_row_number(struct gm_row *row, const char *key, double value, int digits);
@@ -31,18 +31,6 @@ void gm_row_list(struct gm_row *row, const char *key, const double *values, size
 struct gm_row gm_row_begin(FILE *stream); /* the outermost object */
 struct gm_row gm_row_open(struct gm_row *row, const char *key, char end);
 void gm_row_close(const struct gm_row *row);
-
-/* JSON on standard output, or on a stream. */
-
-/* A string in quotes, escaped; bytes that are no UTF-8 become U+FFFD. */
-void gm_json_put_text(FILE *stream, const char *text);
-/* "key":"text" */
-void gm_json_pair(const char *key, const char *text);
-/* "key":number, as gm_json_number writes it */
-void gm_json_number_pair(const char *key, double value);
-/* 17 significant digits; null where it is no finite number. */
-void gm_json_number(double value);
-void gm_json_put_number(FILE *stream, double value);
 
 /* A cell of CSV that is a text: in quotes where it needs them. */
 void gm_csv_put_text(FILE *stream, const char *text);

@@ -13,7 +13,7 @@
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "core/memory.h"
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "render/files/sink.h"
 #include "render/pixels/canvas.h"
 

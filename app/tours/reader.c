@@ -14,7 +14,6 @@
 #include "app/tours/tour.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
-#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
@@ -507,4 +506,27 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
         shorten_name(tour);
     }
     return good;
+}
+
+void gm_tour_close(struct gm_tour *tour)
+{
+    gm_arena_close(tour->arena);
+    *tour = (struct gm_tour){0};
+}
+
+size_t gm_tour_first(const struct gm_tour *tour, size_t step)
+{
+    while (step > 0 && !tour->steps[step].show) {
+        step--;
+    }
+    return step;
+}
+
+double gm_tour_begin(const struct gm_tour *tour, size_t step)
+{
+    if (!tour->steps[step].show) {
+        return tour->steps[step - 1].until;
+    }
+    const struct gm_request *request = &tour->steps[step].request;
+    return gm_scene_t0(request->scene, request->lanes[0].parameters);
 }

@@ -9,7 +9,6 @@
 
 #include "app/base/files.h"
 #include "app/base/interrupt.h"
-#include "app/base/place.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
 #include "core/memory.h"
@@ -255,9 +254,8 @@ char *gm_scheme_words_from(const char *path, const char *word)
         before = ",";
         rest.begin = name.end + 1;
     }
-    if (!stream || fclose(stream) != 0) {
-        free(text);
-        return NULL;
+    if (stream) {
+        fclose(stream);
     }
     return text;
 }

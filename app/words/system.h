@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
-   text, a caret below the place. */
 #ifndef GM_APP_WORDS_SYSTEM_H
 #define GM_APP_WORDS_SYSTEM_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "app/base/place.h"
+#include "app/base/files.h"
+
+/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
+   text, a caret below the place. */
 
 struct gm_arguments;
 struct gm_file;

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "app/base/place.h"
+#include "app/base/files.h"
 
 struct gm_arguments;
 struct gm_fault;

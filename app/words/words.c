@@ -28,7 +28,8 @@ size_t gm_word_first(const char *value)
     return length;
 }
 
-bool gm_range_is(const char *text)
+/* Whether a text is to be read as a range: ".." is read before numbers. */
+static bool is_range(const char *text)
 {
     return text[gm_word_first(text)] == '.';
 }
@@ -40,7 +41,9 @@ static double to_15_digits(double value)
     return strtod(text, NULL);
 }
 
-double gm_range_at(const struct gm_range *range, size_t index)
+/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is what "0.3" is read as, not
+   its neighbour, and values by equal factors have 15 digits: so what is printed is what one would type. */
+static double value_in(const struct gm_range *range, size_t index)
 {
     const double last = (double)(range->count - 1), at = (double)index;
     if (index == 0 || index + 1 == range->count) {
@@ -80,7 +83,7 @@ static const char *fault_of(const struct gm_range *range, bool whole)
         /* evenly, all are whole if two neighbours are; by equal factors, few can be */
         const size_t tried = range->logarithmic ? range->count : 2;
         for (size_t i = 0; i < tried; i++) {
-            const double value = gm_range_at(range, i);
+            const double value = value_in(range, i);
             if (value != floor(value)) {
                 return "not all values of this range are whole numbers";
             }
@@ -89,7 +92,9 @@ static const char *fault_of(const struct gm_range *range, bool whole)
     return NULL;
 }
 
-bool gm_range_read(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
+/* Reads "END..END:COUNT" or "END..END:logCOUNT", the ends numbers as gm_number_parse takes them. False with a
+   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values have to be whole numbers. */
+static bool parse_range(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
 {
     const char *between = strstr(text, ".."), *colon = strrchr(text, ':');
     const char *fault = "a range is START..END:COUNT, or START..END:logCOUNT for equal factors";
@@ -175,18 +180,28 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     return piece->text != NULL;
 }
 
+const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    return row ? row : gm_setting_find(key);
+}
+
+bool gm_word_is_number(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = gm_word_parameter(scene, key);
+    return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
+}
+
 /* Where the last piece of a number's list is a range, it stands for its values. */
 static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
 {
     struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, list->key);
-    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
-    const bool steps = strcmp(list->key, "steps") == 0;
-    if (!gm_range_is(piece->text) || !(steps || (row && (row->type == GM_REAL || row->type == GM_INTEGER)))) {
+    if (!is_range(piece->text) || !gm_word_is_number(scene, list->key)) {
         return true;
     }
-    const bool whole = steps || row->type == GM_INTEGER;
-    if (!gm_range_read(&piece->range, list->key, piece->text, whole, message)) {
+    const struct gm_parameter *row = gm_word_parameter(scene, list->key);
+    const bool whole = !row || row->type == GM_INTEGER; /* steps= has no row */
+    if (!parse_range(&piece->range, list->key, piece->text, whole, message)) {
         return false;
     }
     list->count += piece->range.count - 1;
@@ -212,7 +227,7 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
     if (piece->range.count == 0) {
         return piece->text;
     }
-    const double value = gm_range_at(&piece->range, index);
+    const double value = value_in(&piece->range, index);
     for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
         snprintf(text, GM_TEXT_SIZE, "%.*g", digits, value);
         if (strtod(text, NULL) == value) {
@@ -229,7 +244,7 @@ const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
     if (piece->range.count == 0) {
         return piece->text;
     }
-    const double value = gm_range_at(&piece->range, index);
+    const double value = value_in(&piece->range, index);
     if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
         snprintf(text, GM_TEXT_SIZE, "%.6g", value);
     }
@@ -266,7 +281,7 @@ bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *numb
 
 static bool known_key(const struct gm_scene *scene, const char *key)
 {
-    return gm_common_key_find(key) || gm_scene_parameter(scene, key) || gm_setting_find(key);
+    return gm_common_key_find(key) || gm_word_parameter(scene, key);
 }
 
 /* Whether a terminal would obey some of it. Bytes that are no UTF-8 (U+FFFD here) are not among that: a file

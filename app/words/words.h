@@ -19,17 +19,6 @@ struct gm_range {
 /* How long the first value of a list, or of a range, is: the sum in sum(i = 1 .. 3, q[i]) is one. */
 size_t gm_word_first(const char *value);
 
-/* Whether a text is to be read as a range: ".." is read before numbers. */
-bool gm_range_is(const char *text);
-
-/* Reads "END..END:COUNT" or "END..END:logCOUNT", the ends numbers as gm_number_parse takes them. False with a
-   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values have to be whole numbers. */
-bool gm_range_read(struct gm_range *range, const char *key, const char *text, bool whole, char *message);
-
-/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is what "0.3" is read as, not
-   its neighbour, and values by equal factors have 15 digits: so what is printed is what one would type. */
-double gm_range_at(const struct gm_range *range, size_t index);
-
 /* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
 
 enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64 };
@@ -73,6 +62,11 @@ void gm_words_close(struct gm_words *words);
    typed ones replace or leave without effect, and the typed ones. False when memory is short. */
 bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
                        const struct gm_arguments *typed, const char *usual);
+
+/* The parameter of that key, of the scene or of schemes; NULL: there is none. */
+const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key);
+/* Whether the values of a key are numbers. */
+bool gm_word_is_number(const struct gm_scene *scene, const char *key);
 
 /* NULL if the key was not typed. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);

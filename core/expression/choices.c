@@ -64,58 +64,49 @@ const struct gm_written_choice *gm_choice_named(const struct gm_written_choices 
     return found < choices->count ? &choices->list[found] : NULL;
 }
 
-void gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word)
+bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word)
 {
     struct gm_written_choice *choice = (struct gm_written_choice *)gm_choice_named(choices, name);
-    const size_t found = choice ? find(word, choice->count, word_at, choice) : 0;
+    const size_t found = choice ? find(word, choice->count, word_at, choice) : GM_MOST_CHOICE_WORDS;
     if (choice && found < choice->count) {
         choice->chosen = found;
     }
+    return choice && found < choice->count;
 }
 
 /* NAME = WORD of WORD, WORD; meaning */
 static bool read_choice(struct gm_written_choices *choices, const char *text, struct gm_span rest,
                         struct gm_fault *fault)
 {
-    static const char form[] =
-        "a choice has a name and 2 to 16 words: system = harmonic of harmonic, pendulum";
+    struct gm_written_choice *choice = &choices->list[choices->count];
     struct gm_span head, word;
+    if (choices->count == GM_MOST_CHOICES) {
+        return gm_fail(fault, rest.begin, "a file has at most %d choices", GM_MOST_CHOICES);
+    }
     gm_span_take(text, &rest, ";", &head);
     const size_t equals = gm_span_until(text, head, "="), of = gm_span_until(text, head, " of ");
-    const struct gm_span name = gm_span_trimmed(text, (struct gm_span){head.begin, equals});
-    if (choices->count == GM_MOST_CHOICES) {
-        return gm_fail(fault, name.begin, "a file has at most %d choices", GM_MOST_CHOICES);
-    }
-    if (equals > of || of == head.end) {
-        return gm_fail(fault, head.begin, "%s", form);
-    }
-    struct gm_written_choice *choice = &choices->list[choices->count];
+    const struct gm_span name = gm_span_trimmed(text, (struct gm_span){head.begin, equals}),
+                         standard = gm_span_trimmed(text, (struct gm_span){equals + 1, of});
     *choice = (struct gm_written_choice){.meaning = gm_span_trimmed(text, rest), .place = name.begin};
-    if (!copy(text, name, choice->name) ||
-        strlen(choice->name) != gm_name_length(choice->name, GM_CHOICE_SIZE)) {
-        return gm_fail(fault, name.begin, "%s", form);
+    bool good = copy(text, name, choice->name) &&
+                strlen(choice->name) == gm_name_length(choice->name, strlen(choice->name));
+    for (struct gm_span list = {of + 4, head.end}; good && gm_span_take(text, &list, ",", &word);) {
+        good = choice->count < GM_MOST_CHOICE_WORDS && copy(text, word, choice->words[choice->count]);
+        if (good && find(choice->words[choice->count], choice->count, word_at, choice) < choice->count) {
+            return gm_fail(fault, word.begin, "%s is named twice", choice->words[choice->count]);
+        }
+        choice->count += good;
+    }
+    if (!good || choice->count < 2) {
+        return gm_fail(fault, name.begin,
+                       "a choice has a name and 2 to 16 words: system = harmonic of harmonic, pendulum");
     }
     if (gm_choice_named(choices, choice->name)) {
         return gm_fail(fault, name.begin, "%s is defined twice", choice->name);
     }
-    for (struct gm_span list = {of + 4, head.end}; gm_span_take(text, &list, ",", &word); choice->count++) {
-        if (choice->count == GM_MOST_CHOICE_WORDS || !copy(text, word, choice->words[choice->count])) {
-            return gm_fail(fault, word.begin, "%s", form);
-        }
-        if (find(choice->words[choice->count], choice->count, word_at, choice) < choice->count) {
-            return gm_fail(fault, word.begin, "%s is named twice", choice->words[choice->count]);
-        }
-    }
-    if (choice->count < 2) {
-        return gm_fail(fault, head.begin, "%s", form);
-    }
-    if (!seek(text, gm_span_trimmed(text, (struct gm_span){equals + 1, of}), choice->count, word_at, choice,
-              &choice->standard, fault)) {
-        return false;
-    }
-    choice->chosen = choice->standard;
     choices->count++;
-    return true;
+    return seek(text, standard, choice->count, word_at, choice, &choice->standard, fault) &&
+           gm_choices_take(choices, choice->name, choice->words[choice->standard]);
 }
 
 bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_t length,
@@ -141,7 +132,7 @@ struct blocks {
     size_t place; /* where the block begins */
 };
 
-static bool end_block(struct blocks *blocks, struct gm_fault *fault)
+static bool end_block(const struct blocks *blocks, struct gm_fault *fault)
 {
     return !(blocks->open && blocks->empty) ||
            gm_fail(fault, blocks->place,
@@ -151,14 +142,13 @@ static bool end_block(struct blocks *blocks, struct gm_fault *fault)
 /* NAME = WORD, WORD or always */
 static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fault *fault)
 {
-    const char *text = blocks->text;
     static const char *const always[] = {"always", NULL};
+    const char *text = blocks->text;
     struct gm_span name, word;
     size_t number;
     if (!end_block(blocks, fault)) {
         return false;
     }
-    blocks->place = rest.begin;
     if (gm_span_among(text, rest, always) == 0) {
         blocks->open = NULL;
         return true;
@@ -172,9 +162,7 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
         return gm_fail(fault, name.begin, "a block of %s stands in one of %s: end that by \"when: always\"",
                        choice->name, blocks->open->name);
     }
-    blocks->open = choice;
-    blocks->holds = false;
-    blocks->empty = true;
+    *blocks = (struct blocks){blocks->choices, text, choice, false, true, name.begin};
     do {
         gm_span_take(text, &rest, ",", &word);
         if (!seek(text, word, choice->count, word_at, choice, &number, fault)) {
@@ -197,19 +185,6 @@ static bool pass(struct blocks *blocks, const struct gm_text_line *line, struct 
                    "a choice stands outside of blocks: write \"when: always\" above it");
 }
 
-/* Takes the next name off the front of a line; false: there are no more. */
-static bool take_name(const char *text, struct gm_span *rest, struct gm_span *name)
-{
-    while (gm_span_take(text, rest, ",", name)) {
-        const size_t equals = gm_span_until(text, *name, "=");
-        if (equals < name->end) {
-            *name = gm_span_trimmed(text, (struct gm_span){name->begin, equals});
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The assignments of a line: what stands before its first semicolon, or before the second where it is repeated, as in
    i = 1 .. 3; x[i] = 0. */
 static struct gm_span assignments(const char *text, struct gm_span rest)
@@ -222,12 +197,21 @@ static struct gm_span assignments(const char *text, struct gm_span rest)
     return piece;
 }
 
+/* What stands before the = of an assignment; empty: there is none. */
+static struct gm_span name_of(const char *text, struct gm_span piece)
+{
+    const size_t equals = gm_span_until(text, piece, "=");
+    return gm_span_trimmed(text, (struct gm_span){piece.begin, equals < piece.end ? equals : piece.begin});
+}
+
+/* Whether two lines assign to one name. */
 static bool share_name(const char *text, struct gm_span a, struct gm_span b)
 {
     struct gm_span one, other;
-    for (a = assignments(text, a); take_name(text, &a, &one);) {
-        for (struct gm_span rest = assignments(text, b); take_name(text, &rest, &other);) {
-            if (is_same(text, one, other)) {
+    for (a = assignments(text, a); gm_span_take(text, &a, ",", &one);) {
+        const struct gm_span name = name_of(text, one);
+        for (struct gm_span rest = assignments(text, b); gm_span_take(text, &rest, ",", &other);) {
+            if (name.begin < name.end && is_same(text, name, name_of(text, other))) {
                 return true;
             }
         }
@@ -235,53 +219,45 @@ static bool share_name(const char *text, struct gm_span a, struct gm_span b)
     return false;
 }
 
-static void erase(char *text, struct gm_text_line line)
-{
-    const size_t end = line.value.end > line.word.end ? line.value.end : line.word.end;
-    for (size_t i = line.word.begin; i < end; i++) {
-        text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
-    }
-}
-
-/* Makes comments of the lines outside of blocks that a line in a block replaces. */
-static void replace(const struct gm_written_choices *choices, char *text, size_t length,
-                    const struct gm_text_line *by, bool named)
+/* Whether a line outside of blocks gives way to one in a block. */
+static bool is_replaced(const struct gm_written_choices *choices, const char *text, size_t length,
+                        const struct gm_text_line *outside, bool named)
 {
     struct blocks blocks = {.choices = choices, .text = text};
     struct gm_text_line line;
     struct gm_fault fault;
-    for (size_t at = 0; gm_lines_next(text, length, &at, &line, &fault);) {
-        pass(&blocks, &line, &fault);
-        if (!blocks.open && is_same(text, line.word, by->word) &&
-            (!named || share_name(text, line.value, by->value))) {
-            erase(text, line);
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, &fault) && pass(&blocks, &line, &fault);) {
+        if (blocks.open && blocks.holds && is_same(text, line.word, outside->word) &&
+            (!named || share_name(text, line.value, outside->value))) {
+            return true;
         }
     }
+    return false;
 }
 
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
                       enum gm_line_identity (*identity)(const char *text, struct gm_span word),
                       struct gm_fault *fault)
 {
-    struct blocks blocks = {.choices = choices, .text = text};
+    struct blocks blocks;
     struct gm_text_line line;
-    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
-        if (!pass(&blocks, &line, fault)) {
+    for (int last = 0; last < 2; last++) { /* what is replaced goes while all blocks stand */
+        blocks = (struct blocks){.choices = choices, .text = text};
+        for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+            if (!pass(&blocks, &line, fault)) {
+                return false;
+            }
+            const enum gm_line_identity own = identity(text, line.word);
+            const bool replaced = choices->count > 0 && !blocks.open && own != GM_LINE_ADDED &&
+                                  is_replaced(choices, text, length, &line, own == GM_LINE_NAMED);
+            const bool passed =
+                gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds);
+            for (size_t i = line.word.begin; (last ? passed : replaced) && i < line.value.end; i++) {
+                text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
+            }
+        }
+        if (!end_block(&blocks, fault)) {
             return false;
-        }
-        const enum gm_line_identity own = identity(text, line.word);
-        if (blocks.open && blocks.holds && own != GM_LINE_ADDED) {
-            replace(choices, text, length, &line, own == GM_LINE_NAMED);
-        }
-    }
-    if (!end_block(&blocks, fault)) {
-        return false;
-    }
-    blocks = (struct blocks){.choices = choices, .text = text};
-    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
-        pass(&blocks, &line, fault);
-        if (gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds)) {
-            erase(text, line);
         }
     }
     return true;

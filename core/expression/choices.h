@@ -30,8 +30,8 @@ bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_
                      struct gm_fault *fault);
 /* The choice of that name; NULL: there is none. */
 const struct gm_written_choice *gm_choice_named(const struct gm_written_choices *choices, const char *name);
-/* Chooses a word, where there is such a choice and it has that word. */
-void gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
+/* Chooses a word, where there is such a choice and it has that word; else false. */
+bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
 
 /* What tells lines of one word apart: nothing, there is one of them; their names; or none replaces another. */
 enum gm_line_identity { GM_LINE_ONCE, GM_LINE_NAMED, GM_LINE_ADDED };

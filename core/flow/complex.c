@@ -500,7 +500,7 @@ static void build(struct gm_arena *arena, void *data)
     complex->vertices = from->vertices;
     complex->triangles = from->count;
     allocate(complex, arena);
-    struct gm_arena_entry *const whole = gm_arena_top(arena);
+    const size_t whole = gm_arena_mark(arena);
     memcpy(complex->point, from->points, 2 * from->vertices * sizeof *from->points);
     memcpy(complex->triangle, from->corners, 3 * from->count * sizeof *from->corners);
     memcpy(complex->period, from->period, sizeof complex->period);

@@ -633,7 +633,7 @@ static void exchange_if_above(long *a, long *b)
    surface that was meshed twice is there twice in any: the first stays. */
 static void drop_repeated(struct reader *reader)
 {
-    struct gm_arena_entry *const tables = gm_arena_top(reader->arena);
+    const size_t tables = gm_arena_mark(reader->arena);
     struct corners *all = gm_arena_take(reader->arena, reader->triangle_count + 1, sizeof *all);
     for (size_t t = 0; t < reader->triangle_count; t++) {
         long *nodes = all[t].nodes;

@@ -3,6 +3,7 @@
 #include "core/flow/room.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/model/scope.h"
 
 #include <float.h>
 #include <math.h>
@@ -58,9 +59,12 @@ struct reading {
    solution, may change in time. */
 static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
 {
-    const bool varies = key != GM_ROOM_FLOW && key != GM_ROOM_CENTRE && key != GM_ROOM_X && key != GM_ROOM_Y;
-    return (varies ? 1u << X | 1u << Y : 0) | (varies && word == GM_ROOM_INLET ? 1u << PART : 0) |
-           (word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT ? 1u << TIME : 0);
+    const unsigned along = 1u << X | 1u << Y | (word == GM_ROOM_INLET ? 1u << PART : 0),
+                   changes = word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT ? 1u << TIME : 0;
+    return key == GM_ROOM_SLIP                            ? 0
+           : key == GM_ROOM_FLOW || key == GM_ROOM_CENTRE ? changes
+           : key == GM_ROOM_X || key == GM_ROOM_Y         ? 0
+                                                          : along | changes;
 }
 
 const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name)
@@ -87,11 +91,11 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     char whole[GM_ROOM_NAME];
     snprintf(whole, sizeof whole, "%.*s", (int)(name->length < sizeof whole ? name->length : 0), name->text);
     const struct gm_room_parameter *parameter = gm_room_parameter(reading->room, whole);
+    if (parameter ? isnan(parameter->value) : gm_choice_named(&reading->room->choices, whole) != NULL) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, and no number", whole);
+        return GM_REFUSED;
+    }
     if (parameter && !name->indexed && !name->initial) {
-        if (isnan(parameter->value)) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, and no number", parameter->name);
-            return GM_REFUSED;
-        }
         *node = gm_formula_constant(reading->graph, parameter->value);
         return GM_KNOWN;
     }
@@ -344,16 +348,18 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
                    list_keys(words[word].some, " or ", list, sizeof list));
 }
 
-static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_span value,
+static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_text_line text_line,
                       struct gm_fault *fault)
 {
+    struct gm_span value = text_line.value;
     struct gm_room_line *more = realloc(room->lines, (room->count + 1) * sizeof *more);
     if (!more) {
         return false;
     }
     room->lines = more;
     struct gm_room_line *line = &more[room->count];
-    *line = (struct gm_room_line){.word = word, .place = value.begin};
+    *line = (struct gm_room_line){.word = word,
+                                  .place = value.begin < value.end ? value.begin : text_line.word.begin};
     if (words[word].names < START) {
         const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
         struct gm_span name = {value.begin + quoted, value.begin + quoted};
@@ -366,7 +372,7 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
             return gm_fail(fault, value.begin, "%s: the name has no closing quote", words[word].word);
         }
         if (length == 0 || length >= GM_ROOM_NAME) {
-            return gm_fail(fault, value.begin, "%s: needs a name, of at most 63 bytes", words[word].word);
+            return gm_fail(fault, line->place, "%s: needs a name, of at most 63 bytes", words[word].word);
         }
         memcpy(line->name, room->text + name.begin, length);
         value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
@@ -382,8 +388,6 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_sp
     return read_pairs(room, line, value, fault);
 }
 
-enum { MOST_EDGES = 100000 }; /* of a side */
-
 /* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
    False without a fault: the line names a file. */
 static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
@@ -391,15 +395,18 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
     struct gm_rectangle *rectangle = &room->rectangle;
     const size_t place = rest.begin;
     struct gm_span value, piece;
+    double edges = 0, strips = 0, multiple = 0;
     const struct {
         const char *word;
         double *number;
-        char *key;
-        long *count;
-    } options[] = {
-        {"width", &rectangle->width, NULL, NULL},         {"height", &rectangle->height, NULL, NULL},
-        {"irregular", &rectangle->irregular, NULL, NULL}, {"multiple", &room->multiple, NULL, NULL},
-        {"edges", NULL, room->edges, &rectangle->edges},  {"strips", NULL, room->strips, &rectangle->strips}};
+        struct gm_room_range range;
+        char *key; /* of a whole number; NULL: it is any */
+    } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
+                   {"height", &rectangle->height, {1e-9, 1e9}, NULL},
+                   {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
+                   {"edges", &edges, {1, 100000}, room->edges},
+                   {"strips", &strips, {0, 100000}, room->strips},
+                   {"multiple", &multiple, {1, 100000}, (char[GM_ROOM_NAME]){0}}};
     gm_span_take(room->text, &rest, ";", &value);
     rectangle->torus = is_word(room, value, "flat-torus");
     room->rectangular = rectangle->torus || is_word(room, value, "rectangle");
@@ -410,29 +417,34 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
             i++;
         }
-        double count;
-        if (i < GM_COUNT(options) && options[i].number) {
-            if (!gm_room_number(room, value, options[i].number, fault)) {
+        if (i < GM_COUNT(options)) {
+            const struct gm_room_range range = options[i].range;
+            double *number = options[i].number;
+            if (!gm_room_number(room, value, number, fault)) {
                 return false;
             }
-        } else if (i < GM_COUNT(options)) {
-            snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
-                     room->text + value.begin);
-            if (!gm_room_number(room, value, &count, fault)) {
-                return false;
+            if (*number < range.least || *number > range.most ||
+                (options[i].key && *number != floor(*number))) {
+                return gm_fail(fault, value.begin, "%s: is a %snumber from %g to %g", options[i].word,
+                               options[i].key ? "whole " : "", range.least, range.most);
             }
-            *options[i].count = count >= 0 && count <= MOST_EDGES ? (long)count : 0;
+            if (options[i].key) {
+                snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
+                         room->text + value.begin);
+            }
         } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
             rectangle->transposed = true;
         } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
+            double *at = room->fixed + 2 * rectangle->fixed_count++;
             for (int c = 0; c < 2; c++) {
                 gm_span_take(room->text, &value, ",", &piece);
-                if (!gm_room_number(room, piece, &room->fixed[2 * rectangle->fixed_count + (size_t)c],
-                                    fault)) {
+                if (!gm_room_number(room, piece, &at[c], fault)) {
                     return false;
                 }
             }
-            rectangle->fixed_count++;
+            if (value.begin < value.end) {
+                return gm_fail(fault, value.begin, "keep: has two numbers, x, y");
+            }
         } else {
             return gm_fail(fault, word.begin,
                            "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
@@ -440,47 +452,57 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
                            GM_COUNT(room->fixed) / 2);
         }
     }
+    rectangle->edges = (long)edges;
+    rectangle->strips = (long)strips;
+    room->multiple = (long)multiple;
     return room->rectangular &&
-           ((rectangle->width > 0 && rectangle->height > 0 && rectangle->edges > 0) ||
-            gm_fail(fault, place,
-                    "a rectangle has a width, a height and a number of edges above 0, up to %d edges",
-                    MOST_EDGES));
+           ((rectangle->width > 0 && rectangle->height > 0 && edges > 0) ||
+            gm_fail(fault, place, "a rectangle has a width, a height and a number of edges"));
 }
 
-/* NAME = VALUE; low .. high; meaning, or NAME = WORD of WORD, WORD; meaning */
-static bool read_parameter(struct gm_room *room, struct gm_span rest, bool choice,
-                           const struct gm_room_given *given, size_t count, struct gm_fault *fault)
+/* Whether a name means nothing else: in formulas, on a command line but for what the picture shows, or in tables. */
+static bool is_free(const char *name, size_t place, struct gm_fault *fault)
+{
+    bool reserved = strcmp(name, "show") != 0 && gm_reading_reserves(name, strlen(name));
+    for (size_t i = 0; i < VARIABLES; i++) {
+        reserved |= strcmp(name, variables[i]) == 0;
+    }
+    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
+        reserved |= strcmp(name, measures[i]) == 0;
+    }
+    return !reserved || gm_fail(fault, place, "the name %.60s is reserved", name);
+}
+
+/* NAME = VALUE; low .. high; meaning */
+static bool read_parameter(struct gm_room *room, struct gm_span rest, const struct gm_room_given *given,
+                           size_t count, struct gm_fault *fault)
 {
     struct gm_room_parameter *more = realloc(room->parameters, (room->parameter_count + 1) * sizeof *more);
-    struct gm_span head, piece;
+    struct gm_span head, piece, after;
+    struct gm_room_range range = {NAN, NAN};
     if (!more) {
         return false;
     }
     room->parameters = more;
     struct gm_room_parameter *parameter = &more[room->parameter_count++];
-    *parameter = (struct gm_room_parameter){.value = NAN, .low = NAN, .high = NAN};
+    *parameter = (struct gm_room_parameter){.value = NAN, .place = rest.begin};
     gm_span_take(room->text, &rest, ";", &head);
     const size_t equals = gm_span_until(room->text, head, "=");
     const struct gm_span value = {equals < head.end ? equals + 1 : equals, head.end};
-    const size_t of = choice ? gm_span_until(room->text, value, " of ") : value.end;
-    struct gm_span after = rest;
-    if (!choice && gm_span_take(room->text, &after, ";", &piece) &&
-        gm_span_until(room->text, piece, "..") < piece.end) {
-        struct gm_room_range range;
+    after = rest;
+    if (gm_span_take(room->text, &after, ";", &piece) && gm_span_until(room->text, piece, "..") < piece.end) {
         if (!gm_room_range_of(room, piece, &range, fault)) {
             return false;
         }
-        parameter->low = range.least;
-        parameter->high = range.most;
         rest = after;
     }
+    parameter->low = range.least;
+    parameter->high = range.most;
     const struct {
         char **text;
         struct gm_span span;
-    } parts[] = {{&parameter->name, {head.begin, equals}},
-                 {&parameter->text, {value.begin, of}},
-                 {&parameter->words, {of < value.end ? of + 4 : of, value.end}},
-                 {&parameter->meaning, rest}};
+    } parts[] = {
+        {&parameter->name, {head.begin, equals}}, {&parameter->text, value}, {&parameter->meaning, rest}};
     for (size_t i = 0; i < GM_COUNT(parts); i++) {
         *parts[i].text = gm_span_words(room->text, parts[i].span);
         if (!*parts[i].text) {
@@ -490,10 +512,9 @@ static bool read_parameter(struct gm_room *room, struct gm_span rest, bool choic
     gm_number_parse(parameter->text, &parameter->value);
     const size_t letters = strlen(parameter->name);
     if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
-        gm_name_length(parameter->name, letters) != letters || (choice && !parameter->words[0])) {
-        return gm_fail(fault, head.begin, "%s",
-                       choice ? "choice: needs a name and words: domain = torus of torus, box"
-                              : "parameter: needs a name that is no other: height = 1");
+        gm_choice_named(&room->choices, parameter->name) ||
+        gm_name_length(parameter->name, letters) != letters) {
+        return gm_fail(fault, head.begin, "parameter: needs a name that is no other: height = 1");
     }
     for (size_t i = 0; i < count; i++) {
         if (strcmp(given[i].name, parameter->name) == 0) {
@@ -505,43 +526,20 @@ static bool read_parameter(struct gm_room *room, struct gm_span rest, bool choic
             parameter->value = given[i].text ? NAN : given[i].value;
         }
     }
-    return parameter->text != NULL;
+    return parameter->text && is_free(parameter->name, head.begin, fault);
 }
 
-/* Lines that hold for other words of a choice become comments. */
-static bool choose_lines(struct gm_room *room, struct gm_fault *fault)
-{
-    struct gm_text_line line;
-    size_t at = 0;
-    for (bool holds = true; gm_lines_next(room->text, room->length, &at, &line, fault);) {
-        const bool when = is_word(room, line.word, "when");
-        if (when) {
-            struct gm_span rest = line.value, word;
-            char name[GM_ROOM_NAME];
-            gm_span_take(room->text, &rest, "=", &word);
-            snprintf(name, sizeof name, "%.*s", (int)(word.end - word.begin), room->text + word.begin);
-            const struct gm_room_parameter *choice = gm_room_parameter(room, name);
-            holds = strcmp(name, "always") == 0;
-            if (!holds && !(choice && choice->words[0])) {
-                return gm_fail(fault, line.value.begin, "when: needs a choice and its word: domain = box");
-            }
-            while (gm_span_take(room->text, &rest, ",", &word)) {
-                holds = holds || is_word(room, word, choice->text);
-            }
-        }
-        for (size_t i = line.word.begin; (when || !holds) && i < line.value.end; i++) {
-            room->text[i] = room->text[i] == '\n' || room->text[i] == '\r' ? room->text[i] : '#';
-        }
-    }
-    return !fault->sentence[0];
-}
+static const char reference[] = "reference-temperature";
 
-/* Lines that are read by the scene that is made of the room; those from `parameter` on may come again. */
-enum { ONCE = 11 };
-static const char *const others[] = {"watch",   "reference", "time",        "subtitle", "caption",
-                                     "colours", "levels",    "exact-while", "schemes",  "lanes",
-                                     "work",    "parameter", "choice",      "side",     "observe",
-                                     "graph",   "profile",   "table",       "figure",   "stability"};
+/* The lines that hold no pairs: those before `parameter` may come once, those from `side` on once with each name. */
+enum { OFTEN = 26, NAMED = 30 };
+static const char *const others[] = {
+    "geomint",     "title",    "about",   "watch",   "reference", "units",       "scalar",
+    "time",        "subtitle", "caption", "mesh",    "viscosity", "diffusivity", "reynolds",
+    "schmidt",     "buoyancy", reference, "dt",      "until",     "colours",     "levels",
+    "exact-while", "schemes",  "lanes",   "work",    "stability", "parameter",   "graph",
+    "table",       "figure",   "side",    "observe", "profile",   NULL};
+enum { OTHERS = GM_COUNT(others) - 1 };
 
 /* Of all lines of several words or formulas. */
 static const char *line_word(size_t i, const void *data)
@@ -550,26 +548,31 @@ static const char *line_word(size_t i, const void *data)
     return i < WORDS ? words[i].word : others[i - WORDS];
 }
 
-static bool read_other(const struct gm_room *room, struct gm_text_line line, bool *met,
-                       struct gm_fault *fault)
+/* Whether what two lines say begins with the same name. */
+static bool share_name(const char *one, const char *other)
 {
-    struct gm_span first;
-    for (size_t i = 0; i < GM_COUNT(others); i++) {
-        if (!is_word(room, line.word, others[i])) {
-            continue;
-        }
-        *met = true;
-        if (i < ONCE && gm_room_said(room, others[i], 0, &first) && first.begin < line.value.begin) {
-            return gm_fail(fault, line.word.begin, "%s: is given twice", others[i]);
-        }
-    }
-    return line.value.begin < line.value.end || !*met ||
-           gm_fail(fault, line.word.begin, "%.*s: says nothing", (int)(line.word.end - line.word.begin),
-                   room->text + line.word.begin);
+    const size_t letters = strcspn(one, "; \t\r\n");
+    return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* A line that says one thing: true where it is known. */
-static bool read_single(struct gm_room *room, struct gm_text_line line, bool *met, struct gm_fault *fault)
+/* Whether a line says something, and no line before the same. */
+static bool check_line(const struct gm_room *room, struct gm_text_line line, size_t other,
+                       struct gm_fault *fault)
+{
+    struct gm_span earlier;
+    for (size_t i = 0; gm_room_said(room, others[other], i, &earlier) && earlier.begin < line.value.begin;
+         i++) {
+        if (other < OFTEN ||
+            (other >= NAMED && share_name(room->text + earlier.begin, room->text + line.value.begin))) {
+            return gm_fail(fault, line.word.begin, "%s: is given twice", others[other]);
+        }
+    }
+    return line.value.begin < line.value.end ||
+           gm_fail(fault, line.word.begin, "%s: says nothing", others[other]);
+}
+
+/* A line that says one thing; others are read by the scene that is made of the room. */
+static bool read_single(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
                                reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
@@ -589,21 +592,14 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         {"reynolds", NULL, &room->reynolds, reynolds},
         {"schmidt", NULL, &room->schmidt, gm_room_schmidt},
         {"buoyancy", NULL, &room->buoyancy, any},
-        {"reference-temperature", NULL, &room->reference_temperature, any},
+        {reference, NULL, &room->reference_temperature, any},
         {"dt", NULL, &room->dt, gm_room_dt},
         {"until", NULL, &room->until, gm_room_until},
     };
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        struct gm_span first, value = line.value, rest = line.value, piece;
+        struct gm_span value = line.value, rest = line.value, piece;
         if (!is_word(room, line.word, rows[i].word)) {
             continue;
-        }
-        *met = true;
-        if (gm_room_said(room, rows[i].word, 0, &first) && first.begin < line.value.begin) {
-            return gm_fail(fault, line.word.begin, "%s: is given twice", rows[i].word);
-        }
-        if (line.value.begin == line.value.end) {
-            return gm_fail(fault, line.word.begin, "%s: says nothing", rows[i].word);
         }
         if (rows[i].text == &room->mesh && (read_rectangle(room, value, fault) || fault->sentence[0])) {
             return !fault->sentence[0];
@@ -647,6 +643,17 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
         double *number;
     } numbers[] = {
         {"viscosity", &room->viscosity}, {"reynolds", &room->reynolds}, {"schmidt", &room->schmidt}};
+    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
+        const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
+        if (parameter && !isnan(*numbers[i].number)) {
+            return gm_fail(fault, place_of(room, numbers[i].name),
+                           "%s: is given twice, here and as a parameter", numbers[i].name);
+        }
+        if (parameter && !(parameter->value > 0 || (i == 0 && parameter->value == 0))) {
+            return gm_fail(fault, parameter->place, "%s: is a positive number", numbers[i].name);
+        }
+        *numbers[i].number = parameter ? parameter->value : *numbers[i].number;
+    }
     if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
         return gm_fail(fault, place_of(room, "reynolds"),
                        "viscosity: and reynolds: say the same; a room has one of them");
@@ -655,14 +662,17 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
         return gm_fail(fault, place_of(room, "schmidt"),
                        "diffusivity: and schmidt: say the same; a room has one of them");
     }
-    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
-        const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
-        double value = parameter ? parameter->value : NAN;
-        for (size_t k = 0; k < count && !parameter; k++) {
-            value = strcmp(given[k].name, numbers[i].name) == 0 ? given[k].value : value;
+    for (size_t k = 0; k < count; k++) {
+        for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, given[k].name); i++) {
+            if (strcmp(given[k].name, numbers[i].name) == 0) {
+                room->reynolds = i == 0 ? NAN : room->reynolds;
+                *numbers[i].number = given[k].value;
+            }
         }
-        room->reynolds = i == 0 && !isnan(value) ? NAN : room->reynolds;
-        *numbers[i].number = isnan(value) ? *numbers[i].number : value;
+    }
+    struct gm_span side;
+    if (!room->rectangular && gm_room_said(room, "side", 0, &side)) {
+        return gm_fail(fault, side.begin, "side: is of a rectangle; a mesh of Gmsh has physical groups");
     }
     room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
     if (!(room->mesh || room->rectangular) || isnan(room->viscosity)) {
@@ -691,7 +701,7 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
             "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
     if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
-        const char *word = isnan(room->buoyancy) ? "reference-temperature" : "buoyancy";
+        const char *word = isnan(room->buoyancy) ? reference : "buoyancy";
         return gm_fail(fault, place_of(room, word),
                        "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
                        word);
@@ -699,6 +709,64 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
     room->reference_temperature =
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
     return true;
+}
+
+/* A line in a block of a choice replaces one outside where there is one such line. */
+static enum gm_line_identity identity(const char *text, struct gm_span word)
+{
+    const char *const single[] = {words[GM_ROOM_START].word, words[GM_ROOM_EXACT].word, NULL};
+    return single[gm_span_among(text, word, single)] || gm_span_among(text, word, others) < OFTEN
+               ? GM_LINE_ONCE
+               : GM_LINE_ADDED;
+}
+
+/* Makes comments of lines that hold for other words of a choice. */
+static bool choose_lines(struct gm_room *room, const struct gm_room_given *given, size_t count,
+                         struct gm_fault *fault)
+{
+    struct gm_written_choices *choices = &room->choices;
+    static const char *const chosen[] = {"time",   "subtitle",    "caption", "mesh", "colours",
+                                         "levels", "exact-while", "graph",   "side", NULL};
+    struct gm_text_line line;
+    bool good = gm_choices_read(choices, room->text, room->length, fault), inside = false;
+    for (size_t at = 0; good && gm_lines_next(room->text, room->length, &at, &line, fault);) {
+        const bool fixed = gm_span_among(room->text, line.word, others) < OTHERS &&
+                           !chosen[gm_span_among(room->text, line.word, chosen)];
+        inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
+        good = !inside || !fixed ||
+               gm_fail(fault, line.word.begin,
+                       "this line is the same for every word: it stands outside of blocks");
+    }
+    for (size_t i = 0; good && i < choices->count; i++) {
+        good = is_free(choices->list[i].name, choices->list[i].place, fault);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (given[i].text) {
+            gm_choices_take(choices, given[i].name, given[i].text);
+        }
+    }
+    return good && gm_choices_apply(choices, room->text, room->length, identity, fault);
+}
+
+/* A line that declares no parameter. */
+static bool read_any(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
+{
+    const size_t other = gm_span_among(room->text, line.word, others);
+    if (other < OTHERS) {
+        return check_line(room, line, other, fault) && read_single(room, line, fault);
+    }
+    for (int i = 0; i < WORDS; i++) {
+        if (is_word(room, line.word, words[i].word)) {
+            return read_line(room, (enum gm_room_word)i, line, fault);
+        }
+    }
+    char name[41];
+    const size_t letters = line.word.end - line.word.begin;
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), room->text + line.word.begin);
+    const char *near = gm_nearest(name, WORDS + OTHERS, line_word, NULL);
+    return gm_fail(fault, line.word.begin, "a room has no line %s:; %s%s%s", name,
+                   near ? "did you mean " : "geomint list office --source prints a room with its lines",
+                   near ? near : "", near ? ":" : "");
 }
 
 bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
@@ -724,50 +792,25 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, const s
     }
     memcpy(room->text, text, length);
     room->text[length] = '\0';
-    if (!gm_lines_are_text(text, length, fault)) {
+    if (!gm_lines_are_text(text, length, fault) || !choose_lines(room, given, count, fault)) {
         return false;
     }
     struct gm_text_line line;
     struct gm_span value;
-    size_t at = 0;
-    while (gm_lines_next(room->text, length, &at, &line, fault)) {
-        const bool choice = is_word(room, line.word, "choice");
-        if ((choice || is_word(room, line.word, "parameter")) &&
-            !read_parameter(room, line.value, choice, given, count, fault)) {
+    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
+        if (is_word(room, line.word, "parameter") && !read_parameter(room, line.value, given, count, fault)) {
             return false;
         }
     }
-    if (fault->sentence[0] || !choose_lines(room, fault)) {
-        return false;
-    }
-    at = 0;
-    while (gm_lines_next(room->text, length, &at, &line, fault)) {
-        const char *word = room->text + line.word.begin;
-        const size_t letters = line.word.end - line.word.begin;
-        bool met = is_word(room, line.word, "geomint");
-        if (met && !(line.value.end == line.value.begin + 1 && room->text[line.value.begin] == '1')) {
-            return gm_fail(
-                fault, line.value.begin, "this program reads files of format 1, not %.*s",
-                (int)(line.value.end - line.value.begin < 40 ? line.value.end - line.value.begin : 40),
-                room->text + line.value.begin);
-        }
-        if (!met && (!read_other(room, line, &met, fault) || !read_single(room, line, &met, fault))) {
+    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
+        if (!read_any(room, line, fault)) {
             return false;
         }
-        for (int i = 0; i < WORDS && !met; i++) {
-            met = is_word(room, line.word, words[i].word);
-            if (met && !read_line(room, (enum gm_room_word)i, line.value, fault)) {
-                return false;
-            }
-        }
-        if (!met) {
-            char name[41];
-            snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), word);
-            const char *near = gm_nearest(name, WORDS + GM_COUNT(others), line_word, NULL);
-            return gm_fail(fault, line.word.begin, "a room has no line %s:; %s%s%s", name,
-                           near ? "did you mean " : "docs/rooms.md lists them all", near ? near : "",
-                           near ? ":" : "");
-        }
+    }
+    if (!fault->sentence[0] && gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
+        return gm_fail(fault, value.begin, "this program reads files of format 1, not %.*s",
+                       (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
+                       room->text + value.begin);
     }
     if (fault->sentence[0] || room->graph.failed) {
         return false;
@@ -792,7 +835,6 @@ void gm_room_close(struct gm_room *room)
     for (size_t i = 0; i < room->parameter_count; i++) {
         free(room->parameters[i].name);
         free(room->parameters[i].text);
-        free(room->parameters[i].words);
         free(room->parameters[i].meaning);
     }
     free(room->parameters);
@@ -971,6 +1013,9 @@ static bool holds_at(const struct gm_room *room, struct gm_span rest, const doub
         }
         const struct gm_span sides[2] = {{condition.begin, sign}, {sign + 1, condition.end}};
         double value[2];
+        if (!strchr("=<>", room->text[sign])) {
+            return gm_fail(fault, condition.begin, "a condition was expected, x = 0");
+        }
         for (int k = 0; k < 2; k++) {
             if (!read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], fault)) {
                 return false;
@@ -1006,54 +1051,94 @@ static bool find_side(const struct gm_room *room, const char *side, struct gm_sp
     return false;
 }
 
-/* Whether a boundary edge is of a line's group, or of one of those that the parameter of its name lists. */
-static bool is_in_group(const struct gm_room *room, const struct gm_room_line *line,
-                        const struct gm_triangulation *mesh, size_t e)
+/* The groups of a line: those that the parameter of its name lists. */
+static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
     const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
-    char name[256];
-    bool is_in = false;
-    for (const char *at = other ? other->text : line->name; *at; at += strcspn(at, ","), at += *at == ',') {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, other ? "," : ""), at);
-        const long tag = gm_triangulation_group(mesh, name);
-        is_in |= tag != 0 && gm_triangulation_has(mesh, e, tag);
+    return other ? other->text : line->name;
+}
+
+/* A boundary edge becomes one of line number `i`, from 0; false with a fault where it is one of another line. */
+static bool take_edge(const struct gm_room *room, unsigned char *side, size_t i, struct gm_fault *fault)
+{
+    const struct gm_room_line *line = &room->lines[i];
+    if (*side != 0 && *side != i + 1) {
+        return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+                       groups_of(room, line), groups_of(room, &room->lines[*side - 1]));
     }
-    return is_in;
+    *side = (unsigned char)(i + 1);
+    return true;
+}
+
+/* The edges of a line's groups, of which each is on the boundary, and listed once. */
+static bool name_groups(const struct gm_room *room, const struct gm_triangulation *mesh, size_t i,
+                        unsigned char *side_of, struct gm_fault *fault)
+{
+    const struct gm_room_line *line = &room->lines[i];
+    const char *list = groups_of(room, line);
+    char name[256], names[160];
+    for (const char *at = list; *at; at += strlen(name), at += *at == ',') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, list == line->name ? "" : ","), at);
+        const long tag = gm_triangulation_group(mesh, name);
+        bool met = false;
+        for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
+            if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
+                met = true;
+                if (!take_edge(room, &side_of[b], i, fault)) {
+                    return false;
+                }
+            }
+        }
+        if (!met) {
+            return gm_fail(fault, line->place,
+                           tag != 0
+                               ? "no edge of the mesh's boundary belongs to \"%.60s\""
+                               : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
+                           name, gm_triangulation_group_names(mesh, names, sizeof names));
+        }
+        for (const char *before = list; before < at; before += strcspn(before, ",") + 1) {
+            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
+                return gm_fail(fault, line->place, "the group \"%.60s\" is named twice", name);
+            }
+        }
+    }
+    return true;
 }
 
 /* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
 static bool name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
                        unsigned char *side_of, struct gm_fault *fault)
 {
-    for (size_t i = 0; i < room->count; i++) {
+    for (size_t i = 0; i < room->count && mesh->complex->boundary > 0; i++) {
         const struct gm_room_line *line = &room->lines[i];
         const bool all = is_rest(room, mesh, line->name);
-        const bool grouped = !all && (!room->rectangular || room->from_file);
         struct gm_span conditions;
-        const bool conditional = !all && !grouped && find_side(room, line->name, &conditions);
-        bool met = false;
-        for (size_t b = 0; line->word <= GM_ROOM_BOUNDARY && b < mesh->complex->boundary; b++) {
-            const size_t e = (size_t)mesh->complex->boundary_edge[b];
-            double middle[VARIABLES] = {0};
-            gm_complex_middle(mesh->complex, e, middle + X);
-            bool is_on = all || (grouped && is_in_group(room, line, mesh, e));
-            if (conditional && !holds_at(room, conditions, middle, &is_on, fault)) {
+        if (line->word > GM_ROOM_BOUNDARY) {
+            continue;
+        }
+        if (!all && (!room->rectangular || room->from_file)) {
+            if (!name_groups(room, mesh, i, side_of, fault)) {
                 return false;
             }
-            if (is_on && side_of[b] != 0 && !all) {
-                return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
-                               line->name, room->lines[side_of[b] - 1].name);
-            }
-            side_of[b] = is_on && side_of[b] == 0 ? (unsigned char)(i + 1) : side_of[b];
-            met = met || is_on;
+            continue;
         }
-        if (line->word <= GM_ROOM_BOUNDARY && !met && mesh->complex->boundary > 0) {
-            char names[160];
+        const bool conditional = !all && find_side(room, line->name, &conditions);
+        bool met = false;
+        for (size_t b = 0; b < mesh->complex->boundary && (all || conditional); b++) {
+            double middle[VARIABLES] = {0};
+            gm_complex_middle(mesh->complex, (size_t)mesh->complex->boundary_edge[b], middle + X);
+            bool is_on = side_of[b] == 0;
+            if (!all && (!holds_at(room, conditions, middle, &is_on, fault) ||
+                         (is_on && !take_edge(room, &side_of[b], i, fault)))) {
+                return false;
+            }
+            side_of[b] = all && is_on ? (unsigned char)(i + 1) : side_of[b];
+            met = met || all || is_on;
+        }
+        if (!met) {
             return gm_fail(fault, line->place,
-                           gm_triangulation_group(mesh, line->name) != 0
-                               ? "the curves \"%.40s\" are not on the mesh's boundary"
-                               : "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
-                           line->name, gm_triangulation_group_names(mesh, names, sizeof names));
+                           "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
+                           line->name, line->name);
         }
     }
     return true;
@@ -1073,10 +1158,15 @@ static bool make_side(struct profile *profile, struct gm_side *side, struct gm_f
     const struct gm_room_line *line = profile->line;
     const double at[VARIABLES] = {[TIME] = profile->t};
     const bool inlet = line->word == GM_ROOM_INLET;
+    const double slip = gm_room_value(profile->room, line, GM_ROOM_SLIP, at, 0);
+    if (slip != 0 && slip != 1) {
+        return gm_fail(fault, line->value[GM_ROOM_SLIP].place,
+                       "slip is 1, or 0 where the wall holds the air");
+    }
     side->kind = inlet                                        ? GM_EDGE_INLET
                  : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
                  : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
-                 : line->value[GM_ROOM_SLIP].place != 0       ? GM_EDGE_SLIP
+                 : slip == 1                                  ? GM_EDGE_SLIP
                                                               : GM_EDGE_WALL;
     side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN);
     side->speed = gm_room_value(profile->room, line, GM_ROOM_CENTRE, at, 0);

@@ -2,7 +2,7 @@
 #ifndef GM_CORE_FLOW_ROOM_H
 #define GM_CORE_FLOW_ROOM_H
 
-#include "core/expression/lines.h"
+#include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
@@ -60,13 +60,13 @@ struct gm_room_line {
     } value[GM_ROOM_KEYS];
 };
 
-/* A parameter of the room, or a choice of words. */
 struct gm_room_parameter {
-    char *name, *text, *meaning, *words; /* text: as it is written; NULL: not given */
-    double value, low, high;             /* NAN: it is no number; no range is given */
+    char *name, *text, *meaning; /* text: as it is written; "": not given */
+    double value, low, high;     /* NAN: it is no number; no range is given */
+    size_t place;                /* in the text */
 };
 
-/* The value that a parameter is to have: a number, or of words `text`. */
+/* The value that a parameter or a choice is to have: a number, or of words `text`. */
 struct gm_room_given {
     const char *name, *text;
     double value;
@@ -88,12 +88,14 @@ struct gm_room {
     double *scratch; /* a number for each node of it */
     struct gm_room_line *lines;
     size_t count;
+    struct gm_written_choices choices;
     struct gm_room_parameter *parameters;
     size_t parameter_count;
     bool rectangular; /* its mesh is a rectangle, whose edges and strips are the values of these parameters */
     struct gm_rectangle rectangle;
     char edges[GM_ROOM_NAME], strips[GM_ROOM_NAME];
-    double multiple, fixed[8]; /* edges are a multiple of that; points of the rectangle that are vertices */
+    long multiple;                     /* of which edges are one; 0: of none */
+    double fixed[8];                   /* points of the rectangle that are vertices */
     double measures[GM_ROOM_MEASURES]; /* NAN: not known */
     bool from_file; /* a parameter gives another mesh, and those that are called like sides name its groups */
     enum gm_vertex_kind outlet;

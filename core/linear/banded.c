@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gaussian elimination within a band, rows exchanged for the largest pivot (Golub & Van Loan, Matrix
-   Computations, 4.3). Blocking would not pay: bands are 1 to 17 wide here. */
+   Computations, 4.3). Blocking would not be faster: bands are 1 to 17 wide here. */
 #include "core/linear/banded.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ static inline void subtract_swapped(double *restrict y, const double *restrict x
     }
 }
 
-/* How many of the entries values[0], values[step], ... are left when zeros at the end are not counted. */
+/* Returns the number of entries values[0], values[step], ... up to the last one that is not 0. */
 static inline size_t without_zeros(const double *values, ptrdiff_t step, size_t count)
 {
     while (count > 0 && values[(ptrdiff_t)(count - 1) * step] == 0) {
@@ -74,8 +74,8 @@ static inline size_t without_zeros(const double *values, ptrdiff_t step, size_t 
     return count;
 }
 
-/* Unknowns that belong to nodes leave the corners of a band empty, and pivots that stand in their place the upper
-   third: what is 0 there is passed over, which changes nothing but perhaps the sign of a 0. */
+/* Unknowns of nodes leave the corners of a band empty, and without row exchanges its upper third is empty, too. Zeros
+   there are skipped, which can change only the sign of a 0. */
 GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
 {
     const size_t n = matrix->n, band = matrix->band, step = matrix->stride - 1;

@@ -10,14 +10,14 @@
    dgbtrf stores it, so that both sweeps of a solve run along columns. */
 struct gm_banded {
     size_t n, band;
-    size_t stride;  /* of a column: 3 band + 1, band of them for what pivoting fills in */
+    size_t stride;  /* of a column: 3 band + 1, of which `band` are for the fill-in of pivoting */
     double *values; /* stride * n */
     size_t *pivots; /* n */
     size_t *above,
-        *below; /* of the factors: so many entries of each column beside the diagonal are not all 0 */
+        *below; /* of the factors: entries of each column above and below the diagonal, without outer zeros */
 };
 
-/* False: out of memory, nothing is held. */
+/* Returns false when out of memory; then nothing is allocated. */
 bool gm_banded_open(struct gm_banded *matrix, size_t n, size_t band);
 void gm_banded_close(struct gm_banded *matrix);
 

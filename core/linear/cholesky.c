@@ -37,7 +37,7 @@ static struct {
 } suite;
 /* clang-format on */
 
-static char missing[256]; /* what hinders, once it was tried */
+static char missing[256]; /* why the libraries cannot be opened, after the first attempt */
 
 static bool find(void *library, const char *function, void *pointer)
 {
@@ -46,8 +46,8 @@ static bool find(void *library, const char *function, void *pointer)
     return found;
 }
 
-/* The libraries' memory is the program's, where a refusal is noted: CHOLMOD may go on with an ordering that
-   needs less, and another rounding. */
+/* Makes the libraries use the program's allocator, which notes refusals. After a refusal CHOLMOD may continue with an
+   ordering that needs less memory and rounds differently. */
 static bool let_libraries_take(void *library)
 {
 #if SUITESPARSE_MAIN_VERSION >= 7
@@ -74,7 +74,7 @@ static bool let_libraries_take(void *library)
     return true;
 }
 
-/* The loader's own sentence says whether it was memory that it lacked. */
+/* Opens the libraries. The loader's error message shows if memory was the reason of a failure. */
 static void open_libraries(void)
 {
 /* a file's name ends with the version of the interface that the headers have */
@@ -111,9 +111,9 @@ static size_t largest_panel(const struct gm_supernodes *triangle)
     return most;
 }
 
-/* Half the memory and less, and as much time, where what is lost does not matter to who wants it rough: of the solution
-   of A x = 1, which has most of what a Laplacian knows worst. Where a twentieth of that is lost an iteration takes 8 %
-   more steps; a third, 60 %. False where it matters; then the factor is lost. */
+/* Stores the factor in half the memory or less, which halves the time of a solve. The test is the loss of the
+   solution of A x = 1, which consists mostly of the softest modes of a Laplacian. If a twentieth of it is lost, an
+   iteration takes 8 % more steps, for a third 60 %. Returns false if too much is lost; the factor is then unusable. */
 static bool narrow(struct gm_cholesky *cholesky)
 {
     const double good_enough = .25;
@@ -233,7 +233,7 @@ bool gm_lu_solve(size_t n, const int *start, const int *column, const double *va
         return false;
     }
     suite.umfpack_di_defaults(control);
-    /* nested dissection, by METIS, takes longer than minimum degree does, and pays from about here on */
+    /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this size on */
     control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
     /* the rows are the columns of the transpose */
     bool good =

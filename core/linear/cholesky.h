@@ -10,11 +10,12 @@
    allocates nothing, and its bits do not depend on a BLAS but through the factor's. */
 struct gm_cholesky;
 
-/* Opens the libraries, if they are not yet; NULL, or why they cannot be. Without them nothing is factored. */
+/* Opens the libraries on the first call. Returns NULL, or why they cannot be opened. Without them no matrix is
+   factored. */
 const char *gm_cholesky_missing(void);
 
-/* A rough factor stands in single precision or, a large one, in whole numbers of 16 bits, where a solution keeps
-   most of itself then; it preconditions. */
+/* A rough factor is a preconditioner. It is stored in single precision or, if it is large and the solution loses
+   little, in 16-bit integers. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 
 /* Rows start[i] .. start[i + 1] of columns, those <= i. NULL when memory is short or the

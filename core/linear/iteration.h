@@ -69,12 +69,12 @@ static inline bool gm_eliminate(size_t n, double *a, double *r)
     return gm_eliminate_columns(n, a, 1, r);
 }
 
-/* residual := G(z) - z, and matrix := 1 - G'(z) by rows, or both times the same matrix; adds to *scale the size that
-   changes are compared with. False: there are none. */
+/* residual := G(z) - z, and matrix := 1 - G'(z) by rows, or both times the same matrix. Adds to *scale the size with
+   which changes are compared. Returns false if G or G' has no value at z. */
 typedef bool gm_linear_equations(void *data, const double *z, double *residual, double *matrix,
                                  double *scale);
 
-/* next := G(z); adds to *scale as above. False: there is no value. */
+/* next := G(z); adds to *scale as above. Returns false if G has no value at z. */
 typedef bool gm_swept_equations(void *data, const double *z, double *next, double *scale);
 
 struct gm_implicit_equations {
@@ -83,10 +83,10 @@ struct gm_implicit_equations {
     gm_swept_equations *sweep;
     gm_linear_equations *linear; /* NULL: sweeps alone */
     size_t counted; /* the first of these, whose changes Newton's method compares; sweeps compare all */
-    /* Where z are increments of stages y + z of n components each, Newton's method ends by gm_newton_is_settled. */
+    /* If z are increments of stages y + z of n components each, Newton's method ends by gm_newton_is_settled. */
     const double *y; /* NULL: z are others */
     size_t n;
-    /* Otherwise it ends by gm_is_settled, as sweeps do, or where a change is at most `least` of |z|. */
+    /* Otherwise it ends by gm_is_settled, as sweeps do, or when a change is at most `least` of |z|. */
     double least, roundoff; /* the level of round-off is this part of the scale */
     bool halved;            /* steps of Newton's method are halved until the residual is no larger */
     bool exact;             /* the equations are linear: one step solves them */
@@ -137,7 +137,7 @@ static inline double gm_sum_of(const double *values, size_t count)
     return sum;
 }
 
-/* Why a matrix of so many entries was not eliminated. */
+/* Returns why a matrix with this number of entries was not eliminated. */
 static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matrix)
 {
     return isfinite(gm_sum_of(matrix, entries)) ? GM_SINGULAR : GM_NOT_FINITE;

@@ -11,30 +11,30 @@
 
 #define GM_EPSILON 2.220446049250313e-16
 
-/* What changes so many unknowns by no more leaves them as they are, even if they come to rest at 1e-308. */
+/* A change of `size` unknowns that is not larger than this leaves them as they are, even at values of 1e-308. */
 #define GM_LEAST_CHANGE(size) ((double)(size)*0x1p-1021)
 
-/* Sweeps z := h A f(y + z), of doubles or of lanes of them, are at their end where the change is no smaller than the
+/* Sweeps z := h A f(y + z), of doubles or of lanes of them, are at their end if the change is not smaller than the
    one before or, changes being in geometric progression, the next one would be below `negligible`, 2^-60 of the first
    (with more, invariants drift), and it is at the level of rounding. */
 #define GM_SWEEPS_ARE_SETTLED(change, previous, negligible, roundoff, least)                                 \
     (((change) <= (least)) |                                                                                 \
      ((((change) >= (previous)) | ((change) * (change) <= (negligible) * (previous))) &                      \
       ((change) <= (roundoff))))
-/* Where two sweeps do not make the change four times smaller, Newton's method needs fewer evaluations. */
+/* If two sweeps do not make the change four times smaller, Newton's method needs fewer evaluations. */
 #define GM_SWEEPS_CONTRACT(change, before_previous, roundoff)                                                \
     (((change) <= 0.25 * (before_previous)) | ((change) <= (roundoff)))
 
-/* Whether the rounding of the terms of h f can decide that Newton's method is at its end: by the rule below the change
-   before is then less than 2^-26 of the scale. */
+/* Returns true if the rounding of the terms of h f can decide that Newton's method is at its end. By the rule below the
+   previous change is then less than 2^-26 of the scale. */
 static inline bool gm_rounding_decides(double scale, double previous)
 {
     return previous <= 0x1p-26 * scale;
 }
 
-/* The same of Newton's method for stages. scale: the sum of |y| + |z|; rounding: that of the terms of h f. Without it
-   stiff equations with long steps never settle; without a bound on it a first guess does whose residual is rounding
-   alone. While changes are halved they still fall. */
+/* Returns true if Newton's method for stages is at its end. `scale` is the sum of |y| + |z|, `rounding` the rounding of
+   the terms of h f. Without `rounding` stiff equations with long steps never settle; without its bound a first guess
+   settles if its residual is only rounding. Changes that are halved still fall. */
 static inline bool gm_newton_is_settled(size_t size, double change, double scale, double rounding,
                                         double *previous)
 {
@@ -46,8 +46,8 @@ static inline bool gm_newton_is_settled(size_t size, double change, double scale
     return settled;
 }
 
-/* The same of an iteration whose changes of at most `least` are round-off, even if they still fall; larger ones are,
-   up to `roundoff`, where they no longer fall. */
+/* Returns true if an iteration is at its end. Changes of at most `least` are round-off, even if they still fall. Larger
+   changes, up to `roundoff`, are round-off when they no longer fall. */
 static inline bool gm_is_settled_within(double change, double least, double roundoff, double *previous)
 {
     const bool settled =
@@ -56,13 +56,13 @@ static inline bool gm_is_settled_within(double change, double least, double roun
     return settled;
 }
 
-/* The same of every other iteration: a change far below the level of round-off is the last one. */
+/* Returns true if another iteration is at its end: a change far below the level of round-off is the last one. */
 static inline bool gm_is_settled(double change, double roundoff, double *previous)
 {
     return gm_is_settled_within(change, 0x1p-14 * roundoff, roundoff, previous);
 }
 
-/* What is in the way of an iteration that has made this change and not settled. */
+/* Returns the reason why an iteration with this last change has not settled. */
 static inline struct gm_unsolved gm_unsolved_by(double change, double scale)
 {
     return (struct gm_unsolved){change < 1e100 ? GM_STILL_LARGE : GM_NOT_FINITE, change / scale};

@@ -7,9 +7,9 @@
 
 /* A lower triangular matrix L by supernodes: columns first[s] .. first[s + 1] have their entries in the same
    rows, row[row_start[s]] .. row[row_start[s + 1]] in increasing order, the first of which are the columns
-   themselves. They stand in a panel, column by column, from value_start[s] on; what is on or above the diagonal
-   of L in it means nothing. Values are doubles, floats, or whole numbers with a unit S_jj for each column,
-   L = M S; the two others are NULL. */
+   themselves. The entries are a panel, column by column, from value_start[s] on. Its entries on or above the
+   diagonal of L are ignored. Values are doubles, floats, or integers with a unit S_jj for each column, L = M S;
+   the two other pointers are NULL. */
 struct gm_supernodes {
     size_t n, supernodes, most_rows; /* of a panel */
     const int *first, *row_start, *row, *value_start;
@@ -20,14 +20,14 @@ struct gm_supernodes {
     double *weight;  /* n: 1 / S_ii^2; not of doubles */
 };
 
-/* Makes `inverse` of the diagonal. */
+/* Computes `inverse` from the diagonal. */
 void gm_supernodes_invert_diagonal(struct gm_supernodes *triangle);
-/* Makes the doubles floats, or whole numbers where so many values are read from memory faster, in the same memory.
-   The bytes of a value then. */
+/* Converts the doubles to floats, or to integers if this number of values is then read faster, in the same memory.
+   Returns the number of bytes per value. */
 size_t gm_supernodes_narrow(struct gm_supernodes *triangle, size_t values);
 
-/* Solves L L' x = b in place. scratch: n + 3 most_rows numbers. In single precision but for doubles; sums
-   have an order of their own, whatever the processor. */
+/* Solves L L' x = b in place. scratch: n + 3 most_rows numbers. In single precision unless the
+   values are doubles. The order of sums does not depend on the processor. */
 void gm_supernodes_solve(const struct gm_supernodes *triangle, double *x, double *scratch);
 
 #endif

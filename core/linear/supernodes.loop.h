@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangular solves in one precision: core/linear/supernodes.c includes this with REAL, the type they are made
-   in, STORED, that of the values, LANES, how many of them sums are split into, VALUES, where they stand, and
-   PASS(name). Panels are read once, four columns at a time: it is memory that takes the time. */
+/* Triangular solves in one precision. core/linear/supernodes.c includes this file with REAL, the type of the
+   solve, STORED, the type of the values, LANES, the number of partial sums, VALUES, the array of values, and
+   PASS(name). Panels are read once, four columns at a time, since memory takes most of the time. */
 
 typedef REAL PASS(lanes) __attribute__((vector_size(LANES * sizeof(REAL)), aligned(sizeof(REAL)), may_alias));
-/* Values in the precision that solves are made in. What is wanted after them stands `ahead` bytes from them. */
+/* Returns values in the precision of the solve, and prefetches the next ones, `ahead` bytes from them. */
 static inline __attribute__((always_inline)) const REAL *PASS(read)(const STORED *value, size_t count,
                                                                     ptrdiff_t ahead, REAL *restrict into)
 {

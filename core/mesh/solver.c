@@ -214,15 +214,18 @@ static bool refresh(struct gm_mesh_solver *solver, double *memory)
     return factor(solver);
 }
 
-/* Makes the factors that the memory names, if others or none are at hand. */
+/* Makes the factors that the memory names, if others or none are at hand. Where they cannot be made, the step makes new
+   ones. */
 static void restore(struct gm_mesh_solver *solver, double *memory)
 {
     if (memory[MEMORY_STAMP] != solver->stamp) {
         const double *made_from = past(memory, solver->matrix.n, PAST);
         place(solver, made_from + solver->matrix.n, memory[MEMORY_STEP]);
-        residual_at(solver, made_from);
-        factor(solver);
-        solver->stamp = memory[MEMORY_STAMP];
+        if (residual_at(solver, made_from) && factor(solver)) {
+            solver->stamp = memory[MEMORY_STAMP];
+        } else {
+            memory[MEMORY_SLOW] = 1;
+        }
     }
 }
 

@@ -622,13 +622,9 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
         return true;
     }
     if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
-        const struct gm_written_choice *choice = gm_choice_named(&system->choices, entry->name);
+        struct gm_written_choices tried = system->choices;
         char *word = gm_reading_text(reading, value);
-        size_t k = 0;
-        while (word && k < choice->count && strcmp(choice->words[k], word) != 0) {
-            k++;
-        }
-        if (word && k == choice->count) {
+        if (word && !gm_choices_take(&tried, entry->name, word)) {
             gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
         }
         free(word);

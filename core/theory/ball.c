@@ -12,7 +12,7 @@
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };
 static const double LARGEST = 1e6;
 
-/* A view of the midpoint, good while the ball stays where it is. */
+/* A view of the midpoint, valid until the ball is moved. */
 static void view(mpfr_t number, const struct gm_ball *ball)
 {
     mpfr_custom_init_set(number, ball->kind, ball->exponent, BITS, (void *)ball->limbs);
@@ -63,7 +63,7 @@ static bool is_short_dyadic(double value)
     return scaled == nearbyint(scaled);
 }
 
-/* Of the last digit of so many. */
+/* Returns half a unit of digit number DIGITS of a value. */
 static double half_unit(double value)
 {
     return pow(10, floor(log10(fabs(value))) + 1 - DIGITS) / 2;

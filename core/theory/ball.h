@@ -22,9 +22,9 @@ struct gm_ball gm_ball_ratio(long p, long q);
 /* A coefficient of a table: exact where the double is that of a fraction whose denominator is at most 100, or a
    short dyadic fraction (26 bits), else within half a unit of its 15th significant digit. */
 struct gm_ball gm_ball_written(double value);
-/* The decimal text[0 .. length), behind which no digit stands, with its value as a double: exact where it is a
-   whole number, has at most 3 digits or is, by all its digits, a short dyadic fraction, else within half a unit
-   of its last digit; 16 or 17 digits are a double that was printed, of which 15 are known. */
+/* Returns the decimal text[0 .. length), not followed by a digit; `value` is its double. It is exact if it is a whole
+   number, has at most 3 digits or is a short dyadic fraction, otherwise known within half a unit of its last digit.
+   16 or 17 digits are a printed double, of which 15 are known. */
 struct gm_ball gm_ball_decimal(const char *text, size_t length, double value);
 enum { GM_BALL_DIGITS = 77 }; /* of a whole number that is exact */
 struct gm_ball gm_ball_pi(void);
@@ -34,25 +34,24 @@ struct gm_ball gm_ball_subtract(struct gm_ball a, struct gm_ball b);
 struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b);
 /* x' y */
 struct gm_ball gm_ball_dot(const struct gm_ball *x, const struct gm_ball *y, int count);
-/* Where b may vanish, and where a function is asked for beyond the numbers that it knows, nothing is known of
-   the result: its radius is infinite. */
+/* The radius of the result is infinite if b may vanish, or if the argument is outside the range of the function. */
 struct gm_ball gm_ball_divide(struct gm_ball a, struct gm_ball b);
 struct gm_ball gm_ball_sqrt(struct gm_ball a);
 struct gm_ball gm_ball_exp(struct gm_ball a);
 struct gm_ball gm_ball_log(struct gm_ball a);
 struct gm_ball gm_ball_sin(struct gm_ball a);
 struct gm_ball gm_ball_cos(struct gm_ball a);
-/* Frees the constants that this thread's functions have remembered. */
+/* Frees the constants that the functions have cached for this thread. */
 void gm_ball_forget(void);
 
-/* Whether it is 0 and nothing else; whether two are one and the same ball. */
+/* Return true if the ball is exactly 0, and if two balls are identical. */
 bool gm_ball_is_zero(const struct gm_ball *a);
 bool gm_ball_is_same(const struct gm_ball *a, const struct gm_ball *b);
-/* Whether it may be 0. */
+/* Returns true if the ball contains 0. */
 bool gm_ball_may_vanish(struct gm_ball a);
-/* The midpoint as a double, and the sign of the ball: 0 where it may vanish. */
+/* Returns the midpoint as a double. gm_ball_sign returns the sign of the ball, 0 if it contains 0. */
 double gm_ball_midpoint(struct gm_ball a);
-/* Writes the midpoint with so many digits from the first that is not 0, without an exponent. */
+/* Writes the midpoint with this number of significant digits, without an exponent. */
 void gm_ball_print(struct gm_ball a, int digits, char *text, size_t size);
 int gm_ball_sign(struct gm_ball a);
 

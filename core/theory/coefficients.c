@@ -79,7 +79,7 @@ static bool is_unused(const struct gm_coefficients *coefficients, int stage)
     return unused;
 }
 
-/* Takes stage `gone` away; where it is the same as `kept`, that does what it did. */
+/* Removes stage `gone`. If kept >= 0, stage `kept` is equal to it and takes over its weights. */
 static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
 {
     const int s = coefficients->stages;

@@ -13,7 +13,7 @@
    the weights d being bv. A step whose end is not at the time 1, as a part of another one, takes (e - 1)
    f_q(p0) besides f_q at its last stage. */
 
-/* What the method is for; its order is that for all such systems. */
+/* The systems that a method is made for; its order holds for all of them. */
 enum gm_equations {
     GM_EQUATIONS_PLAIN,       /* y' = f(y) */
     GM_EQUATIONS_PARTITIONED, /* (q, p)' = (f_q(q, p), f_p(q, p)) */
@@ -21,37 +21,38 @@ enum gm_equations {
     GM_EQUATIONS_NYSTROM,     /* (f_q(p), f_p(q)) with f_q linear */
 };
 
-/* The first side is that of q, or all there is. */
+/* The first side belongs to q; plain methods have no other side. */
 enum { GM_SIDE_Q, GM_SIDE_P, GM_SIDES };
 
 struct gm_coefficients {
     enum gm_equations equations;
     int stages;
     int evaluations; /* of f, or of the force, in a step */
-    int nystrom;     /* so many of the stages are those of a Nystrom method; 0: it is none */
+    int nystrom;     /* number of stages of the Nystrom method; 0: another kind of method */
     struct gm_ball *a[GM_SIDES], *b[GM_SIDES]; /* stages * stages by rows, stages; a[GM_SIDE_P]: c, d */
-    /* The same, each with one of the decimals that they are made of moved by half a unit of its last digit: a
-       decimal that occurs several times is one number, and doubts of one condition may cancel. None: balls
-       say all. */
+    /* Copies, each with one of the typed decimals moved by half a unit of its last digit. A decimal that occurs
+       several times is one number, so uncertainties of a condition may cancel. NULL: the radii of the balls are
+       the only bounds. */
     struct gm_coefficients *moved;
     int moved_count;
 };
 
-/* All zeros. False: out of memory. */
+/* Opens coefficients that are all 0. Returns false when out of memory. */
 bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
-/* Opens a copy. False: out of memory. */
+/* Opens a copy. Returns false when out of memory. */
 bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coefficients *coefficients);
-/* Those of a Nystrom method with a, b, bv and c as above, as said there. False: out of memory. */
+/* Opens the coefficients of a Nystrom method with a, b, bv and c, in the form above. Returns false when out of
+   memory. */
 bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
                                   const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c);
-/* Those of steps of these fractions, one after the other, of parts for the same equations, which all are
-   Nystrom methods or none. False: out of memory. */
+/* Opens the composition of steps with these fractions. The parts are for the same equations; all of them are
+   Nystrom methods, or no part is. Returns false when out of memory. */
 bool gm_coefficients_open_composition(struct gm_coefficients *composed, const struct gm_coefficients *parts,
                                       const struct gm_ball *fractions, int count);
-/* Those of the adjoint, the inverse of the step backwards. False: out of memory. */
+/* Opens the adjoint, the inverse of the step backwards. Returns false when out of memory. */
 bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact);
-/* The same plain method with no stage written twice, and none that nothing is made of (Hairer, Lubich & Wanner,
-   VI.7.3); `evaluations` stays. What is left of other kinds is all. */
+/* Removes from a plain method the stages that occur twice or have no effect (Hairer, Lubich & Wanner, VI.7.3).
+   `evaluations` stays. Other kinds of methods stay unchanged. */
 void gm_coefficients_reduce(struct gm_coefficients *coefficients);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 

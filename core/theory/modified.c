@@ -11,7 +11,7 @@
 
 #include "core/theory/theory.h"
 
-/* Of every tree, for each of so many steps and stages: Phi, and what it counts as a branch. */
+/* Phi of every tree for each number of steps and each stage, and its value as a branch. */
 struct powers {
     struct gm_ball *of;
     int steps, stages;

@@ -8,27 +8,27 @@
 enum { GM_MODIFIED_ORDER = 7 /* most vertices of a tree: up to dt^6 */ };
 
 /* H~ = sum over terms of dt^(|tree| - 1) weight H(tree), with the elementary Hamiltonian H(tree) = D^m
-   H(F(u_1), ..., F(u_m)) of the root's branches u_i and their elementary differentials F. Of the trees that
-   differ in the choice of the root alone, whose H(tree) are equal up to the sign, it is that whose branches
-   have at most half of its vertices; so there is nothing to be known of F(u) beyond GM_MODIFIED_BRANCH
-   vertices. Two may stand for one, each with half of the weight. E. Hairer, C. Lubich & G. Wanner, Geometric
+   H(F(u_1), ..., F(u_m)) of the root's branches u_i and their elementary differentials F. Trees that
+   differ only in the choice of the root have the same H(tree) up to the sign. The sum contains the one whose
+   branches have at most half of its vertices, so F(u) is needed up to GM_MODIFIED_BRANCH vertices. If there
+   are two such trees, each has half of the weight. E. Hairer, C. Lubich & G. Wanner, Geometric
    Numerical Integration (2006), IX.9, IX.10. */
 enum { GM_MODIFIED_BRANCH = GM_MODIFIED_ORDER / 2 };
 
 struct gm_modified_term {
-    int tree; /* of `trees`; one of several whose root's side does not matter has GM_SIDE_Q */
+    int tree; /* index in `trees`; if the side of the root does not matter, it is GM_SIDE_Q */
     double weight;
 };
 
 struct gm_modified {
-    struct gm_trees trees; /* of a splitting for any T(p) + V(q) */
+    struct gm_trees trees; /* for a splitting the trees of T(p) + V(q) */
     struct gm_modified_term *terms;
     size_t count;
 };
 
-/* The terms with at most `order` <= GM_MODIFIED_ORDER vertices of a method that is symplectic
-   (gm_theory_is_symplectic); those that vanish as far as the coefficients are known are left out. False: out
-   of memory. To be closed in both cases. */
+/* Opens the terms with at most `order` <= GM_MODIFIED_ORDER vertices of a symplectic method
+   (gm_theory_is_symplectic), without terms that vanish to the precision of the coefficients. Returns false when
+   out of memory. The caller closes it in both cases. */
 bool gm_modified_open(struct gm_modified *modified, const struct gm_coefficients *coefficients, int order);
 void gm_modified_close(struct gm_modified *modified);
 

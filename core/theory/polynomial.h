@@ -15,18 +15,18 @@ struct gm_polynomial {
 
 /* The constant. */
 void gm_polynomial_set(struct gm_polynomial *p, struct gm_ball constant);
-/* p := p + factor x^shift q; false where the degree is too high. */
+/* p := p + factor x^shift q. Returns false if the degree is too high. */
 bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
                        const struct gm_polynomial *q);
 /* p := p + factor q r */
 bool gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
                                const struct gm_polynomial *r);
-/* Takes coefficients that may vanish for zeros, where structure says that some are. */
+/* Sets coefficients that may vanish to 0, for polynomials whose structure implies it. */
 void gm_polynomial_settle(struct gm_polynomial *p);
-/* Where p, on x > 0, first becomes surely negative: 0 where it is so from the start, INFINITY where it never
-   does. A zero that it only touches, within what is known of its coefficients, is no such place. */
+/* Returns the smallest x > 0 beyond which p is certainly negative: 0 if it is so from the start, INFINITY if it never
+   is. A double zero, to the precision of the coefficients, does not count. */
 double gm_polynomial_first_negative(const struct gm_polynomial *p);
-/* Whether all zeros of p surely have a negative real part; Routh's scheme. */
+/* Returns true if all zeros of p certainly have a negative real part, by Routh's scheme. */
 bool gm_polynomial_is_hurwitz(const struct gm_polynomial *p);
 
 #endif

@@ -53,7 +53,7 @@ static bool multiply_determinant(int s, const struct gm_ball *m, int stride, str
     return fits;
 }
 
-/* Whether the first rows of a matrix, up to this one, have nothing in the columns behind it. */
+/* Returns true if rows 0 .. last of a matrix are 0 in the columns after `last`. */
 static bool is_closed(int s, const struct gm_ball *m, int last)
 {
     for (int i = 0; i <= last; i++) {
@@ -67,7 +67,7 @@ static bool is_closed(int s, const struct gm_ball *m, int last)
 }
 
 /* p := det(I - z M), block by block where M is a block triangle: a composition takes no longer than its
-   parts, and its digits are not lost in the whole of it. False where the degree is too high. */
+   parts, and no digits are lost in the product. Returns false if the degree is too high. */
 static bool determinant(int s, const struct gm_ball *m, struct gm_ball *x, struct gm_ball *next,
                         struct gm_polynomial *p)
 {

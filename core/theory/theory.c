@@ -16,14 +16,14 @@
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
-/* Every tree's weights of the stages, stages balls, and behind them sum_j a_ij of these, where it is a
-   branch. A row of a composition begins as the one before it: their sums are one as far as that goes. */
+/* The weights of each tree at the stages, `stages` balls, followed by sum_j a_ij of them for its use as a branch.
+   A row of a composition begins like the one before it, and the sums of these entries are shared. */
 struct weights {
     struct gm_ball *of;
     int stages;
-    struct gm_ball *sums; /* of a row, up to each of its entries */
+    struct gm_ball *sums; /* sums of a row up to each of its entries */
     struct row {
-        int same, end; /* so many entries are those of the row before; those behind the end are 0 */
+        int same, end; /* number of entries equal to the previous row; entries from `end` on are 0 */
     } * rows[GM_SIDES];
 };
 
@@ -101,10 +101,9 @@ static struct gm_ball residual(const struct gm_coefficients *coefficients, const
         gm_ball_ratio(1, (long)gm_tree_density(this)));
 }
 
-/* Whether a residual is more than the doubts of the decimals make of it together, each by what its half unit
-   moves, and those of the rows that they stand beside; the moved weights stand behind the others. There the
-   decimals are numbers, so that what bounds their residual is the doubt of the rows. What vanishes but for
-   rounding is 0. */
+/* Returns true if a residual exceeds the uncertainty of the decimals, the sum of the effects of half a unit of
+   each, plus the uncertainty of the rows next to them. weights[k + 1] belongs to moved[k], in which decimals
+   are exact, so the radius of its residual is the uncertainty of the rows. Round-off counts as 0. */
 static bool is_beyond_doubt(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                             const struct weights *weights, int tree, struct gm_ball defect)
 {
@@ -118,7 +117,7 @@ static bool is_beyond_doubt(const struct gm_coefficients *coefficients, const st
     return coefficients->moved_count > 0 && size > doubt + of_rows;
 }
 
-/* The conditions of one order; false, with what fails, where one does. */
+/* Checks the conditions of one order. Returns false if one fails, with the failing one in *theory. */
 static bool holds(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                   const struct weights *weights, struct gm_theory *theory)
 {
@@ -264,8 +263,8 @@ static bool is_symplectic(const struct gm_coefficients *coefficients, taker *tak
     return true;
 }
 
-/* Whether a stage's value on this side is ever asked for: where functions know the other side alone, only if
-   the other function is taken there. */
+/* Returns true if a stage's value on this side is used. If each function depends on the other side alone, it is used
+   only if the other function is evaluated at this stage. */
 static bool is_asked_for(const struct gm_coefficients *coefficients, int side, int stage)
 {
     if (coefficients->equations == GM_EQUATIONS_PLAIN ||
@@ -334,7 +333,8 @@ static struct gm_ball rest_of(const struct gm_coefficients *coefficients, int st
     return gm_ball_subtract(coefficients->b[GM_SIDE_Q][start], at(coefficients, GM_SIDE_Q, stage, start));
 }
 
-/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i), e being 1:
+/* The conditions of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993), with sigma i = s + 1 - i
+   and e = 1:
        symplectic    b_i = bv_i (e - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
        symmetric     c_(sigma i) + c_i = e,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = e bv_i,
                      a_(sigma i, sigma j) = a_ij + (e - c_i) bv_j - b_j */
@@ -490,7 +490,7 @@ static int digits_of(const struct gm_coefficients *coefficients)
     return isfinite(fewest) ? (int)fmax(1, round(fewest > most - lost ? most : fewest)) : 0;
 }
 
-/* Of a method whose stages are all different, and needed. */
+/* Returns the theory of a method whose stages are all different and needed. */
 static struct gm_theory theory_of_reduced(const struct gm_coefficients *coefficients)
 {
     struct gm_theory theory = {

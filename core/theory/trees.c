@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each tree is made once: of the tree without its last branch and that branch, where branches stand in the
-   order in which trees are made. */
+/* Each tree is made once, from the tree without its last branch and that branch. Branches are sorted in the order in
+   which trees are made. */
 #include "core/theory/trees.h"
 
 #include <stdio.h>
@@ -39,7 +39,7 @@ static bool add(struct gm_trees *trees, struct gm_tree tree)
     return true;
 }
 
-/* Whether a vertex of the form may have this branch beside those that it has. */
+/* Returns true if the root of a tree may have this additional branch. */
 static bool may_branch(enum gm_equations equations, const struct gm_tree *tree, const struct gm_tree *branch)
 {
     switch (equations) {
@@ -105,7 +105,7 @@ static size_t print(const struct gm_trees *trees, int index, char *text, size_t 
     if (trees->trees[tree->without].last < 0) {
         used = append(text, size, used, "[");
     } else {
-        used = append(text, size, used - 1, ","); /* in place of the bracket */
+        used = append(text, size, used - 1, ","); /* replaces the bracket */
     }
     used = print(trees, tree->last, text, size, used);
     return append(text, size, used, "]");

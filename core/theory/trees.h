@@ -7,30 +7,30 @@
 #include "core/theory/coefficients.h"
 
 /* Rooted trees, order by order. Each stands for an elementary differential of the solution, so for a
-   condition of the order that it has vertices; in partitioned systems a vertex has a side, that of the
-   function it stands for. Where f_q knows p alone and f_p knows q, sides alternate; where f_q is linear, a
-   vertex of q has at most one branch. E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential
+   condition of the order that it has vertices; in partitioned systems a vertex has a side, the side of
+   its function. If f_q depends on p alone and f_p on q alone, sides alternate. If f_q is linear, a vertex of q
+   has at most one branch. E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential
    Equations I (1993), II.2, II.14, II.15. */
 
 enum { GM_TREES_ORDER = 10 };
 
 struct gm_tree {
     int order, side;
-    int without, last; /* it is the tree `without` with one more branch, the tree `last`; -1: a lone vertex */
-    int times;         /* so many branches are equal to the last one */
+    int without, last; /* the tree `without` with one more branch, the tree `last`; -1: a single vertex */
+    int times;         /* number of branches equal to the last one */
     double symmetry;   /* sigma: the order of its group of symmetries */
     double below;      /* the product of the densities of its branches */
 };
 
 struct gm_trees {
     enum gm_equations equations;
-    int orders;                    /* that are there */
-    int first[GM_TREES_ORDER + 2]; /* of each order; the one behind the last */
+    int orders;                    /* number of complete orders */
+    int first[GM_TREES_ORDER + 2]; /* first tree of each order, and the end of the last one */
     int capacity;
     struct gm_tree *trees;
 };
 
-/* None yet; grown one order after the other. grow is false where memory is short. */
+/* Open without trees, and add the next order. gm_trees_grow returns false when out of memory. */
 void gm_trees_open(struct gm_trees *trees, enum gm_equations equations);
 bool gm_trees_grow(struct gm_trees *trees);
 void gm_trees_close(struct gm_trees *trees);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sub-pixels as characters: half blocks, quadrants, braille and ASCII. */
-#include "render/cells/blocks.h"
+#include "render/cells/grid.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/cells/blocks.h"
-#include "render/cells/marks.h"
+#include "render/cells/grid.h"
 #include "render/cells/text.h"
 #include "render/layout/layout.h"
 

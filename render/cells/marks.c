@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines, points, polygons, meshes and images on the raster beneath the character cells, and the rules and the
    colour bar around them. Lines, points and polygons go to the mask, fields to the raster itself. */
-#include "render/cells/marks.h"
+#include "render/cells/grid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The raster beneath the character cells: sub-pixels that know what they belong to. */
-#include "render/cells/raster.h"
+#include "render/cells/grid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
 #include <math.h>
 
-#include "render/drawing/painter.h"
+#include "render/drawing/pen.h"
 
 static double hairline(const struct gm_painter *painter)
 {

@@ -2,7 +2,7 @@
 /* Lines, points and polygons in pixels; the pen does the marks that have values. */
 #include <math.h>
 
-#include "render/drawing/painter.h"
+#include "render/drawing/pen.h"
 
 /* Nobody sees a tenth of a pixel. */
 static const float tolerance = 0.1f;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A page: how large things are, and what is drawn in which order. */
-#include "render/drawing/page.h"
+#include "render/drawing/pen.h"
 
 #include <math.h>
 

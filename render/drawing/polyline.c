@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Polylines in pixels: cut to the frame, simplified, dashed. */
-#include "render/drawing/polyline.h"
+#include "render/drawing/pen.h"
 
 #include <math.h>
 #include <stdint.h>

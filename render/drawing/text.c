@@ -2,7 +2,7 @@
 /* The labels of a layout, drawn. */
 #include <math.h>
 
-#include "render/drawing/painter.h"
+#include "render/drawing/pen.h"
 
 /* The font of a label, and what the layout measures it with: titles are bold, and the clock, in letters of
    equal width, is as large as the title. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Base64, as terminals and pages of HTML want their pictures. */
-#include "render/files/base64.h"
+#include "render/files/images.h"
 
 size_t gm_base64_size(size_t size)
 {

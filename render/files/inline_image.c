@@ -4,16 +4,13 @@
  * x 860.
  *
  * Sixels that lie over others leave no trace of them, so the one rectangle around all changes is sent. */
-#include "render/files/inline_image.h"
+#include "render/files/images.h"
 
 #include <libdeflate.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/files/base64.h"
-#include "render/files/sixel.h"
 
 enum {
     SIXEL = 6,

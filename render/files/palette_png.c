@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* PNG with a palette, for images within drawings. Its rows are differences to the row above: the fields of
    colours that are drawn so are smooth. */
-#include "render/files/palette_png.h"
+#include "render/files/images.h"
+#include "render/files/png_memory.h"
 
 #include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/files/png_memory.h"
 
 enum { LEVEL = 9, CHUNK = 12 /* bytes of a chunk beside its own */, HEAD = 13, FILTER_UP = 2 };
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* PNG files: written beside their place and moved there, and their texts read again. */
-#include "render/files/png.h"
+#include "render/files/images.h"
+#include "render/files/png_memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,7 +17,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "render/files/png_memory.h"
 #include "render/files/temporary.h"
 
 /* The structure of the file is libpng's, the image data libdeflate's. Measured on plots of 1280x720 pixels

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading PNG: the texts of any file, the pixels of one of ours. Files are not trusted. */
-#include "render/files/png.h"
+#include "render/files/images.h"
+#include "render/files/png_memory.h"
 
 #include <errno.h>
 #include <libdeflate.h>
@@ -10,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/files/png_memory.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"
 

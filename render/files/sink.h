@@ -4,7 +4,7 @@
 
 #include <signal.h>
 
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "render/message.h"
 
 /* Where frames go: numbered PNG files, one PNG file, or a movie. Frames are encoded by worker threads behind

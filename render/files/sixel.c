@@ -5,7 +5,7 @@
  *
  * libchafa 1.12, tried first, chose 23 colours for a picture of two lanes: a red circle became orange, the
  * mean error was five times as large, the time the same. */
-#include "render/files/sixel.h"
+#include "render/files/images.h"
 
 #include <stdint.h>
 #include <stdio.h>

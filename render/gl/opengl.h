@@ -4,8 +4,8 @@
 
 #include "render/drawing/glyphs.h"
 #include "render/gl/context.h"
-#include "render/layout/theme.h"
-#include "render/triangles/batch.h"
+#include "render/layout/appearance.h"
+#include "render/triangles/triangles.h"
 
 /* OpenGL without a screen draws the triangles of a batch. The context comes from OSMesa or from EGL without a
    surface (render/gl/context.h): one of a kind in a process, kept to its end, in which several threads take turns. */

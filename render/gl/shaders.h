@@ -3,7 +3,7 @@
 #define GM_RENDER_GL_SHADERS_H
 
 #include "render/gl/gl.h"
-#include "render/triangles/batch.h"
+#include "render/triangles/triangles.h"
 
 /* The programs of a batch (struct gm_vertex says what its vertices mean). */
 

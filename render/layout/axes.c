@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One panel of a layout: the room for its texts, then its box and its axes. */
-#include "render/layout/axes.h"
+#include "render/layout/panel.h"
 
 #include <math.h>
 #include <string.h>

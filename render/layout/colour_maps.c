@@ -5,7 +5,7 @@
 #include <math.h>
 #include <threads.h>
 
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 enum { TABLE_SIZE = 256, KNOTS = 7 };
 

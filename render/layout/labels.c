@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Labels that keep off each other: one is taken only where there is room. */
-#include "render/layout/labels.h"
+#include "render/layout/panel.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -6,8 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "render/layout/axes.h"
-#include "render/layout/labels.h"
+#include "render/layout/panel.h"
 
 /* Distances in pixels of a picture 720 high. */
 static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0, header_gap = 18.0,

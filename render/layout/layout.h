@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_LAYOUT_LAYOUT_H
 #define GM_RENDER_LAYOUT_LAYOUT_H
 
-#include "render/layout/surface.h"
+#include "render/layout/panel.h"
 
 /* Where everything of a picture goes on a surface of given size; the layout is one for all painters. */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From an axis to the surface, and boxes that meet. */
-#include "render/layout/surface.h"
+#include "render/layout/panel.h"
 
 #include <math.h>
 

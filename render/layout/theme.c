@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours for paper and for a screen. */
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 /* The lanes' colours were searched for: as far as possible from each other (CIEDE2000) as people with normal
    vision, protanopia and deuteranopia see them (simulated after Machado, Oliveira & Fernandes, 2009), with a

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ticks of an axis: round values, multiples of pi, powers of ten, and their labels. */
-#include "render/layout/ticks.h"
+#include "render/layout/panel.h"
 
 #include <float.h>
 #include <math.h>

@@ -181,7 +181,4 @@ void gm_range_add(double *low, double *high, double value);
 /* Widens a range to calm round bounds, so that axes move in rare steps. Empty ranges become [0, 1]. */
 void gm_range_round(double *low, double *high, enum gm_scale scale);
 
-/* The data painter: writes the picture as text, one mark a line, numbers with 9 digits. */
-void gm_picture_write(const struct gm_picture *picture, FILE *stream);
-
 #endif

@@ -12,11 +12,11 @@
 #endif
 
 #include "render/address_space.h"
-#include "render/drawing/page.h"
+#include "render/drawing/pen.h"
 #include "render/files/thread.h"
 #include "render/gl/opengl.h"
 #include "render/pixels/rasteriser.h"
-#include "render/triangles/brush.h"
+#include "render/triangles/triangles.h"
 
 struct gm_canvas {
     struct gm_brush brush;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/layout/surface.h"
+#include "render/layout/panel.h"
 
 enum {
     MAPS = 2,

@@ -3,8 +3,8 @@
 #define GM_RENDER_PIXELS_RASTERISER_H
 
 #include "render/drawing/glyphs.h"
-#include "render/layout/theme.h"
-#include "render/triangles/batch.h"
+#include "render/layout/appearance.h"
+#include "render/triangles/triangles.h"
 
 /* The triangles of a batch, drawn into memory by the program itself as OpenGL draws them: a triangle has the pixels
    whose middles lie in it, its corners at multiples of 1/256 pixel, and what two triangles share is painted once. A

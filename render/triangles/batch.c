@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One stream of vertices and a short list of draw calls for a whole frame. */
-#include "render/triangles/batch.h"
+#include "render/triangles/triangles.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a pen draws, as strokes and triangles of a batch. */
-#include "render/triangles/brush.h"
+#include "render/triangles/triangles.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strokes and discs as triangles whose edges fade. */
-#include "render/triangles/strokes.h"
+#include "render/triangles/triangles.h"
 
 #include <math.h>
 #include <string.h>

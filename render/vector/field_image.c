@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fields of colours as pixels: values are interpolated as OpenGL does it, linearly in triangles, bilinearly
    between the cells' middles in images. */
-#include "render/vector/field_image.h"
+#include "render/vector/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pen that writes PDF, by Cairo, which finds no font of its own: letters are those of the same file as
    those of the PNG, and stand where its layout puts them. */
-#include "render/vector/pdf.h"
+#include "render/vector/cairo.h"
+#include "render/vector/vector.h"
 
 #include <errno.h>
 #include <math.h>
@@ -12,10 +13,8 @@
 #include <fontconfig/fontconfig.h>
 
 #include "render/cells/text.h"
-#include "render/drawing/page.h"
+#include "render/drawing/pen.h"
 #include "render/files/temporary.h"
-#include "render/vector/cairo.h"
-#include "render/vector/field_image.h"
 
 enum { STOPS = 64 };
 

@@ -2,7 +2,7 @@
 /* The pen that writes SVG. Places are written in hundredths of a pixel: lines as differences of the rounded
    places, so that errors do not add up. Neighbours of one look share their attributes, and opaque lines one
    path. */
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 #include <errno.h>
 #include <math.h>
@@ -11,11 +11,9 @@
 #include <string.h>
 
 #include "render/cells/text.h"
-#include "render/drawing/page.h"
-#include "render/files/base64.h"
-#include "render/files/palette_png.h"
+#include "render/drawing/pen.h"
+#include "render/files/images.h"
 #include "render/files/temporary.h"
-#include "render/vector/field_image.h"
 
 enum shape { NO_SHAPE, LINES, DISCS, FILLS, BOXES };
 

@@ -6,7 +6,7 @@
 
 #include "render/files/regular_file.h"
 #include "render/message.h"
-#include "render/vector/svg.h"
+#include "render/vector/vector.h"
 
 enum { MOST_BYTES = 1 << 28 };
 

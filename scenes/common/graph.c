@@ -308,11 +308,6 @@ static size_t history_points(const struct gm_lane *lane, size_t series, double d
     return count;
 }
 
-size_t gm_history_points(const struct gm_lane *lane, size_t series, double *points)
-{
-    return history_points(lane, series, 1, &(const struct gm_graph){.scale = GM_LINEAR}, points);
-}
-
 void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_timing *timing = lanes[0]->parameters;

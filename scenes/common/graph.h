@@ -61,10 +61,6 @@ bool gm_walk_has_left(const struct gm_walk *walk, bool (*has_left)(const struct 
 /* Whether all lanes have the time step of the first. */
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count);
 
-/* The history of observable number `series` as points (t, value): at most 4 * GM_HISTORY_BINS doubles.
-   Returns their number. */
-size_t gm_history_points(const struct gm_lane *lane, size_t series, double *points);
-
 /* A time axis for the histories of these lanes. */
 void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count);
 

@@ -24,7 +24,7 @@ struct gm_field_look {
     double low, high;                                      /* the values that are shown at least */
     enum gm_colour_map map;
     enum gm_scale x_scale; /* GM_PI where the ring is a circle */
-    int show;              /* what the surfaces hold: scenes/field/local_laws.h */
+    int show;              /* what the surfaces hold: scenes/field/observed.h */
     const char *content;   /* how the third law is called: "mass" */
 };
 

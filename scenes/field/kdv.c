@@ -21,8 +21,8 @@
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/profile.h"
 #include "core/field/problems/dispersive.h"
-#include "scenes/field/local_laws.h"
 #include "scenes/field/moving_frame.h"
+#include "scenes/field/observed.h"
 
 struct scene {
     struct gm_timing timing;

@@ -10,7 +10,7 @@
 
 #include "core/field/families/laws/profile.h"
 #include "core/field/problems/dispersive.h"
-#include "scenes/field/local_laws.h"
+#include "scenes/field/observed.h"
 
 struct scene {
     struct gm_timing timing;

@@ -13,7 +13,7 @@
 
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "scenes/field/wave_observables.h"
+#include "scenes/field/observed.h"
 
 struct scene {
     struct gm_timing timing;

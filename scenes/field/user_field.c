@@ -27,7 +27,7 @@
 #include "core/schemes.h"
 #include "core/tape.h"
 #include "scenes/common/written.h"
-#include "scenes/field/wave_observables.h"
+#include "scenes/field/observed.h"
 #include "scenes/mesh/observed.h"
 #include "scenes/mesh/picture.h"
 
@@ -87,7 +87,7 @@ struct user_field {
 /* Parameters of a run; behind the values of the file's own stand as many bytes: whether each was given. */
 struct lane {
     struct gm_timing timing;
-    int show; /* what the surfaces hold: scenes/field/local_laws.h; of a moving mesh enum gm_mesh_view */
+    int show; /* what the surfaces hold: scenes/field/observed.h; of a moving mesh enum gm_mesh_view */
     const struct user_field *owner;
     double half_length;
     long points;

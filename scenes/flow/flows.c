@@ -17,102 +17,78 @@ const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[]
 
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
-/* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
-static void explain(const char *what, const struct gm_triangulation_fault *fault, char *sentence)
+/* What is wrong with a mesh: its name, the line where `where`, what comes before the thing, the thing, what comes after. */
+static const struct {
+    bool where;
+    const char *before;
+    enum { NOTHING, TEXT, NODE, EDGE, TRIANGLE } thing;
+    const char *after;
+} wrong[] = {
+    [GM_TRIANGULATION_NOT_GMSH] = {false, " is no Gmsh file: it does not begin with $MeshFormat", NOTHING,
+                                   ""},
+    [GM_TRIANGULATION_VERSION] =
+        {false, " is of version ", TEXT,
+         "; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)"},
+    [GM_TRIANGULATION_BYTES] = {false, " is binary, in the byte order of another machine", NOTHING,
+                                "; save it as ASCII (Mesh.Binary = 0)"},
+    [GM_TRIANGULATION_SYNTAX] = {true, ": expected ", TEXT, ""},
+    [GM_TRIANGULATION_TRUNCATED] = {true, ": the file ends within its section ", TEXT, ""},
+    [GM_TRIANGULATION_HUGE] = {true, ": ", TEXT, " is more than 5000000"},
+    [GM_TRIANGULATION_REPEATED_NODE] = {true, ": node ", NODE, " is there twice"},
+    [GM_TRIANGULATION_UNKNOWN_NODE] = {true, ": there is no node ", NODE, ""},
+    [GM_TRIANGULATION_ELEMENT] =
+        {true, ": elements of type ", NODE,
+         "; only triangles of three or six nodes (types 2 and 9) and their sides are read"},
+    [GM_TRIANGULATION_THREE_D] = {true, ": node ", NODE,
+                                  " lies off the plane of the others; the mesh must be flat"},
+    [GM_TRIANGULATION_EMPTY] = {false, " has no triangle", NOTHING, ""},
+    [GM_TRIANGULATION_DEGENERATE] = {true, ": ", TRIANGLE, " has no area"},
+    [GM_TRIANGULATION_OVERLAP] = {true, ": ", TRIANGLE, " lies over its neighbour"},
+    [GM_TRIANGULATION_EDGE_OF_THREE] = {false, ": the edge between nodes ", EDGE,
+                                        " belongs to three triangles"},
+    [GM_TRIANGULATION_PINCHED] = {false, ": at node ", NODE, " the mesh hangs together by a point"},
+    [GM_TRIANGULATION_PIECES] = {true, " is in several pieces: ", TRIANGLE, " is not joined to triangle 1"},
+    [GM_TRIANGULATION_NOT_DELAUNAY] =
+        {true, ": ", TRIANGLE,
+         " and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric"},
+    [GM_TRIANGULATION_DUAL_CELL] = {false, ": the dual cell of node ", NODE, " has no positive area"},
+};
+
+/* The sentence for a mesh that was refused; `name` is "the mesh" or the file's. */
+static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
-    char where[48] = "";
-    if (fault->line > 0) {
-        snprintf(where, sizeof where, ", line %ld", fault->line);
-    }
     const long *n = fault->nodes;
-    switch (fault->kind) {
-    case GM_TRIANGULATION_OK:
-    case GM_TRIANGULATION_MEMORY:
-        snprintf(sentence, GM_MESSAGE, "not enough memory");
-        return;
-    case GM_TRIANGULATION_NOT_GMSH:
-        snprintf(sentence, GM_MESSAGE, "%.100s is no Gmsh file: it does not begin with $MeshFormat", what);
-        return;
-    case GM_TRIANGULATION_VERSION:
-        snprintf(
-            sentence, GM_MESSAGE,
-            "%.100s is of version %.12s; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
-            what, fault->text);
-        return;
-    case GM_TRIANGULATION_BYTES:
-        snprintf(sentence, GM_MESSAGE,
-                 "%.100s is binary, in the byte order of another machine; save it as ASCII (Mesh.Binary = 0)",
-                 what);
-        return;
-    case GM_TRIANGULATION_SYNTAX:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: expected %s", what, where, fault->text);
-        return;
-    case GM_TRIANGULATION_TRUNCATED:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: the file ends within its section %s", what, where,
-                 fault->text);
-        return;
-    case GM_TRIANGULATION_HUGE:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: %s is more than 5000000", what, where, fault->text);
-        return;
-    case GM_TRIANGULATION_REPEATED_NODE:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: node %ld is there twice", what, where, n[0]);
-        return;
-    case GM_TRIANGULATION_UNKNOWN_NODE:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: there is no node %ld", what, where, n[0]);
-        return;
-    case GM_TRIANGULATION_ELEMENT:
-        snprintf(
-            sentence, GM_MESSAGE,
-            "%.100s%s: elements of type %ld; only triangles of three or six nodes (types 2 and 9) and their sides are read",
-            what, where, n[0]);
-        return;
-    case GM_TRIANGULATION_THREE_D:
-        snprintf(sentence, GM_MESSAGE,
-                 "%.100s%s: node %ld lies off the plane of the others; the mesh must be flat", what, where,
-                 n[0]);
-        return;
-    case GM_TRIANGULATION_EMPTY:
-        snprintf(sentence, GM_MESSAGE, "%.100s has no triangle", what);
-        return;
-    case GM_TRIANGULATION_DEGENERATE:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) has no area", what, where,
-                 fault->triangle, n[0], n[1], n[2]);
-        return;
-    case GM_TRIANGULATION_OVERLAP:
-        snprintf(sentence, GM_MESSAGE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) lies over its neighbour",
-                 what, where, fault->triangle, n[0], n[1], n[2]);
-        return;
-    case GM_TRIANGULATION_EDGE_OF_THREE:
-        snprintf(sentence, GM_MESSAGE,
-                 "%.100s: the edge between nodes %ld and %ld belongs to three triangles", what, n[0], n[1]);
-        return;
-    case GM_TRIANGULATION_PINCHED:
-        snprintf(sentence, GM_MESSAGE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
-        return;
-    case GM_TRIANGULATION_PIECES:
-        snprintf(
-            sentence, GM_MESSAGE,
-            "%.100s%s is in several pieces: triangle %ld (nodes %ld %ld %ld) is not joined to triangle 1",
-            what, where, fault->triangle, n[0], n[1], n[2]);
-        return;
-    case GM_TRIANGULATION_NOT_DELAUNAY:
-        snprintf(
-            sentence, GM_MESSAGE,
-            "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
-            "positive; the mesh must be Delaunay, or star=barycentric",
-            what, where, fault->triangle, n[0], n[1], n[2], fault->value);
-        return;
-    case GM_TRIANGULATION_DUAL_CELL:
-        snprintf(sentence, GM_MESSAGE, "%.100s: the dual cell of node %ld has no positive area", what, n[0]);
+    char line[48] = "", angle[48] = "", triangle[160], node[32], edge[64];
+    if (fault->kind <= GM_TRIANGULATION_MEMORY) {
+        gm_refuse(sentence, "not enough memory");
         return;
     }
+    if (wrong[fault->kind].where && fault->line > 0) {
+        snprintf(line, sizeof line, ", line %ld", fault->line);
+    }
+    if (fault->kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+        snprintf(angle, sizeof angle, " has an angle of %.1f degrees", fault->value);
+    }
+    snprintf(node, sizeof node, "%ld", n[0]);
+    snprintf(edge, sizeof edge, "%ld and %ld", n[0], n[1]);
+    snprintf(triangle, sizeof triangle, "triangle %ld (nodes %ld %ld %ld)%s", fault->triangle, n[0], n[1],
+             n[2], angle);
+    const char *const things[] = {"", fault->text, node, edge, triangle};
+    gm_refuse(sentence, "%.100s%s%s%s%s", name, line, wrong[fault->kind].before,
+              things[wrong[fault->kind].thing], wrong[fault->kind].after);
 }
 
 struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
+    enum { MOST = 10000000 };
     const long best =
         gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
     rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
+    if ((double)rectangle->edges * (double)rectangle->strips > MOST) {
+        gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle->edges,
+                  rectangle->strips, 2 * MOST);
+        return NULL;
+    }
     if (rectangle->strips % 2 != 0) {
         gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
         return NULL;
@@ -202,25 +178,6 @@ void gm_flows_note(const struct gm_problem *problem, const void *parameters, cha
         snprintf(sentence + used, GM_MESSAGE - used, "%striangles that the mesh has twice count once: %zu",
                  used > 0 ? "; " : "", origin->repeated);
     }
-}
-
-long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)
-{
-    const long tag = gm_triangulation_group(mesh, name);
-    for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
-        if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
-            return tag;
-        }
-    }
-    char names[128];
-    if (tag != 0) {
-        gm_refuse(sentence, "no edge of the mesh's boundary belongs to \"%.60s\"", name);
-    } else {
-        gm_refuse(sentence,
-                  "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)",
-                  name, key, gm_triangulation_group_names(mesh, names, sizeof names));
-    }
-    return 0;
 }
 
 const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};

@@ -58,9 +58,6 @@ void gm_flows_chosen(const struct gm_problem *problem, void *parameters);
 /* gm_scene.note: the axes of a mesh that lies in another plane than that of x and y, and triangles that are there twice. */
 void gm_flows_note(const struct gm_problem *problem, const void *parameters, char *sentence);
 
-/* The tag of the boundary group `name`, which `key` was to name; 0 with a sentence. */
-long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence);
-
 /* What an outlet may be, NULL-terminated: the usual words of the parameter. */
 extern const char *const gm_flows_outlets[];
 /* Reads "soft", "dirichlet", "free", or GROUP, or GROUP:free and so on; *group: "outlet" unless named. */

@@ -12,34 +12,21 @@ static const struct gm_flow *flow_of(const struct gm_view *view)
     return gm_flow_of(view->problem);
 }
 
-static double kinetic_energy(const struct gm_view *view)
+/* What is measured of a flow and its state, by the observable's key. */
+static double measured(const struct gm_view *view)
 {
-    return gm_flow_kinetic_energy(flow_of(view), view->state);
-}
-
-static double speed_max(const struct gm_view *view)
-{
-    return gm_flow_largest_speed(flow_of(view), view->state);
-}
-
-static double enstrophy(const struct gm_view *view)
-{
-    return gm_flow_enstrophy(flow_of(view), view->state);
-}
-
-static double divergence(const struct gm_view *view)
-{
-    return gm_flow_divergence(flow_of(view), view->state);
-}
-
-static double circulation_error(const struct gm_view *view)
-{
-    return gm_flow_circulation_error(flow_of(view), view->state);
-}
-
-static double scalar_total(const struct gm_view *view)
-{
-    return gm_flow_scalar_total(flow_of(view), view->state);
+    static const struct {
+        const char *key;
+        double (*measure)(const struct gm_flow *flow, const double *y);
+    } rows[] = {{"kinetic_energy", gm_flow_kinetic_energy}, {"enstrophy", gm_flow_enstrophy},
+                {"enstrophy_error", gm_flow_enstrophy},     {"speed_max", gm_flow_largest_speed},
+                {"divergence", gm_flow_divergence},         {"circulation_error", gm_flow_circulation_error},
+                {"scalar_total", gm_flow_scalar_total},     {"temperature_mean", gm_flow_temperature_mean}};
+    size_t i = 0;
+    while (strcmp(rows[i].key, view->observable->key) != 0) {
+        i++;
+    }
+    return rows[i].measure(flow_of(view), view->state);
 }
 
 static double scalar_outflow(const struct gm_view *view)
@@ -72,35 +59,25 @@ static double change(const struct gm_view *view)
     return size > 0 ? change / size : 0;
 }
 
-static double triangles(const struct gm_view *view)
+/* What is measured of its mesh. */
+static double of_mesh(const struct gm_view *view)
 {
-    return (double)flow_of(view)->complex->triangles;
-}
-
-static double obtuse_share(const struct gm_view *view)
-{
-    return (double)flow_of(view)->complex->obtuse / (double)flow_of(view)->complex->triangles;
-}
-
-static double star_least(const struct gm_view *view)
-{
-    return flow_of(view)->complex->star_least;
-}
-
-static double mean_edge(const struct gm_view *view)
-{
-    return flow_of(view)->complex->mean_edge;
+    static const char *const keys[] = {"triangles", "obtuse_share", "star_least", "mean_edge"};
+    const struct gm_complex *complex = flow_of(view)->complex;
+    const double triangles = (double)complex->triangles;
+    const double values[] = {triangles, (double)complex->obtuse / triangles, complex->star_least,
+                             complex->mean_edge};
+    size_t i = 0;
+    while (strcmp(keys[i], view->observable->key) != 0) {
+        i++;
+    }
+    return values[i];
 }
 
 static double scalar_mean(const struct gm_view *view)
 {
     const struct gm_flow *flow = flow_of(view);
     return gm_flow_scalar_total(flow, view->state) / flow->complex->total_area;
-}
-
-static double temperature_mean(const struct gm_view *view)
-{
-    return gm_flow_temperature_mean(flow_of(view), view->state);
 }
 
 double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const double at[2])
@@ -287,22 +264,22 @@ static const struct gm_observable observables[] = {
     GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
                       "relative error of the total pressure away from the walls"),
     GM_OBSERVABLE("psi_min", psi_low, "least stream function"),
-    GM_OBSERVABLE("mean_edge", mean_edge, "mean edge"),
-    GM_LOG_OBSERVABLE("enstrophy_error", enstrophy, "enstrophy error", .error = true, .symbol = "Z"),
-    GM_LOG_OBSERVABLE("circulation_error", circulation_error, "circulation error"),
-    GM_OBSERVABLE("scalar_total", scalar_total, "pollutant in the room"),
+    GM_OBSERVABLE("mean_edge", of_mesh, "mean edge"),
+    GM_LOG_OBSERVABLE("enstrophy_error", measured, "enstrophy error", .error = true, .symbol = "Z"),
+    GM_LOG_OBSERVABLE("circulation_error", measured, "circulation error"),
+    GM_OBSERVABLE("scalar_total", measured, "pollutant in the room"),
     GM_OBSERVABLE("scalar_outflow", scalar_outflow, "outflow of pollutant"),
     GM_LOG_OBSERVABLE("budget_defect", budget_defect, "defect of the pollutant's budget"),
-    GM_LOG_OBSERVABLE("divergence", divergence, "divergence  max |d₁ d₀ ψ|"),
-    GM_OBSERVABLE("kinetic_energy", kinetic_energy, "kinetic energy"),
-    GM_OBSERVABLE("enstrophy", enstrophy, "enstrophy"),
-    GM_OBSERVABLE("speed_max", speed_max, "largest speed, of a triangle or of the boundary"),
+    GM_LOG_OBSERVABLE("divergence", measured, "divergence  max |d₁ d₀ ψ|"),
+    GM_OBSERVABLE("kinetic_energy", measured, "kinetic energy"),
+    GM_OBSERVABLE("enstrophy", measured, "enstrophy"),
+    GM_OBSERVABLE("speed_max", measured, "largest speed, of a triangle or of the boundary"),
     GM_LOG_OBSERVABLE("change", change, "change of ψ in a step"),
-    GM_OBSERVABLE("triangles", triangles, "triangles"),
-    GM_OBSERVABLE("obtuse_share", obtuse_share, "share of obtuse triangles"),
-    GM_OBSERVABLE("star_least", star_least, "least entry of the circumcentric star"),
+    GM_OBSERVABLE("triangles", of_mesh, "triangles"),
+    GM_OBSERVABLE("obtuse_share", of_mesh, "share of obtuse triangles"),
+    GM_OBSERVABLE("star_least", of_mesh, "least entry of the circumcentric star"),
     GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration"),
-    GM_OBSERVABLE("temperature_mean", temperature_mean, "mean temperature"),
+    GM_OBSERVABLE("temperature_mean", measured, "mean temperature"),
 };
 
 const struct gm_observable *gm_room_observable(const char *key, bool along)

@@ -101,7 +101,11 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                            points[count + 1], published);
         }
     }
-    picture->caption = user_room->caption ? user_room->caption : known ? "Grey, broad: exact." : "";
+    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
+    struct gm_span caption;
+    picture->caption = gm_room_said(room, "caption", 0, &caption) ? gm_room_text(picture, room, caption)
+                       : known                                    ? "Grey, broad: exact."
+                                                                  : "";
 }
 
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/model/scope.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
@@ -77,19 +78,34 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* The line, or the piece, at which something is not as it should be. */
-_Noreturn static void refuse(struct gm_user_room *user_room, struct gm_span span, const char *sentence)
+/* Where something is not as it should be. */
+_Noreturn static void refuse(struct gm_user_room *user_room, size_t place, const char *sentence)
 {
     struct gm_fault fault;
-    gm_fail(&fault, span.begin, "%s", sentence);
+    gm_fail(&fault, place, "%s", sentence);
     gm_room_refuse(user_room, &fault);
+}
+
+/* Takes words key=value, each with one of the scene's keys, or a word that all scenes have. */
+static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
+{
+    const size_t place = gm_span_trimmed(user_room->room.text, *rest).begin;
+    const char *text = take(user_room, rest, ";");
+    for (const char *word = text; *word; word += strcspn(word, " "), word += *word == ' ') {
+        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(word, "= "), word);
+        if (word[strlen(key)] != '=' ||
+            !(gm_scene_parameter(&user_room->scene, key) || gm_reading_reserves(key, strlen(key)))) {
+            refuse(user_room, place, "words key=value were expected, with keys of the room: until=5");
+        }
+    }
+    return text;
 }
 
 static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
 {
     const char *key = gm_room_keep(user_room, span);
     if (gm_scene_observable(&user_room->scene, key) < 0) {
-        refuse(user_room, span, "this is no observable of the room");
+        refuse(user_room, span.begin, "this is no observable of the room");
     }
     return key;
 }
@@ -142,9 +158,6 @@ static const struct gm_parameter *find_row(const char *key)
 static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct gm_parameter *row)
 {
     struct gm_scene *scene = &user_room->scene;
-    if (scene->parameter_count == GM_ROOM_ROWS) {
-        gm_arena_refuse(user_room->arena, "a room has at most %d parameters", GM_ROOM_ROWS);
-    }
     user_room->rows[scene->parameter_count] = *row;
     return &user_room->rows[scene->parameter_count++];
 }
@@ -155,6 +168,39 @@ static char *format(struct gm_user_room *user_room, double value)
     return gm_room_format(user_room, "%s", gm_number_format(value, text, sizeof text));
 }
 
+/* The usual value of a row has to be one that it can have. */
+static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
+{
+    struct gm_flows scratch;
+    if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
+        refuse(user_room, place, "the usual value lies outside of the range, or is none of the words");
+    }
+}
+
+/* Adds choices as long as they stand before a place of the file. */
+static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
+{
+    const struct gm_written_choices *choices = &user_room->room.choices;
+    for (; *count < choices->count && choices->list[*count].place < place; ++*count) {
+        const struct gm_written_choice *choice = &choices->list[*count];
+        const char **words = gm_arena_take(user_room->arena, choice->count + 1, sizeof *words);
+        for (size_t i = 0; i < choice->count; i++) {
+            words[i] = choice->words[i];
+        }
+        if (find_row(choice->name)) {
+            refuse(user_room, choice->place, "this name is reserved");
+        }
+        const char *meaning =
+            gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
+        struct gm_parameter *row =
+            add_row(user_room, &(const struct gm_parameter)GM_CHOICE_ROW(struct gm_flows, choices[0], "",
+                                                                         words[choice->standard], words,
+                                                                         meaning[0] ? meaning : "a choice"));
+        row->key = choice->name;
+        row->offset += sizeof(int) * *count;
+    }
+}
+
 static void make_rows(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
@@ -162,33 +208,29 @@ static void make_rows(struct gm_user_room *user_room)
                                                 room->dt_range.least, room->dt_range.most),
                                           GM_UNTIL(format(user_room, isnan(room->until) ? 10 : room->until))};
     size_t own = 0, choices = 0;
-    add_row(user_room, &timing[0]);
+    struct gm_span dt;
+    gm_room_said(room, "dt", 0, &dt);
+    check_row(user_room, add_row(user_room, &timing[0]), dt.begin);
     add_row(user_room, &timing[1]);
-    if (!room->parameters) {
+    if (!gm_room_parameter(room, "viscosity") && !gm_room_parameter(room, "reynolds")) {
         add_row(user_room, find_row("viscosity"))->standard = format(user_room, room->viscosity);
-        add_row(user_room, find_row("schmidt"))->standard =
-            format(user_room, room->viscosity / room->diffusivity);
+        if (!gm_room_parameter(room, "schmidt")) {
+            add_row(user_room, find_row("schmidt"))->standard =
+                format(user_room, room->viscosity / room->diffusivity);
+        }
     }
     for (size_t i = 0; i < room->parameter_count; i++) {
         const struct gm_room_parameter *parameter = &room->parameters[i];
         const struct gm_parameter *template = find_row(parameter->name);
-        const struct gm_parameter choice =
-                                      GM_CHOICE_ROW(struct gm_flows, choices[0], "", "", NULL, "a choice"),
-                                  plain = GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300,
-                                                      "a parameter");
-        struct gm_parameter *row = add_row(user_room, template              ? template
-                                                      : parameter->words[0] ? &choice
-                                                                            : &plain);
+        const struct gm_parameter plain =
+            GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
+        if (!template && own == GM_FLOWS_OWN) {
+            refuse(user_room, parameter->place, "a room has at most 8 parameters of its own");
+        }
+        add_choices(user_room, parameter->place, &choices);
+        struct gm_parameter *row = add_row(user_room, template ? template : &plain);
         row->key = parameter->name;
-        if (!template && (own == GM_FLOWS_OWN || choices == GM_FLOWS_OWN)) {
-            gm_arena_refuse(user_room->arena, "a room has at most %d parameters of its own", GM_FLOWS_OWN);
-        }
-        if (!template && parameter->words[0]) {
-            row->choices = list_words(user_room, parameter->words);
-            row->offset += sizeof(int) * choices++;
-        } else if (!template) {
-            row->offset += sizeof(double) * own++;
-        }
+        row->offset += template ? 0 : sizeof(double) * own++;
         row->standard = parameter->text[0] ? parameter->text : row->standard;
         row->help = parameter->meaning[0] ? parameter->meaning : row->help;
         if (!isnan(parameter->low)) {
@@ -196,7 +238,9 @@ static void make_rows(struct gm_user_room *user_room)
             row->highest = parameter->high;
             row->logarithmic = row->type == GM_INTEGER || row->lowest > 0;
         }
+        check_row(user_room, row, parameter->place);
     }
+    add_choices(user_room, SIZE_MAX, &choices);
     user_room->scene.parameters = user_room->rows;
     for (size_t i = (size_t)(find_row("star") - known); i < GM_COUNT(known); i++) {
         const bool of_file = known[i].offset == offsetof(struct gm_flows, star) ||
@@ -212,27 +256,47 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE */
+/* Whether all pieces behind the first one begin with words that are known, NULL behind them. */
+static void check_options(struct gm_user_room *user_room, struct gm_span rest, const char *const *words)
+{
+    struct gm_span piece, word;
+    gm_span_take(user_room->room.text, &rest, ";", &piece);
+    while (gm_span_take(user_room->room.text, &rest, ";", &piece)) {
+        gm_span_take(user_room->room.text, &piece, " ", &word);
+        if (!words[gm_span_among(user_room->room.text, word, words)]) {
+            refuse(user_room, word.begin, "this line has no such option");
+        }
+    }
+}
+
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new one, or what one that there is is called */
 static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
+    static const char *const options[] = {"along", "title", "missing", NULL};
     const struct gm_span line = rest;
+    check_options(user_room, line, options);
     const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
-               *title = option(user_room, rest, "title");
+               *title = option(user_room, rest, "title"), *missing = option(user_room, rest, "missing");
     const struct gm_observable *row = gm_room_observable(key, along);
-    size_t profile = 0;
+    size_t profile = 0, i = 0;
     while (along && profile < user_room->profile_count &&
            strcmp(user_room->profiles[profile].line.name, along) != 0) {
         profile++;
     }
-    if (!row || user_room->observable_count == GM_ROOM_OBSERVED ||
-        (along && profile == user_room->profile_count)) {
-        refuse(user_room, line, "this is nothing that is observed of a room, or of a profile that it has");
+    while (i < user_room->observable_count && strcmp(user_room->observables[i].key, key) != 0) {
+        i++;
     }
-    struct gm_observable *observable = &user_room->observables[user_room->observable_count];
-    *observable = *row;
+    struct gm_observable *observable = &user_room->observables[i];
+    if (i == user_room->observable_count) {
+        if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
+            refuse(user_room, line.begin,
+                   "this is nothing that is observed of a room, or of a profile that it has");
+        }
+        *observable = *row;
+        user_room->subjects[user_room->observable_count++].number = profile;
+    }
     observable->title = title ? title : observable->title;
-    observable->missing = option(user_room, rest, "missing");
-    user_room->subjects[user_room->observable_count++].number = profile;
+    observable->missing = missing ? missing : observable->missing;
 }
 
 /* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
@@ -249,6 +313,9 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
     profile->quantities = quantities;
     for (size_t i = 1; words && words[i]; i++) {
+        if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
+            refuse(user_room, line.begin, "a profile shows u, v or scalar");
+        }
         quantities[i - 1] = words[i][0];
     }
     double *const ends[2] = {profile->line.a, profile->line.b};
@@ -257,7 +324,8 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
         gm_span_take(user_room->room.text, &rest, ";", &piece);
         const double *place = numbers(user_room, piece, NULL, &count);
         if (count != 2) {
-            refuse(user_room, line, "a profile has a name and quantities, two places and a number of points");
+            refuse(user_room, line.begin,
+                   "a profile has a name and quantities, two places and a number of points");
         }
         memcpy(ends[end], place, 2 * sizeof *place);
     }
@@ -289,7 +357,8 @@ static void add_table(struct gm_user_room *user_room, struct gm_span rest)
         }
     }
     if (!table->profile || !table->row) {
-        refuse(user_room, line, "a table has a name and a profile, the value of a parameter, and points");
+        refuse(user_room, line.begin,
+               "a table has a name and a profile, the value of a parameter, and points");
     }
     table->value = number(user_room, condition);
     while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
@@ -302,41 +371,80 @@ static void add_table(struct gm_user_room *user_room, struct gm_span rest)
     }
 }
 
-/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme */
-static void make_subtitle(struct gm_user_room *user_room)
+/* The next value in braces: the text before it, and its key; false: there is none, and the text is what is left. */
+static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct gm_span *before,
+                       struct gm_span *key, bool *nonzero)
 {
-    const char *text = said(user_room, "subtitle");
-    for (size_t i = 0; text && i < GM_COUNT(user_room->look.told) && strchr(text, '{'); i++) {
-        text += strspn(text, ", ");
-        const char *open = strchr(text, '{') + 1, *close = open + strcspn(open, "}");
-        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(open, ":}"), open);
-        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, key);
-        if (row && row->type == GM_REAL) {
-            const int letters = (int)(open - text) - 2;
-            user_room->look.told[i].name = gm_room_format(user_room, "%.*s", letters < 0 ? 0 : letters, text);
-            user_room->look.told[i].offset = row->offset;
-            user_room->look.told[i].nonzero = open[strlen(key)] == ':';
+    const size_t open = gm_span_until(room->text, *rest, "{"),
+                 close = gm_span_until(room->text, (struct gm_span){open, rest->end}, "}"),
+                 colon = gm_span_until(room->text, (struct gm_span){open, close}, ":");
+    *before = (struct gm_span){rest->begin, open};
+    *key = (struct gm_span){open < close ? open + 1 : open, colon};
+    *nonzero = colon < close;
+    rest->begin = close < rest->end ? close + 1 : close;
+    return open < close;
+}
+
+/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme, with values in braces */
+static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
+                          struct gm_span rest, struct gm_picture *picture, struct gm_look *look)
+{
+    struct gm_span before, key;
+    bool nonzero;
+    memset(look->told, 0, sizeof look->told);
+    look->remark = "";
+    for (size_t i = 0; rest.begin < rest.end; i++) {
+        const bool filled = take_brace(room, &rest, &before, &key, &nonzero);
+        const struct gm_parameter *row =
+            gm_scene_parameter(&user_room->scene, gm_room_text(picture, room, key));
+        struct gm_fault fault;
+        double value;
+        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !look->remark[0]) {
+            before.begin += strspn(room->text + before.begin, ", ");
+            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->text, before));
+            look->told[i].offset = row->offset;
+            look->told[i].nonzero = nonzero;
+        } else {
+            look->remark =
+                gm_picture_text(picture, "%s%s", look->remark, gm_room_text(picture, room, before));
+            if (filled && gm_room_number(room, key, &value, &fault)) {
+                look->remark = gm_picture_text(picture, "%s%.4g", look->remark, value);
+            }
         }
-        text = close;
-        text += *text == '}';
     }
+}
+
+/* colours: vorticity F, speed F; false: there is another word, or a number that is not positive. */
+static bool take_colours(const struct gm_room *room, struct gm_look *look, struct gm_fault *fault)
+{
+    static const char *const words[] = {"vorticity", "speed", NULL};
+    struct gm_span rest, piece;
+    gm_room_said(room, "colours", 0, &rest);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
+        const struct gm_span word = {piece.begin, gm_span_until(room->text, piece, " ")};
+        const size_t which = gm_span_among(room->text, word, words);
+        double *end = which == 0 ? &look->vorticity_range : &look->speed_high;
+        if (!words[which] || !gm_room_number(room, (struct gm_span){word.end, piece.end}, end, fault) ||
+            !(*end > 0)) {
+            return gm_fail(fault, piece.begin, "colours: end at positive numbers: vorticity 5, speed 1");
+        }
+    }
+    return true;
 }
 
 /* graph: KEY; low .. high, which may hold what is known of the flow */
-void gm_room_graph(const struct gm_room *room, size_t number, struct gm_look *look)
+static bool take_graph(const struct gm_room *room, size_t number, struct gm_span *key,
+                       struct gm_room_range *range, struct gm_fault *fault)
 {
     struct gm_span rest, piece;
-    struct gm_fault fault;
-    struct gm_room_range ends = {0, 0};
-    gm_room_said(room, "graph", number, &rest);
-    gm_span_take(room->text, &rest, ";", &piece);
-    if (gm_span_take(room->text, &rest, ";", &piece) && gm_room_range_of(room, piece, &ends, &fault)) {
-        look->graph_low[number] = ends.least;
-        look->graph_high[number] = ends.most;
-    }
+    const bool said = gm_room_said(room, "graph", number, &rest);
+    gm_span_take(room->text, &rest, ";", key);
+    return said &&
+           (!gm_span_take(room->text, &rest, ";", &piece) || gm_room_range_of(room, piece, range, fault));
 }
 
-static void make_look(struct gm_user_room *user_room)
+void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
+                       struct gm_picture *picture, struct gm_look *look)
 {
     static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
                                                   {"theta_error", "θ"},
@@ -344,29 +452,67 @@ static void make_look(struct gm_user_room *user_room)
                                                   {"velocity_error", "velocity"},
                                                   {"pressure_error", "total pressure"},
                                                   {NULL, NULL}};
-    struct gm_look *look = &user_room->look;
     struct gm_span rest, piece;
-    look->errors = gm_room_line(&user_room->room, GM_ROOM_EXACT) ? errors : NULL;
-    make_subtitle(user_room);
-    if (gm_room_said(&user_room->room, "time", 0, &rest)) {
-        const size_t end = gm_span_until(user_room->room.text, rest, ";");
-        rest.begin = end < rest.end ? end + 1 : rest.begin;
-        const char *time = user_room->scene.time = gm_room_keep(user_room, rest);
-        look->clock_unit =
-            end < rest.end ? gm_room_format(user_room, "%.*s", (int)strcspn(time, ", "), time) : "";
+    struct gm_fault fault;
+    look->errors = gm_room_line(room, GM_ROOM_EXACT) ? errors : NULL;
+    if (gm_room_said(room, "time", 0, &rest)) {
+        gm_span_take(room->text, &rest, ";", &piece);
+        rest = gm_span_trimmed(room->text, rest);
+        rest.end = rest.begin + strcspn(room->text + rest.begin, ", \r\n");
+        look->clock_unit = gm_room_text(picture, room, rest);
     }
-    if (gm_room_said(&user_room->room, "levels", 0, &rest)) {
-        look->levels = numbers(user_room, rest, NULL, &look->level_count);
+    if (gm_room_said(room, "subtitle", 0, &rest)) {
+        fill_subtitle(user_room, room, rest, picture, look);
+    } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
+        memset(look->told, 0, sizeof look->told);
     }
-    for (size_t i = 0; i < GM_COUNT(look->graphs) && gm_room_said(&user_room->room, "graph", i, &rest); i++) {
-        gm_span_take(user_room->room.text, &rest, ";", &piece);
-        look->graphs[i] = observable_key(user_room, piece);
+    take_colours(room, look, &fault);
+    gm_room_said(room, "levels", 0, &rest);
+    double *levels = gm_picture_memory(picture, (rest.end - rest.begin + 1) * sizeof *levels);
+    while (levels && gm_span_take(room->text, &rest, ",", &piece)) {
+        gm_room_number(room, piece, &levels[look->level_count++], &fault);
     }
+    look->levels = look->level_count > 0 ? levels : NULL;
     for (size_t i = 0; i < user_room->profile_count; i++) {
         look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
     }
-    look->profiles_below = !look->graphs[0];
-    user_room->caption = said(user_room, "caption");
+    const bool graphs = gm_room_said(room, "graph", 0, &rest);
+    look->profiles_below = look->profiles && room->rectangular && !graphs;
+    for (size_t i = 0; i < GM_COUNT(look->graphs) && (graphs || look->profiles_below); i++) {
+        struct gm_room_range ends = {0, 0};
+        look->graphs[i] =
+            take_graph(room, i, &piece, &ends, &fault) ? gm_room_text(picture, room, piece) : NULL;
+        look->graph_low[i] = ends.least;
+        look->graph_high[i] = ends.most;
+    }
+}
+
+/* What a picture will show can be read. */
+static void check_look(struct gm_user_room *user_room)
+{
+    const struct gm_room *room = &user_room->room;
+    struct gm_room measured = *room;
+    struct gm_look look;
+    struct gm_fault fault = {0};
+    struct gm_span rest, piece;
+    struct gm_room_range ends;
+    bool nonzero, good = take_colours(room, &look, &fault);
+    for (int i = 0; i < GM_ROOM_MEASURES; i++) {
+        measured.measures[i] = 1;
+    }
+    gm_room_said(room, "subtitle", 0, &rest);
+    while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
+        double value;
+        good = gm_scene_parameter(&user_room->scene, gm_room_keep(user_room, piece)) ||
+               gm_room_number(&measured, piece, &value, &fault);
+    }
+    for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
+        good = take_graph(&measured, i, &piece, &ends, &fault);
+        observable_key(user_room, piece);
+    }
+    if (!good) {
+        gm_room_refuse(user_room, &fault);
+    }
 }
 
 /* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over
@@ -399,15 +545,19 @@ static void make_studies(struct gm_user_room *user_room)
         figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
         struct gm_figure *figure = &figures[scene->figure_count++];
         figure->name = take(user_room, &rest, ";");
-        figure->arguments = take(user_room, &rest, ";");
+        figure->arguments = take_arguments(user_room, &rest);
         figure->statement = gm_room_keep(user_room, rest);
     }
     scene->figures = figures;
     if (gm_room_said(&user_room->room, "work", 0, &rest)) {
+        const char *const options[] = {
+            "measure", "coarsest", "halvings", "errors", "schemes", user_room->room.edges, NULL};
         struct gm_work *work = &user_room->work;
-        *work = (struct gm_work){.arguments = take(user_room, &rest, ";"),
+        check_options(user_room, rest, options);
+        *work = (struct gm_work){.arguments = take_arguments(user_room, &rest),
                                  .coarsest = option_number(user_room, rest, "coarsest", 0),
-                                 .halvings = (int)option_number(user_room, rest, "halvings", 4),
+                                 .halvings =
+                                     (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31),
                                  .schemes = list_words(user_room, option(user_room, rest, "schemes"))};
         if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
             work->measure = observable_key(user_room, piece);
@@ -416,13 +566,13 @@ static void make_studies(struct gm_user_room *user_room)
         work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
         work->resolution = work->resolutions ? user_room->room.edges : NULL;
         if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
-            refuse(user_room, rest, "work: has three errors that fall, and 1 to 30 halvings");
+            refuse(user_room, rest.begin, "work: has three errors that fall, and 1 to 30 halvings");
         }
         scene->work = work;
     }
     if (gm_room_said(&user_room->room, "stability", 0, &rest)) {
         struct gm_stability *map = &user_room->stability;
-        *map = (struct gm_stability){.arguments = take(user_room, &rest, ";"),
+        *map = (struct gm_stability){.arguments = take_arguments(user_room, &rest),
                                      .parameter = "reynolds",
                                      .label = "Courant number",
                                      .unit = courant_time,
@@ -432,10 +582,10 @@ static void make_studies(struct gm_user_room *user_room)
                                      .schemes = marching};
         map->values = numbers(user_room, rest, map->parameter, &map->value_count);
         if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
-            refuse(user_room, rest, "stability: needs values of a parameter: reynolds 100, 400");
+            refuse(user_room, rest.begin, "stability: needs values of a parameter: reynolds 100, 400");
         }
         scene->stability = map;
-    } else if (user_room->look.errors) {
+    } else if (gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
         scene->no_stability =
             "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
@@ -444,12 +594,8 @@ static void make_studies(struct gm_user_room *user_room)
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
     struct gm_scene *scene = &user_room->scene;
-    struct gm_span rest;
-    const char *watch = said(user_room, "watch");
-    const char *const *schemes = list_words(user_room, said(user_room, "schemes"));
-    scene->watch = watch ? watch : scene->watch;
-    scene->schemes = schemes ? schemes : scene->schemes;
-    scene->lanes = said(user_room, "lanes");
+    struct gm_span rest, piece;
+    const char *watch = said(user_room, "watch"), *time = said(user_room, "time");
     make_rows(user_room);
     for (size_t i = 0; gm_room_said(&user_room->room, "profile", i, &rest); i++) {
         add_profile(user_room, rest);
@@ -461,7 +607,18 @@ void gm_room_take_lines(struct gm_user_room *user_room)
         observe(user_room, rest);
     }
     scene->observable_count = user_room->observable_count;
-    make_look(user_room);
+    scene->watch = watch ? watch : scene->watch;
+    if (gm_room_said(&user_room->room, "schemes", 0, &rest)) {
+        scene->schemes = list_words(user_room, gm_room_keep(user_room, rest));
+    }
+    if (gm_room_said(&user_room->room, "lanes", 0, &rest)) {
+        scene->lanes = take_arguments(user_room, &rest);
+    }
+    if (gm_room_said(&user_room->room, "time", 0, &rest) &&
+        gm_span_take(user_room->room.text, &rest, ";", &piece)) {
+        scene->time = rest.begin < rest.end ? gm_room_keep(user_room, rest) : time;
+    }
+    check_look(user_room);
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }

@@ -6,7 +6,8 @@
 
 /* What lines say beside the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
-/* The ends of a graph, of a lane's room. */
-void gm_room_graph(const struct gm_room *room, size_t number, struct gm_look *look);
+/* What the lines of a lane's room say of its picture, in place of what suits one without them. */
+void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
+                       struct gm_picture *picture, struct gm_look *look);
 
 #endif

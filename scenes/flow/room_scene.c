@@ -21,6 +21,11 @@ char *gm_room_format(struct gm_user_room *user_room, const char *format, ...)
     return gm_arena_keep(user_room->arena, length < 0 ? NULL : text, free);
 }
 
+const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
+}
+
 void gm_room_refuse(struct gm_user_room *user_room, const struct gm_fault *fault)
 {
     *user_room->wrong = *fault;

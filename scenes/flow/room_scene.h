@@ -16,13 +16,13 @@ struct gm_room_file {
 
 /* What an observable of a room looks at. */
 struct gm_room_subject {
-    size_t number; /* of the line, of the hole, or of the profile */
-    double at[2];  /* of a probe */
-    int what;      /* of that it is */
+    const char *name; /* of a line; NULL: it is */
+    size_t number;    /* of a hole, or of a profile */
+    int what;         /* of that it is */
 };
 
 enum {
-    GM_ROOM_ROWS = 32,
+    GM_ROOM_ROWS = 40, /* all that are known, and as many as a room can have of its own */
     GM_ROOM_OBSERVED = GM_MOST_OBSERVABLES,
     GM_ROOM_UNIT = 96, /* bytes of one */
 };
@@ -55,7 +55,6 @@ struct gm_user_room {
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
     const char *words[2];
     struct gm_parameter rows[GM_ROOM_ROWS];
-    const char *sides[GM_ROOM_SIDES]; /* names, by the number of the side */
     struct gm_observable observables[GM_ROOM_OBSERVED];
     struct gm_room_subject subjects[GM_ROOM_OBSERVED];
     bool overfull;       /* there are more */
@@ -63,11 +62,9 @@ struct gm_user_room {
     size_t observable_count;
     const char *forces
         [2]; /* on the first hole: what a room shows where no scalar is brought; NULL: it is, or no hole */
-    struct gm_look look; /* what lines say of it */
     struct gm_room_profile *profiles;
     struct gm_room_table *tables;
     size_t profile_count, table_count;
-    const char *caption;
     struct gm_work work;
     struct gm_stability stability;
 };
@@ -87,6 +84,8 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
 const char *gm_room_keep(struct gm_user_room *user_room, struct gm_span span);
 __attribute__((format(printf, 2, 3))) char *gm_room_format(struct gm_user_room *user_room, const char *format,
                                                            ...);
+/* A part of a lane's text, for a picture. */
+const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span);
 /* Leaves the arena with what is wrong at a place of the file. */
 _Noreturn void gm_room_refuse(struct gm_user_room *user_room, const struct gm_fault *fault);
 

@@ -85,40 +85,58 @@ static double through(const struct gm_view *view, size_t side, bool scalar)
     return sum;
 }
 
+/* The number, from 1, of the line of a lane's room that names a side, or a probe; 0: it has none. */
+static size_t find_line(const struct gm_room *room, const char *name, bool probe)
+{
+    for (size_t i = 0; i < room->count; i++) {
+        const enum gm_room_word word = room->lines[i].word;
+        if ((probe ? word == GM_ROOM_PROBE : word <= GM_ROOM_BOUNDARY) &&
+            strcmp(room->lines[i].name, name) == 0) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
 static double observe_local(const struct gm_view *view)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     const struct gm_room_subject *subject = &user_room->subjects[view->observable - user_room->observables];
+    const struct gm_room *room = gm_room_of(view->problem);
     const struct gm_flow *flow = gm_flow_of(view->problem);
-    const bool stepped = view->run && view->run->steps > 0;
+    const bool stepped = view->run && view->run->steps > 0,
+               probe = subject->what >= SCALAR && subject->what <= TEMPERATURE;
+    const size_t number = subject->name ? find_line(room, subject->name, probe) : subject->number;
     struct gm_sample sample;
-    double force[2], pressure;
+    double force[2], pressure, at[2];
+    if (number == 0) {
+        return NAN;
+    }
+    if (probe) {
+        gm_room_point(room, &room->lines[number - 1], at);
+    }
     switch ((enum local)subject->what) {
     case FLOW:
     case SCALAR_FLOW:
-        return through(view, subject->number, subject->what == SCALAR_FLOW);
+        return through(view, number, subject->what == SCALAR_FLOW);
     case SCALAR:
     case SPEED:
     case TEMPERATURE:
-        if (!gm_flow_sample(flow, view->state, subject->at[0], subject->at[1], &sample)) {
+        if (!gm_flow_sample(flow, view->state, at[0], at[1], &sample)) {
             return NAN;
         }
         return subject->what == SCALAR  ? sample.theta
                : subject->what == SPEED ? hypot(sample.u, sample.v)
                                         : sample.temperature;
     case PRESSURE:
-        return stepped && gm_flow_pressure_at(flow, view->state, subject->at[0], subject->at[1], &pressure)
-                   ? pressure
-                   : NAN;
+        return stepped && gm_flow_pressure_at(flow, view->state, at[0], at[1], &pressure) ? pressure : NAN;
     case HEAT:
-        return stepped ? gm_flow_heat(flow, view->state, subject->number) : NAN;
+        return stepped ? gm_flow_heat(flow, view->state, number) : NAN;
     case DRAG:
     case LIFT:
-        return stepped && gm_flow_force(flow, view->state, subject->number, force)
-                   ? force[subject->what - DRAG]
-                   : NAN;
+        return stepped && gm_flow_force(flow, view->state, number, force) ? force[subject->what - DRAG] : NAN;
     default:
-        return gm_flow_circulation(flow, view->state, subject->number);
+        return gm_flow_circulation(flow, view->state, number);
     }
 }
 
@@ -131,8 +149,8 @@ static void tell(const struct gm_user_room *user_room, const struct gm_fault *fa
     if (!fault->sentence[0] && gm_flows_boundary(boundary, whole)) {
         return;
     }
-    if (whole[0] && fault->offset == 0) {
-        gm_refuse(sentence, "%s", whole);
+    if ((whole[0] && fault->offset == 0) || user_room->file.built_in) {
+        gm_refuse(sentence, "%s", whole[0] ? whole : fault->sentence);
         return;
     }
     gm_text_place(user_room->file.text, fault->offset, &line, &column);
@@ -191,26 +209,6 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
     return room;
 }
 
-/* Whether every group of a list, "1,2", that a parameter gives is on the mesh's boundary, and there once. */
-static bool has_groups(const struct gm_triangulation *mesh, const struct gm_room_parameter *list,
-                       char *sentence)
-{
-    char name[GM_TEXT_SIZE];
-    for (const char *at = list->text; *at; at += strcspn(at, ","), at += *at == ',') {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        const long tag = gm_flows_group(mesh, list->name, name, sentence);
-        for (const char *before = list->text; before < at; before += strcspn(before, ",") + 1) {
-            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
-                return gm_refuse(sentence, "the group \"%.60s\" is named twice", name);
-            }
-        }
-        if (tag == 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room *room,
                       const struct gm_flows *chosen, struct gm_triangulation *mesh, char *sentence)
 {
@@ -223,14 +221,6 @@ static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room
     const char *path = user_room->room.rectangular ? chosen->mesh : user_room->mesh;
     if (!gm_flows_file(path, user_room->inside, (enum gm_star)chosen->star, mesh, sentence)) {
         return false;
-    }
-    for (size_t i = 0; room && i < room->count; i++) { /* sides that the command line names */
-        const struct gm_room_line *line = &room->lines[i];
-        const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
-        if (line->word <= GM_ROOM_BOUNDARY && other && !has_groups(mesh, other, sentence)) {
-            gm_triangulation_close(mesh);
-            return false;
-        }
     }
     return !room || chosen->refine < 2 ||
            gm_flows_refine(path, (enum gm_star)chosen->star, chosen->refine, mesh, sentence);
@@ -264,7 +254,7 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     struct gm_triangulation mesh;
     struct gm_fault fault;
     enum gm_boundary_fault boundary;
-    const long edges = room->rectangle.edges, multiple = (long)room->multiple;
+    const long edges = room->rectangle.edges, multiple = room->multiple;
     room->from_file = room->rectangular && !has_rectangle(chosen);
     if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
         gm_refuse(
@@ -285,8 +275,12 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     }
     struct gm_span rest, unit;
     if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &unit) &&
-        rest.begin < rest.end) {
-        gm_room_number(room, unit, &flow->time_unit, &fault);
+        rest.begin < rest.end &&
+        (!gm_room_number(room, unit, &flow->time_unit, &fault) ||
+         (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number")))) {
+        gm_flow_close(flow);
+        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        return NULL;
     }
     room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
     flow->tracers = (size_t)chosen->tracers;
@@ -338,47 +332,53 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
 {
     (void)sentence;
     const struct gm_user_room *user_room = gm_user_room_of(self);
-    struct gm_rectangle box = user_room->room.rectangle;
-    const struct gm_parameter *row[] = {gm_scene_parameter(&user_room->scene, user_room->room.edges),
-                                        gm_scene_parameter(&user_room->scene, user_room->room.strips)};
-    if (!row[0] || !row[1] || row[0]->type != GM_INTEGER || row[1]->type != GM_INTEGER) {
-        return true;
+    struct gm_fault fault;
+    struct gm_room *room = room_for(user_room, self, user_room->initial.outlet, &fault);
+    const struct gm_parameter *row[] = {room ? gm_scene_parameter(&user_room->scene, room->edges) : NULL,
+                                        room ? gm_scene_parameter(&user_room->scene, room->strips) : NULL};
+    if (row[0] && row[1] && row[0]->type == GM_INTEGER && row[1]->type == GM_INTEGER) {
+        const bool by_edges = gm_is_given(row[0]->key, keys, count),
+                   by_strips = gm_is_given(row[1]->key, keys, count);
+        const struct gm_rectangle *box = &room->rectangle;
+        const long multiple = room->multiple;
+        long *edges = (long *)((char *)self + row[0]->offset),
+             *strips = (long *)((char *)self + row[1]->offset);
+        if (by_edges && !by_strips && *strips > 0) {
+            *strips = gm_rectangle_strips(box->width, box->height, *edges, box->transposed);
+        } else if (by_strips && !by_edges && *strips > 0) {
+            *edges = gm_rectangle_edges(box);
+        }
+        if (multiple > 0 && !by_edges) {
+            *edges = (long)fmax(row[0]->lowest, (double)(multiple * ((*edges + multiple / 2) / multiple)));
+        }
     }
-    const bool by_edges = gm_is_given(row[0]->key, keys, count),
-               by_strips = gm_is_given(row[1]->key, keys, count);
-    const long multiple = (long)user_room->room.multiple;
-    long *edges = (long *)((char *)self + row[0]->offset);
-    box.strips = *(long *)((char *)self + row[1]->offset);
-    if (by_edges && !by_strips && box.strips > 0) {
-        *(long *)((char *)self + row[1]->offset) =
-            gm_rectangle_strips(box.width, box.height, *edges, box.transposed);
-    } else if (by_strips && !by_edges && box.strips > 0) {
-        *edges = gm_rectangle_edges(&box);
-    }
-    if (multiple > 0 && !by_edges) {
-        *edges = (long)fmax(row[0]->lowest, (double)(multiple * ((*edges + multiple / 2) / multiple)));
-    }
-    return true;
+    close_room(room);
+    return true; /* setup says what is wrong with a room */
 }
 
-static void start(const void *parameters, const struct gm_problem *problem, double *y)
+static bool start(const void *parameters, const struct gm_problem *problem, const struct gm_scheme *scheme,
+                  double *y, char *sentence)
 {
-    (void)parameters;
+    (void)scheme;
     const struct gm_room *room = gm_room_of(problem);
     const struct gm_flow *flow = gm_flow_of(problem);
     const struct gm_room_line *line = gm_room_line(room, GM_ROOM_START);
-    const bool turns = line && line->value[GM_ROOM_VORTICITY].place > 0;
-    double *omega = turns ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
-    for (size_t v = 0; omega && v < flow->complex->vertices; v++) {
-        const double at[4] = {0, flow->complex->point[2 * v], flow->complex->point[2 * v + 1], 0};
+    const size_t place = line ? line->value[GM_ROOM_VORTICITY].place : 0;
+    double *omega = place > 0 ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
+    struct gm_fault fault = {.sentence = "the boundary does not determine the stream function at the start"};
+    bool good = place == 0 || omega;
+    for (size_t v = 0; omega && good && v < flow->complex->vertices; v++) {
+        const double *p = flow->complex->point + 2 * v, at[4] = {0, p[0], p[1], 0};
         omega[v] = gm_room_value(room, line, GM_ROOM_VORTICITY, at, 0);
+        good = isfinite(omega[v]) ||
+               gm_fail(&fault, place, "the vorticity is not finite at (%.4g, %.4g)", p[0], p[1]);
     }
-    const bool good =
-        turns ? omega && gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y);
-    if (!good) {
-        memset(y, 0, problem->n * sizeof *y);
+    good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
+    if (!good) { /* where memory was short the lane says so */
+        tell(gm_user_room_of(parameters), &fault, GM_BOUNDARY_OK, sentence);
     }
     free(omega);
+    return good;
 }
 
 /* Whether heat is carried that nothing takes away. */
@@ -470,44 +470,6 @@ static double enriched(const struct gm_flow *flow)
     return through > 0 ? 2 * sum / through : 0;
 }
 
-/* colours: vorticity F, speed F */
-static double colours_end(const struct gm_room *room, const char *word, double otherwise)
-{
-    struct gm_span rest, piece, value;
-    struct gm_fault fault = {0};
-    gm_room_said(room, "colours", 0, &rest);
-    while (gm_span_take(room->text, &rest, ",", &piece)) {
-        if (gm_room_option(room, piece, word, &value)) {
-            gm_room_number(room, value, &otherwise, &fault);
-        }
-    }
-    return otherwise;
-}
-
-/* What stands behind the parameters of the line `subtitle:`, with values in braces. */
-static const char *remark(struct gm_picture *picture, const struct gm_room *room, size_t parameters)
-{
-    struct gm_span rest;
-    struct gm_fault fault;
-    const char *filled = "";
-    gm_room_said(room, "subtitle", 0, &rest);
-    for (size_t i = 0; rest.begin < rest.end; i++) {
-        const size_t open = gm_span_until(room->text, rest, "{"),
-                     close = gm_span_until(room->text, (struct gm_span){open, rest.end}, "}");
-        double value = NAN;
-        if (i >= parameters) {
-            filled =
-                gm_picture_text(picture, "%s%.*s", filled, (int)(open - rest.begin), room->text + rest.begin);
-        }
-        if (i >= parameters && open < close &&
-            gm_room_number(room, (struct gm_span){open + 1, close}, &value, &fault)) {
-            filled = gm_picture_text(picture, "%s%.4g", filled, value);
-        }
-        rest.begin = close < rest.end ? close + 1 : close;
-    }
-    return filled;
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
@@ -533,14 +495,17 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
+    const bool units = user_room->room.units, named = !room->rectangular;
+    const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
+    for (size_t i = 0; sides && i < room->count; i++) {
+        sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
+    }
     struct gm_look look = {
         .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
                   gm_picture_text(picture, "%s", name_unit(user_room, spread, unit)), false},
                  {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
-        .axes = {gm_picture_text(picture, "x%s", beside_unit(user_room, length, unit)),
-                 gm_picture_text(picture, "y%s", beside_unit(user_room, length, unit))},
-        .sides = user_room->sides,
+        .sides = sides,
         .graphs = {flow->heat               ? "temperature_mean"
                    : user_room->forces[0]   ? user_room->forces[0]
                    : user_room->room.scalar ? "scalar_mean"
@@ -548,28 +513,24 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                    flow->heat             ? "kinetic_energy"
                    : user_room->forces[1] ? user_room->forces[1]
                                           : "scalar_outflow"},
+        .title = user_room->scene.title,
+        .scalar_high = high > 0 ? high : 1,
+        .temperature = {warm[0], warm[1]},
+        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar},
+        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
+        .speed_high = 1.2 * speed,
     };
-    if (user_room->room.rectangular) {
-        const char *const axes[] = {look.axes[0], look.axes[1]};
-        look = user_room->look;
-        for (int c = 0; c < 2 && user_room->room.units; c++) {
-            look.axes[c] = axes[c];
+    for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
+        look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
+        if (named || units) {
+            look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
         }
     }
-    look.title = user_room->scene.title;
-    look.scalar_high = high > 0 ? high : 1;
-    memcpy(look.temperature, warm, sizeof warm);
-    look.names[GM_SHOW_SCALAR] = user_room->room.scalar;
-    look.vorticity_range = colours_end(room, "vorticity", 6 * speed / fmax(flow->inlet_length, size / 10));
-    look.speed_high = colours_end(room, "speed", 1.2 * speed);
-    for (size_t i = 0; i < GM_COUNT(look.graphs); i++) {
-        gm_room_graph(room, i, &look);
-    }
-    look.remark = remark(picture, room, (look.told[0].name != NULL) + (look.told[1].name != NULL));
-    for (size_t i = 0; i < GM_COUNT(shown) && user_room->room.units; i++) {
+    for (size_t i = 0; i < GM_COUNT(shown) && units; i++) {
         look.names[shown[i].show] =
             gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
     }
+    gm_room_take_look(user_room, room, picture, &look);
     gm_flows_draw(lanes, count, picture, &look);
 }
 
@@ -663,16 +624,19 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
     const struct gm_room *room = &user_room->room;
     const bool heat = !isnan(room->buoyancy);
     bool brought = false;
-    observe_common(user_room, heat);
+    struct gm_span listed;
+    const bool all = !room->rectangular || !gm_room_said(room, "observe", 0, &listed);
+    if (all) {
+        observe_common(user_room, heat);
+    }
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        struct gm_room_subject subject = {.number = i + 1};
+        const struct gm_room_subject subject = {.name = line->name};
         brought |= line->word == GM_ROOM_SOURCE ||
                    (line->word == GM_ROOM_INLET && line->value[GM_ROOM_SCALAR].place > 0);
-        if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
+        if (all && (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET)) {
             observe(user_room, line->name, FLOW, SCALAR_FLOW, subject);
         } else if (line->word == GM_ROOM_PROBE) {
-            gm_room_point(room, line, subject.at);
             observe(user_room, line->name, SCALAR, heat ? TEMPERATURE : PRESSURE, subject);
         } else if (line->word == GM_ROOM_WALL &&
                    (line->value[GM_ROOM_TEMPERATURE].place > 0 || line->value[GM_ROOM_HEAT].place > 0)) {
@@ -680,7 +644,7 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
         }
     }
     const size_t first = user_room->observable_count;
-    for (size_t hole = 1; hole < mesh->complex->loops; hole++) {
+    for (size_t hole = 1; mesh->complex && hole < mesh->complex->loops; hole++) {
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
         observe(user_room, name, DRAG, CIRCULATION, (struct gm_room_subject){.number = hole});
@@ -794,7 +758,7 @@ static void make(struct gm_arena *arena, void *data)
         .chosen = gm_flows_chosen,
         .note = gm_flows_note,
         .close = close_problem,
-        .start = start,
+        .start_with = start,
         .draw = draw,
         .failure = tell_failure,
     };
@@ -809,11 +773,8 @@ static void make(struct gm_arena *arena, void *data)
         if (!gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }
-        make_observables(user_room, mesh);
     }
-    for (size_t i = 0; i < room->count && i + 1 < GM_ROOM_SIDES; i++) {
-        user_room->sides[i + 1] = room->lines[i].name;
-    }
+    make_observables(user_room, mesh);
     gm_room_take_lines(user_room);
     if (file->word) {
         user_room->words[0] = gm_room_format(user_room, "%s", file->word);

@@ -109,7 +109,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         memcpy(forged + (place + 8 <= render->size ? place : 0), at + 2, 8);
     }
     enum { HEAD = 48, CHECKSUM = 40 };
-    const uint32_t checksum = libdeflate_crc32(0, forged + HEAD, render->size - HEAD);
+    memset(forged + CHECKSUM, 0, sizeof(uint32_t));
+    const uint32_t checksum =
+        libdeflate_crc32(libdeflate_crc32(0, forged + HEAD, render->size - HEAD), forged, HEAD);
     memcpy(forged + CHECKSUM, &checksum, sizeof checksum);
 
     static int file = -1;

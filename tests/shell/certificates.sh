@@ -16,5 +16,15 @@ if len(rows) < 90 or len(set(names)) != len(names):
     sys.exit("rows that cannot be told apart")
 END
 
+# near a mass a step of any length stretches round-off; what the differences make of it is no defect of a scheme
+for scheme in midpoint gauss4 gauss6 gauss8 midpoint-suzuki4 midpoint-kahan-li6; do
+    status 0 certify $scheme --on restricted-three-body --json
+    python3 -c '
+import json, sys
+verdict = json.load(open("out"))["properties"]["symplectic"]
+sys.exit(not verdict["measured"] or verdict["defect"] > verdict["tolerance"] / 5)
+' || fail "$scheme: its derivative is measured too coarsely: $(cat out)"
+done
+
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -196,7 +196,7 @@ status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=
 status 0 run room outlet=soft,free rows=10 columns=0 steps=1 --json
 [ "$(wc -l <out)" -eq 2 ] || fail "outlets are lanes without a mesh"
 refused 1 'the group "door" is named twice$' run room "mesh=$meshes/hole.msh" inlet=door,door outlet=window steps=1
-refused 1 'no physical group "dor" of curves; .* door, vent, window, hatch, pillar' \
+refused 1 'no physical group "dor" on its boundary .*: door, vent, window, hatch, pillar' \
     run room "mesh=$meshes/hole.msh" inlet=dor outlet=window steps=1
 refused 1 'on the wall of a hole' run room "mesh=$meshes/hole.msh" inlet=pillar outlet=window steps=1
 refused 3 'must be Delaunay, or star=barycentric$' run room "mesh=$meshes/hole.msh" star=circumcentric inlet=door outlet=window steps=1
@@ -293,7 +293,7 @@ wrong 'wrong.room:5:20: a flow is that of a whole side' 'inlet: vent flow = x'
 wrong 'wrong.room:5:14: .* a place is two numbers' 'probe: q x = y y = 1'
 wrong 'too much for a number' 'inlet: vent flow = 1e308\ninlet: 4 flow = 1e308'
 wrong 'the temperature is not finite at' 'start: temperature = 1/(x-x)\nbuoyancy: 1'
-wrong 'start: needs scalar = or temperature =' 'start:'
+wrong 'wrong.room:5:1: start: needs scalar = or temperature =' 'start:'
 wrong 'start: takes scalar =, temperature =' 'start: rate = 1'
 wrong 'wrong.room:5:1: viscosity: and reynolds: say the same' 'reynolds: 100'
 wrong 'wrong.room:6:1: diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
@@ -328,8 +328,9 @@ wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x =
 wrong 'wrong.room:5:12: parameter: needs a name that is no other' 'parameter: 3 = 1'
 wrong 'wrong.room:6:12: parameter: needs a name that is no other' 'parameter: a = 1\nparameter: a = 2'
 wrong 'wrong.room:5:19: a range.s lower end comes first' 'parameter: a = 1; 2 .. 1'
-wrong 'wrong.room:5:9: choice: needs a name and words' 'choice: a = b'
-wrong 'wrong.room:5:7: when: needs a choice and its word' 'when: domain = box'
+wrong 'wrong.room:5:9: a choice has a name and 2 to 16 words' 'choice: a = b'
+wrong 'wrong.room:5:13: there is no word "d"' 'choice: a = d of b, c'
+wrong 'wrong.room:5:7: there is no choice "domain"' 'when: domain = box'
 wrong 'wrong.room:6:23: a is a word, and no number' 'choice: a = b of b, c\nwall: pillar scalar = a'
 wrong 'boundary: needs stream_function =' 'boundary: pillar scalar = 1'
 wrong 'exact: needs stream_function =' 'exact: scalar = 1'
@@ -340,6 +341,96 @@ wrong 'wrong.room:5:10: a profile has a name' 'profile: middle u; 0.5; 1; 3'
 wrong 'wrong.room:5:8: a table has a name and a profile' 'table: of nothing; a = 1; 0 1'
 wrong 'work: has three errors' 'work: until=1; errors 1, 2'
 wrong 'stability: needs values of a parameter' 'stability: until=1'
+
+# what a line says once, or with one name, is said once
+wrong 'wrong.room:6:1: geomint: is given twice' 'geomint: 1\ngeomint: 1'
+wrong 'wrong.room:6:1: observe: is given twice' 'observe: divergence\nobserve: divergence; title another'
+wrong 'wrong.room:6:1: profile: is given twice' 'profile: a; 0, 1; 1, 1; 3\nprofile: a; 0, 1; 1, 1; 5'
+wrong 'wrong.room:2:1: viscosity: is given twice, here and as a parameter' 'parameter: viscosity = 1'
+wrong 'wrong.room:4:12: viscosity: is a positive number' 'parameter: viscosity = -1; -2 .. 2' '/^viscosity/d'
+wrong 'wrong.room:4:12: reynolds: is a positive number' 'parameter: reynolds = -1; -2 .. 2' '/^viscosity/d'
+# names of parameters mean nothing else, and their usual values can be had
+for name in dt until scheme x s t pi perimeter; do
+    wrong "wrong.room:5:12: the name $name is reserved" "parameter: $name = 1"
+done
+wrong 'wrong.room:5:9: the name until is reserved' 'choice: until = b of b, c'
+wrong 'wrong.room:5:12: the usual value lies outside of the range' 'parameter: a = 2; 0 .. 1'
+wrong 'wrong.room:5:5: the usual value lies outside of the range' 'dt: 2; 0.1 .. 1'
+wrong 'wrong.room:13:12: a room has at most 8 parameters' "$(for i in $(seq 9); do printf 'parameter: p%s = 1\\n' "$i"; done)"
+# options
+wrong 'wrong.room:5:10: colours: end at positive numbers' 'colours: foo 3'
+wrong 'wrong.room:5:14: there is no name nope' 'subtitle: x {nope}'
+wrong 'wrong.room:5:8: words key=value were expected, with keys of the room' 'lanes: foo=bar'
+wrong 'wrong.room:5:16: this line has no such option' 'work: until=1; junk 3'
+wrong 'wrong.room:5:22: this line has no such option' 'observe: divergence; junk'
+wrong 'wrong.room:5:12: words key=value were expected' 'figure: a; junk; what it shows'
+wrong 'wrong.room:7:' 'parameter: a = 1\nprofile: p; 0, 1; 1, 1; 3\ntable: t p; a = 1; 0 1; junk'
+wrong 'wrong.room:5:10: a profile shows u, v or scalar' 'profile: a foo; 0, 1; 1, 1; 3'
+wrong 'wrong.room:5:7: a unit of time is a positive number' 'time: 0; s'
+wrong 'wrong.room:5:21: slip is 1, or 0 where the wall holds the air' 'wall: pillar slip = 2'
+wrong 'wrong.room:5:20: the vorticity is not finite at (0, 0)' 'start: vorticity = 1/(x - x)'
+wrong 'wrong.room:5:7: side: is of a rectangle' 'side: in; x = 0'
+wrong 'wrong.room:5:1: a room has no line zzzzzzz:; geomint list office --source prints a room' 'zzzzzzz: 1'
+wrong 'wrong.room:7:1: this line is the same for every word' 'choice: a = b of b, c\nwhen: a = c\nuntil: 3'
+refused 1 '^geomint: curves of the group door have a line already: door$' \
+    run room "mesh=$meshes/hole.msh" inlet=door outlet=door steps=1
+
+# rectangles: numbers that make no mesh, at their place; names of their sides
+boxed() { # SENTENCE OPTIONS LINES
+    printf '%b\n' "mesh: rectangle; $2" 'viscosity: 0.1' "${3:-wall: all}" >boxed.room
+    refused 1 "$1" run ./boxed.room steps=1
+}
+boxed 'boxed.room:1:34: height: is a number from 1e-09 to 1e+09' 'width 1; height 1e300; edges 8'
+boxed '8 edges and .* strips make more than 20000000 triangles' 'width 1; height 1e6; edges 8'
+boxed 'boxed.room:1:43: edges: is a whole number from 1 to 100000' 'width 1; height 1; edges 0'
+boxed 'boxed.room:1:53: strips: is a whole number from 0 to 100000' 'width 1; height 1; edges 8; strips -6'
+boxed 'boxed.room:1:56: irregular: is a number from 0 to 0.45' 'width 1; height 1; edges 8; irregular 5'
+boxed 'boxed.room:1:55: multiple: is a whole number from 1 to 100000' 'width 1; height 1; edges 8; multiple 1e30'
+boxed 'keep: has two numbers, x, y' 'width 1; height 1; edges 8; keep 0, 1, 2'
+boxed 'boxed.room:3:8: no edge of the rectangle is called door: it needs a line side: door; x = 0' \
+    'width 1; height 1; edges 8' 'inlet: door  flow = 1'
+boxed 'boxed.room:4:1: side: is given twice' 'width 1; height 1; edges 8' 'side: a; x = 0\nside: a; x = 1'
+
+# a wall slips where it says so
+slipping() {
+    printf '%s\n' 'mesh: rectangle; width 1; height 1; edges 8' 'viscosity: 0.1' 'start: vorticity = x*(1 - x)' \
+        "wall: all  scalar = 0$1" >slipping.room
+    state_of ./slipping.room steps=3
+}
+[ "$(slipping '  slip = 0')" = "$(slipping '')" ] || fail 'a wall that does not slip slips'
+[ "$(slipping '  slip = 1')" != "$(slipping '')" ] || fail 'a wall that slips does not'
+
+# openings and probes of a rectangle are observed; where lines list what is, probes are
+printf '%s\n' 'mesh: rectangle; width 1; height 1; edges 8' 'viscosity: 0.1' 'parameter: a = 0.3' 'side: in; x = 0, y > 0.4' \
+    'side: out; x = 1, y > 0.4' 'inlet: in  flow = a' 'outlet: out' 'probe: seat  x = 0.5  y = 0.5' >observed.room
+status 0 run ./observed.room steps=2 viscosity=0.2 --json
+within in_flow 0.29999 0.30001
+within out_flow 0.29999 0.30001
+within seat_speed 0.001 1
+echo 'observe: divergence' >>observed.room
+status 0 run ./observed.room steps=2 --json
+within seat_speed 0.001 1
+grep -q in_flow out && fail 'a room observes what its lines do not list'
+
+# the words of a choice choose the rectangle, too, and what is best for it
+printf '%s\n' 'viscosity: 0.1' 'parameter: columns = 8; 4 .. 100' 'parameter: rows = 12; 0 .. 400' \
+    'choice: domain = square of square, wide' 'when: domain = square' \
+    'mesh: rectangle; width 1; height 1; edges columns; strips rows' 'when: domain = wide' \
+    'mesh: rectangle; width 4; height 1; edges columns; strips rows' >chosen.room
+sed '/^choice/d; /^when/d; /width 1/d' chosen.room >wide.room
+for room in chosen wide; do
+    "$geomint" run ./$room.room columns=32 $([ $room = wide ] || echo domain=wide) steps=1 --json | grep -o '"rows":[0-9]*,\|"triangles":[0-9]*' >$room.out
+done
+[ -s wide.out ] && cmp -s chosen.out wide.out || fail 'the best strips are those of another rectangle'
+
+# lines of pictures hold on any mesh
+{ cat "$rooms/office.room"; printf '%s\n' 'time: 2; min, two seconds' 'graph: divergence; 0 .. 1e-15' \
+    'subtitle: viscosity {viscosity}, in an office of {area} square metres'; } >looks.room
+cp "$rooms/office.msh" .
+status 0 render ./looks.room until=0.1 -o looks.svg
+for text in 'in an office of' 'divergence' '0.1 min'; do
+    grep -qF "$text" looks.svg || fail "no $text in a picture"
+done
 
 # scenes that are files of the program: their copies give the same bits
 while read -r scene words; do
@@ -372,7 +463,7 @@ printf '%s\n' 'mesh: hole.msh' 'viscosity: 0.01' 'inlet: door flow = 0.3' 'outle
     'outlet: vent flow = 0.2' 'outlet: hatch' >even.room
 status 0 run ./even.room steps=1
 refused 3 'missing.room could not be read' run ./missing.room
-sed 's/hole.msh/missing.msh/' wrong.room >lost.room
+sed 's/hole.msh/missing.msh/' even.room >lost.room
 refused 3 'missing.msh could not be read' run ./lost.room
 printf '%s\n' '$MeshFormat' '4.1 0 8' '$EndMeshFormat' '$Nodes' '1 6 1 16' '2 1 0 6' 1 2 3 14 15 16 '0 0 0' '1 0 0' \
     '.5 1 0' '5 0 0' '6 0 0' '5.5 1 0' '$EndNodes' '$Elements' '1 2 1 2' '2 1 2 2' '1 1 2 3' '2 14 15 16' \

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <wchar.h>
 /* cmocka needs those above */
 #include <cmocka.h>
 
@@ -151,13 +152,55 @@ static void test_scratch_goes_before_the_rest(void **state)
     closed[0] = 0;
     struct gm_arena *arena = gm_arena_open();
     gm_arena_keep(arena, "a", note);
-    struct gm_arena_entry *top = gm_arena_top(arena);
+    const size_t mark = gm_arena_mark(arena);
     gm_arena_keep(arena, "b", note);
     assert_non_null(gm_arena_take(arena, 5, 5));
-    gm_arena_release(arena, top);
+    gm_arena_release(arena, mark);
     assert_string_equal(closed, "b");
     gm_arena_close(arena);
     assert_string_equal(closed, "ba");
+}
+
+/* The last block before the mark grows, and moves in memory; so may one behind it. */
+static void test_a_mark_outlasts_blocks_that_grow(void **state)
+{
+    (void)state;
+    static char b[] = "b";
+    for (size_t count = 10; count <= 1000000; count *= 100) {
+        closed[0] = 0;
+        struct gm_arena *arena = gm_arena_open();
+        gm_arena_keep(arena, "a", note);
+        uint64_t *numbers = gm_arena_take(arena, 1, sizeof *numbers);
+        const size_t mark = gm_arena_mark(arena);
+        gm_arena_keep(arena, b, note);
+        numbers = gm_arena_resize(arena, numbers, count, sizeof *numbers);
+        gm_arena_keep(arena, "c", note);
+        gm_arena_drop(arena, b);
+        gm_arena_release(arena, mark);
+        assert_string_equal(closed, "bc");
+        numbers[count - 1] = count; /* still there */
+        gm_arena_release(arena, mark);
+        assert_string_equal(closed, "bc");
+        gm_arena_close(arena);
+        assert_string_equal(closed, "bca");
+    }
+}
+
+static void print_no_letter(struct gm_arena *arena, void *data)
+{
+    gm_arena_print(arena, "%lc", (wint_t)0x20ac); /* the locale C has no such letter */
+    *(bool *)data = true;                         /* not reached */
+}
+
+static void test_what_has_no_letters_is_refused(void **state)
+{
+    (void)state;
+    bool printed = false;
+    struct gm_arena *arena = gm_arena_open();
+    assert_false(gm_arena_run(arena, print_no_letter, &printed));
+    assert_false(printed);
+    assert_null(gm_arena_print(arena, "%lc", (wint_t)0x20ac)); /* outside of a body */
+    gm_arena_close(arena);
 }
 
 int main(void)
@@ -170,6 +213,8 @@ int main(void)
         cmocka_unit_test(test_a_thing_goes_before_the_others),
         cmocka_unit_test(test_texts_and_what_others_take),
         cmocka_unit_test(test_scratch_goes_before_the_rest),
+        cmocka_unit_test(test_a_mark_outlasts_blocks_that_grow),
+        cmocka_unit_test(test_what_has_no_letters_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

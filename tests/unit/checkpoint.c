@@ -97,20 +97,33 @@ static void close_render(struct render *render)
     free(render->bytes);
 }
 
-/* Writes the bytes with the checksum that they have; it lies before the number of lanes, at the head's
-   end. */
+enum {
+    HEAD = 48,
+    CHECKSUM = HEAD - 2 * sizeof(uint32_t),
+    LANE_COUNT = HEAD - sizeof(uint32_t),
+    POSITION = 32
+};
+
+static void write_bytes(const struct render *render, const unsigned char *bytes)
+{
+    FILE *file = fopen(render->path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, render->size, file), render->size);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Writes the bytes with the checksum that they have: that of what is behind the head, and of the head, in which the
+   checksum is 0. */
 static void write_forged(const struct render *render, const unsigned char *bytes)
 {
     unsigned char *copy = malloc(render->size);
     assert_non_null(copy);
     memcpy(copy, bytes, render->size);
-    enum { HEAD = 48 };
-    const uint32_t checksum = libdeflate_crc32(0, copy + HEAD, render->size - HEAD);
-    memcpy(copy + HEAD - 2 * sizeof(uint32_t), &checksum, sizeof checksum);
-    FILE *file = fopen(render->path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(copy, 1, render->size, file), render->size);
-    assert_int_equal(fclose(file), 0);
+    memset(copy + CHECKSUM, 0, sizeof(uint32_t));
+    const uint32_t checksum =
+        libdeflate_crc32(libdeflate_crc32(0, copy + HEAD, render->size - HEAD), copy, HEAD);
+    memcpy(copy + CHECKSUM, &checksum, sizeof checksum);
+    write_bytes(render, copy);
     free(copy);
 }
 
@@ -162,6 +175,25 @@ static int count_words(char *words[])
         count++;
     }
     return count;
+}
+
+/* The checksum tells a frame, or a number of lanes, that is not the one that was written. */
+static void a_damaged_head_is_refused(void **unused)
+{
+    (void)unused;
+    struct render render;
+    open_render(&render, requests[0], count_words(requests[0]));
+    const size_t places[] = {POSITION, CHECKSUM, LANE_COUNT, HEAD};
+    for (size_t i = 0; i < GM_COUNT(places); i++) {
+        render.bytes[places[i]] ^= 3;
+        write_bytes(&render, render.bytes);
+        assert_false(is_taken(&render));
+        render.bytes[places[i]] ^= 3;
+    }
+    render.bytes[POSITION] = FRAME + 1; /* another frame is taken with its checksum */
+    write_forged(&render, render.bytes);
+    assert_true(is_taken(&render));
+    close_render(&render);
 }
 
 static void impossible_runs_are_refused(void **unused)
@@ -258,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
+        TEST(a_damaged_head_is_refused),
         TEST(impossible_runs_are_refused),
         TEST(any_word_is_survived),
         TEST(other_files_are_refused),

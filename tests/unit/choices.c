@@ -183,7 +183,7 @@ static void what_is_wrong_is_named(void **unused)
         {"choice: c = r of p, q\n", "r of", "there is no word \"r\""},
         {"choice: c = p of p, q, p\n", "p\n", "p is named twice"},
         {"choice: 1c = p of p, q\n", "1c", "a choice has a name"},
-        {"choice: c = p of p, q r\n", "q r", "a choice has a name"},
+        {"choice: c = p of p, q r\n", "c = p", "a choice has a name"},
         {"choice: show = p of p, q\n", "show", "the name show is reserved"},
         {"when: kind = b\nrate: x = zz\n", "zz", "with kind=b: there is no name zz"},
         {"when: kind = b\nrate: y = x\n", "x = 1", "with kind=b: y has no value at the start"},

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "app/words/drive.h"
+#include "tests/common/picture_text.h"
 
 static char *draw(int count, char *words[])
 {
@@ -34,7 +35,7 @@ static char *draw(int count, char *words[])
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    gm_picture_write(picture, stream);
+    test_picture_write(picture, stream);
     fclose(stream);
     gm_picture_close(picture);
     for (size_t i = 0; i < request.count; i++) {

@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/layout/labels.h"
 #include "render/layout/layout.h"
+#include "render/layout/panel.h"
 #include "tests/common/layout_faults.h"
 
 static struct gm_picture *picture_of(size_t states, size_t graphs, bool axes, bool bar)

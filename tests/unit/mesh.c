@@ -138,6 +138,34 @@ static void resumed_runs_keep_their_bits(void **unused)
     }
 }
 
+/* A run that is resumed from a memory whose factors are those of a mesh without cells makes others, at once. */
+static void factors_of_no_mesh_are_made_anew(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"control-gauss4", "control-radau5", "multiplier-lobatto4"};
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        struct gm_problem problem;
+        struct gm_run *whole = open_soliton(&boxed, &problem, names[i], 0.03);
+        struct gm_run *resumed = open_soliton(&boxed, &problem, names[i], 0.03);
+        assert_int_equal(gm_run_advance(whole, 37), GM_OK);
+        const double factorisations = gm_mesh_factorisations(whole);
+        const size_t count = whole->scheme->family->memory(&problem, whole->scheme);
+        double *memory = malloc(count * sizeof *memory);
+        assert_non_null(memory);
+        memcpy(memory, gm_run_memory(whole), count * sizeof *memory);
+        memset(memory + count - problem.n, 0, problem.n * sizeof *memory); /* the state of the factors */
+        gm_run_set_state(resumed, gm_run_state(whole), memory);
+        assert_int_equal(gm_run_advance(resumed, 1), GM_OK);
+        assert_true(gm_mesh_factorisations(resumed) == factorisations + 1);
+        assert_int_equal(gm_run_advance(resumed, 9), GM_OK);
+        assert_int_equal(gm_run_advance(whole, 10), GM_OK);
+        assert_true(gm_distance(gm_run_state(whole), gm_run_state(resumed), problem.n) < 1e-9);
+        free(memory);
+        gm_run_close(whole);
+        gm_run_close(resumed);
+    }
+}
+
 static double error_of(const struct gm_soliton *soliton, const struct gm_run *run)
 {
     double largest = 0;
@@ -666,6 +694,7 @@ int main(void)
         cmocka_unit_test(every_node_of_the_reference),
         cmocka_unit_test(symmetric_schemes_come_back),
         cmocka_unit_test(resumed_runs_keep_their_bits),
+        cmocka_unit_test(factors_of_no_mesh_are_made_anew),
         cmocka_unit_test(strategies_take_over),
         cmocka_unit_test(without_density_the_mesh_is_uniform),
         cmocka_unit_test(derivatives_of_an_element),

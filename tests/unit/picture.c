@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/picture/picture.h"
+#include "tests/common/picture_text.h"
 
 static const struct gm_style line_style = {GM_LANE + 1, 0.5, 2.4, GM_LONG_DASH};
 
@@ -97,7 +97,7 @@ static void text_of(const struct gm_picture *picture, char **text)
     size_t size;
     FILE *stream = open_memstream(text, &size);
     assert_non_null(stream);
-    gm_picture_write(picture, stream);
+    test_picture_write(picture, stream);
     fclose(stream);
 }
 

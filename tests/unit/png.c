@@ -16,7 +16,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/files/png.h"
+#include "render/files/images.h"
 #include "tests/common/folder.h"
 
 enum { MESSAGE = 512 };

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 #define PI 3.14159265358979323846
 

@@ -15,7 +15,6 @@
 #include "app/output/say.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
-#include "core/expression/number.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"

@@ -13,7 +13,6 @@
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/number.h"
-#include "core/memory.h"
 
 /* More runs than these are made if that is confirmed. */
 static const double many = 1e6;

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/row.h"
 #include "app/words/names.h"
 #include "core/certify.h"
 #include "core/expression/number.h"

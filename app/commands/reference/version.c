@@ -19,6 +19,7 @@
 #include "core/ode/kernel/loops.h"
 #include "render/pixels/canvas.h"
 #include "render/vector/cairo.h"
+#include "render/vector/vector.h"
 
 static void print_libraries(void)
 {

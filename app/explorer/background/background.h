@@ -8,7 +8,7 @@
 
 #include "app/tours/tour.h"
 #include "core/scheme.h"
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 /* A thread that does one thing each time it is asked to, and sleeps in between. What the thing is done to
    belongs to the thread while it is busy, and to the caller otherwise, unless they share a lock. */

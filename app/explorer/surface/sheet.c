@@ -231,7 +231,7 @@ bool gm_cells_resize(struct gm_cells *cells, int columns, int rows)
     return true;
 }
 
-void gm_cells_clear(struct gm_cells *cells, enum gm_theme theme)
+static void clear_cells(struct gm_cells *cells, enum gm_theme theme)
 {
     const struct gm_cell blank = {.glyph = ' ',
                                   .foreground = gm_theme_colour(theme, GM_INK),
@@ -251,7 +251,7 @@ void gm_sheet_paint(const struct gm_sheet *sheet, struct gm_painting *painting, 
         if (!gm_cells_resize(cells, sheet->width, sheet->height)) {
             return;
         }
-        gm_cells_clear(cells, face->theme);
+        clear_cells(cells, face->theme);
         cells->outlines = face->few_colours || face->monochrome;
         gm_cells_paint(cells, picture, face->theme, face->blocks);
         painting->blocks = face->blocks;
@@ -295,7 +295,7 @@ const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row)
 
 struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face)
 {
-    gm_cells_clear(&screen->cells, face->theme);
+    clear_cells(&screen->cells, face->theme);
     screen->hits.count = 0;
     screen->pixels = (struct gm_inline_place){0};
     return (struct gm_sheet){

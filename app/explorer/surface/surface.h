@@ -9,7 +9,7 @@
 #include "app/runs/session.h"
 #include "core/scheme.h"
 #include "render/cells/cells.h"
-#include "render/files/inline_image.h"
+#include "render/files/images.h"
 
 /* What the user has set about the screen itself. */
 
@@ -192,7 +192,6 @@ void gm_sheet_paint(const struct gm_sheet *sheet, struct gm_painting *painting, 
 
 /* Gives cells a size, their content anything; false when memory is short. */
 bool gm_cells_resize(struct gm_cells *cells, int columns, int rows);
-void gm_cells_clear(struct gm_cells *cells, enum gm_theme theme);
 
 /* Makes cells clickable: of one row, or of as many as the hit has. */
 void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit);

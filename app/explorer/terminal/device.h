@@ -7,8 +7,8 @@
 
 #include "app/base/interrupt.h"
 #include "render/cells/cells.h"
-#include "render/files/inline_image.h"
-#include "render/layout/theme.h"
+#include "render/files/images.h"
+#include "render/layout/appearance.h"
 
 /* What a terminal answers when it is asked what it is. The answers arrive among the keys, sometimes late, and
    are sorted out of them here; every other byte stays a key. */

@@ -14,7 +14,7 @@
 
 #include "app/explorer/surface/surface.h"
 #include "render/clock.h"
-#include "render/files/base64.h"
+#include "render/files/images.h"
 
 /* ---- the colours of a picture in terminals of 256 and of 16 colours ---- */
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "render/layout/labels.h"
+#include "render/layout/panel.h"
 
 /* The rows of the sections. */
 struct plan {

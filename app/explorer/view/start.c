@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "render/cells/text.h"
 
 enum {
     NAME_COLUMNS = 17, /* before a title */

@@ -4,7 +4,7 @@
 
 #include "app/runs/session.h"
 #include "app/tours/tour.h"
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 /* A session that is played: model time goes on with the clock on the wall, stops, runs ahead or back home. No
    thread: whoever plays calls in turn. */

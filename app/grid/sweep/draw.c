@@ -38,10 +38,8 @@ struct gm_sweep_chart {
 
 static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
 {
-    const struct gm_parameter *parameter = gm_scene_parameter(sweep->scene, word->key);
-    const struct gm_parameter *row = parameter ? parameter : gm_setting_find(word->key);
-    const bool number = strcmp(word->key, "steps") == 0 ||
-                        (row && (row->type == GM_REAL || row->type == GM_INTEGER) && !row->automatic);
+    const struct gm_parameter *row = gm_word_parameter(sweep->scene, word->key);
+    const bool number = gm_word_is_number(sweep->scene, word->key) && !(row && row->automatic);
     return number && word->count > 1;
 }
 
@@ -380,9 +378,9 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const char *title = title_of(chart, observable, picture);
     double values[MAP_BINS], edges[2][MAP_BINS + 1];
     size_t order[2][MAP_BINS];
-    struct cells cells = {.points = malloc(8 * all * sizeof *cells.points),
-                          .values = malloc(4 * all * sizeof *cells.values),
-                          .triangles = malloc(6 * all * sizeof *cells.triangles)};
+    struct cells cells = {.points = gm_picture_memory(picture, 8 * all * sizeof *cells.points),
+                          .values = gm_picture_memory(picture, 4 * all * sizeof *cells.values),
+                          .triangles = gm_picture_memory(picture, 6 * all * sizeof *cells.triangles)};
     const char *name = line_name(chart, line, picture);
     /* a small picture has no room at the bar */
     struct gm_panel *panel = gm_panel_add(
@@ -422,9 +420,6 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
         gm_mark_mesh(picture, panel, extent.is_signed ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low, high,
                      cells.points, cells.values, 4 * cells.count, cells.triangles, 2 * cells.count);
     }
-    free(cells.points);
-    free(cells.values);
-    free(cells.triangles);
 }
 
 /* The value of an axis that is nearest to a place on it. */

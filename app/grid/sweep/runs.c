@@ -14,22 +14,9 @@
 #include "app/words/drive.h"
 #include "core/memory.h"
 #include "core/schemes.h"
-#include "render/clock.h"
 
 const char gm_sweep_statuses[] =
     "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused, warning";
-
-static const struct gm_parameter *row_of(const struct gm_scene *scene, const char *key)
-{
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, key);
-    return parameter ? parameter : gm_setting_find(key);
-}
-
-static bool is_number(const struct gm_scene *scene, const char *key)
-{
-    const struct gm_parameter *row = row_of(scene, key);
-    return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
-}
 
 /* Whether a word says how runs are made of the others, and is no key of a run. */
 static bool is_of_the_list(const struct gm_word *word)
@@ -307,7 +294,7 @@ static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
             const struct gm_scheme *scheme = strcmp(word->key, "scheme") == 0 ? gm_scheme_find(value) : NULL;
             value = scheme ? gm_scheme_word(scheme) : value;
             double number = 0;
-            if (is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
+            if (gm_word_is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
                 fprintf(stream, "%.17g,", number);
             } else {
                 gm_csv_put_text(stream, value);
@@ -396,10 +383,7 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     if (stream) {
         put_front(sweep, run, stream);
         put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, stream);
-        if (fclose(stream) != 0) {
-            free(row->text);
-            row->text = NULL;
-        }
+        fclose(stream);
     }
     free(values);
     gm_lane_close(drive.lane);

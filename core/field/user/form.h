@@ -4,7 +4,7 @@
 #define GM_CORE_FIELD_USER_FORM_H
 
 #include "core/field/field.h"
-#include "core/model/line.h"
+#include "core/user/line.h"
 
 /* Its formulas, of its system's graph. */
 struct gm_user_form {

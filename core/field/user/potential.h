@@ -4,8 +4,8 @@
 #define GM_CORE_FIELD_USER_POTENTIAL_H
 
 #include "core/field/field.h"
-#include "core/model/line.h"
 #include "core/model/potential.h"
+#include "core/user/line.h"
 
 /* The problem with these values of all variables (gm_equations_start) on that ring, or between walls. False where
    memory was refused. To be closed in both cases. */

@@ -159,7 +159,7 @@ GM_CLONES static void add(double *restrict to, const double *restrict from, doub
     }
 }
 
-/* re and im of u' g become those of e, in place: at i stands e_i. */
+/* Replaces u' g by e, real and imaginary parts in place, with e_i at index i. */
 static void sweep(const struct gm_ring_block_root *root, size_t count, double *re, double *im)
 {
     const bool inside = cabs(root->value) < 1;

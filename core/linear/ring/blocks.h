@@ -10,8 +10,8 @@
 enum { GM_RING_BLOCKS_MOST = 12 };
 struct gm_ring_blocks {
     size_t count, n, roots;
-    /* Of root number k, a real one or one of a pair: its value, how much of a sweep counts, what it takes of g and what
-       it gives to y. */
+    /* root[k] is a real root or one of a pair: its value, the number of terms of a sweep, its weights in g (left) and
+       in y (right). */
     struct gm_ring_block_root {
         double _Complex value, closed;
         bool real;
@@ -20,8 +20,8 @@ struct gm_ring_blocks {
     } root[GM_RING_BLOCKS_MOST];
 };
 
-/* b and c are n * n, row by row. False where their pencil has no well-conditioned vectors, or a root that the ring does
-   not damp: other ways are better there. */
+/* b and c are n * n, row by row. Returns false if their pencil has no well-conditioned vectors, or a root that the
+   ring does not damp; other methods are better then. */
 bool gm_ring_blocks_make(struct gm_ring_blocks *blocks, size_t count, size_t n, const double *b,
                          const double *c);
 /* Replaces g, [part * count + point], by y; scratch has room for (n + 2) count numbers. */

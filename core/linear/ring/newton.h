@@ -15,18 +15,18 @@ struct gm_ring_equations {
     void (*jacobian)(void *context, struct gm_ring_band *matrix);
 };
 
-/* What the method needs; touched when it is first used, for it seldom is. */
+/* The memory of the method. Its pages are touched at the first use, which is rare. */
 struct gm_ring_newton {
     size_t n;
     struct gm_ring_band band;
     double *trial, *residual, *change; /* n */
 };
-/* False: out of memory, nothing is held. */
+/* Returns false when out of memory; then nothing is allocated. */
 bool gm_ring_newton_open(struct gm_ring_newton *newton, size_t count, size_t parts, size_t reach);
 void gm_ring_newton_close(struct gm_ring_newton *newton);
 
-/* Solves from the guess u to round-off, halving steps until the residual falls; GM_NO_CONVERGENCE where it
-   does not, or F' is singular. */
+/* Solves from the guess u to round-off, halving steps until the residual falls. Returns GM_NO_CONVERGENCE if it
+   does not fall, or if F' is singular. */
 enum gm_status gm_ring_newton_solve(struct gm_ring_newton *newton, const struct gm_ring_equations *equations,
                                     double *u, struct gm_progress *progress);
 

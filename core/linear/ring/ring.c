@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many terms of 1 + r + r^2 + ... count; all of them where |r| is 1, or rounded to it. */
+/* Returns the number of terms of 1 + r + r^2 + ... that count; all of them if |r| is 1, or rounded to it. */
 static size_t terms(double magnitude, size_t count)
 {
     if (magnitude < 1e-18) {
@@ -187,7 +187,7 @@ void gm_ring_band_clear(struct gm_ring_band *band)
     gm_banded_clear(&band->folded);
 }
 
-/* Where a point lies on the folded ring. */
+/* Returns the index of a point on the folded ring. */
 static size_t folded_place(size_t point, size_t count)
 {
     return 2 * point < count ? 2 * point : 2 * (count - 1 - point) + 1;

@@ -20,9 +20,9 @@ struct gm_ring gm_ring_make(size_t count, double diagonal, double off);
 /* Replaces b by the solution. */
 void gm_ring_solve(const struct gm_ring *ring, double *b);
 
-/* Replaces b by f with (f_i + f_{i+1})/2 = b_i. On an even number of points the alternating part of b, which
-   no f has, is left out where it is rounding, below 1e-7 of the largest, and f has none; where it is more
-   there is no solution, and f is NaN. */
+/* Replaces b by f with (f_i + f_{i+1})/2 = b_i. On an even number of points no f has a mean that alternates. An
+   alternating part of b below 1e-7 of the largest entry is rounding and is left out, and f has no alternating
+   part. For a larger one there is no solution, and f is NaN. */
 void gm_ring_unaverage(double *b, size_t count);
 
 /* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit
@@ -33,20 +33,20 @@ struct gm_ring_roots {
     double _Complex scale, roots[GM_RING_ROOTS];
     int number;
 };
-/* The matrix a0 ((1+z)/2)^p + a1 ((z-1)/h)^p, p = 1, 2 or 3; false where it is singular or nearly so. */
+/* The matrix a0 ((1+z)/2)^p + a1 ((z-1)/h)^p, p = 1, 2 or 3. Returns false if it is singular or nearly so. */
 bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, double _Complex mean,
                         double _Complex difference, double h);
 /* Replaces b (re and im apart) by the solution; scratch has room for 2 count numbers. */
 void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *im, double *scratch);
 
 /* A matrix whose entries differ from point to point: `parts` unknowns at each, and no entry between points
-   more than `reach` apart. What it needs of memory is touched when it is first used. */
+   more than `reach` apart. Its memory is touched at the first use. */
 struct gm_ring_band {
     size_t count, parts;
     struct gm_banded folded;
     double *right; /* a right side in the folded order */
 };
-/* False: out of memory, nothing is held. */
+/* Returns false when out of memory; then nothing is allocated. */
 bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, size_t reach);
 void gm_ring_band_close(struct gm_ring_band *band);
 /* All entries := 0. */
@@ -54,7 +54,7 @@ void gm_ring_band_clear(struct gm_ring_band *band);
 /* Adds to the entry of a row at `point` and a column `by` points on. */
 void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, long by, size_t column_part,
                       double value);
-/* The matrix becomes its factors; false where it is singular. */
+/* Replaces the matrix by its factors. Returns false if it is singular. */
 bool gm_ring_band_factor(struct gm_ring_band *band);
 /* Replaces b, [part * count + point], by the solution. */
 void gm_ring_band_solve(struct gm_ring_band *band, double *b);

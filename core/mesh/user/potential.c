@@ -13,7 +13,7 @@
 
 #include "core/basics.h"
 #include "core/memory.h"
-#include "core/model/line.h"
+#include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
 

@@ -76,26 +76,22 @@ static void find_turning(struct gm_user_bracket_model *model, struct gm_user_sys
 
 /* ---- what the slopes of the energy are made of ---- */
 
-/* holds[i * n + j]: whether dH/dy_i holds component j. False: out of memory. */
-static bool find_parts(struct gm_user_system *system, const gm_node_id *gradient, bool *holds)
+/* holds[i * n + j]: whether dH/dy_i holds component j. */
+static void find_parts(struct gm_arena *arena, struct gm_user_system *system, const gm_node_id *gradient,
+                       bool *holds)
 {
     const size_t n = system->n;
-    memset(holds, false, n * n * sizeof *holds);
     for (size_t i = 0; i < n; i++) {
         size_t count = 0;
-        gm_node_id *parts = gm_formula_parts(&system->graph, gradient[i], &count);
-        if (!parts) {
-            return false;
-        }
+        gm_node_id *parts = gm_arena_keep(arena, gm_formula_parts(&system->graph, gradient[i], &count), free);
         for (size_t k = 0; k < count; k++) {
             const struct gm_node *part = &system->graph.nodes[parts[k]];
             if (part->operation == GM_VARIABLE && part->a < n) {
                 holds[i * n + part->a] = true;
             }
         }
-        free(parts);
+        gm_arena_drop(arena, parts);
     }
-    return true;
 }
 
 /* Whether the slopes over y hold no component but their own, those over z none of y. */
@@ -164,146 +160,97 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
     return true;
 }
 
-/* The rates of one group, and whether they are linear in the components that move; false in *good, too, where memory is
-   short: graph->failed. */
-static void open_piece(struct gm_user_piece *piece, struct gm_user_system *system, const gm_node_id *gradient,
-                       const size_t *group, size_t which, bool *good)
+/* The rates of one group. False: they are not linear in the components that move. */
+static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
+                       struct gm_user_system *system, const size_t *group, size_t which)
 {
+    struct gm_user_piece *piece = &model->pieces[model->piece_count++];
     struct gm_formula *graph = &system->graph;
     const size_t n = system->n;
-    bool *moving = calloc(system->variable_count, sizeof *moving), *dependent = NULL;
-    piece->rates = malloc((n + 1) * sizeof *piece->rates);
-    graph->failed |= !moving || !piece->rates;
-    for (size_t i = 0; !graph->failed && i < n; i++) {
+    bool *moving = gm_arena_take(arena, system->variable_count, sizeof *moving), linear = true;
+    gm_node_id *rates = gm_arena_take(arena, n + 1, sizeof *rates);
+    for (size_t i = 0; i < n; i++) {
         moving[i] = group[i] != which;
-        piece->rates[i] = gm_formula_constant(graph, 0);
+        rates[i] = gm_formula_constant(graph, 0);
         for (size_t k = 0; k < n; k++) {
             if (group[k] == which) {
-                const gm_node_id term =
-                    gm_simplified(graph, GM_OPERATION_MULTIPLY, system->bracket[i * n + k], gradient[k]);
-                piece->rates[i] = gm_simplified(graph, GM_OPERATION_ADD, piece->rates[i], term);
+                const gm_node_id term = gm_simplified(graph, GM_OPERATION_MULTIPLY,
+                                                      system->bracket[i * n + k], model->gradient[k]);
+                rates[i] = gm_simplified(graph, GM_OPERATION_ADD, rates[i], term);
             }
         }
     }
-    if (!graph->failed &&
-        gm_sparse_jacobian(graph, piece->rates, n, moving, system->variable_count, &piece->slopes)) {
-        dependent = gm_formula_dependent(graph, moving, system->variable_count);
+    gm_arena_need(arena, !graph->failed);
+    gm_sparse_keep(arena, &piece->slopes,
+                   gm_sparse_jacobian(graph, rates, n, moving, system->variable_count, &piece->slopes));
+    piece->nodes = gm_sparse_nodes(arena, rates, n, &piece->slopes);
+    const bool *dependent =
+        gm_arena_keep(arena, gm_formula_dependent(graph, moving, system->variable_count), free);
+    for (size_t i = 0; i < piece->slopes.count; i++) {
+        linear = linear && !dependent[piece->slopes.entries[i].node];
     }
-    graph->failed |= !dependent;
-    for (size_t i = 0; dependent && i < piece->slopes.count; i++) {
-        *good = *good && !dependent[piece->slopes.entries[i].node];
-    }
-    *good = *good && !graph->failed;
-    free(moving);
-    free(dependent);
+    return linear;
 }
 
-static void close_pieces(struct gm_user_bracket_model *model)
-{
-    for (size_t i = 0; i < model->piece_count; i++) {
-        free(model->pieces[i].rates);
-        free(model->pieces[i].slopes.entries);
-    }
-    free(model->pieces);
-    model->pieces = NULL;
-    model->piece_count = 0;
-}
-
-static void find_pieces(struct gm_user_bracket_model *model, struct gm_user_system *system, const bool *holds)
+static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *model,
+                        struct gm_user_system *system, const bool *holds)
 {
     const size_t n = system->n;
     size_t group[GM_NEWTON_LARGEST];
     if (n > GM_NEWTON_LARGEST || !find_groups(system, model->gradient, holds, group)) {
         return;
     }
-    bool good = true;
-    model->pieces = calloc(n, sizeof *model->pieces);
-    system->graph.failed |= !model->pieces;
-    for (size_t i = 0; model->pieces && i < n && good; i++) {
-        if (group[i] == i) {
-            open_piece(&model->pieces[model->piece_count++], system, model->gradient, group, i, &good);
+    model->pieces = gm_arena_take(arena, n, sizeof *model->pieces);
+    for (size_t i = 0; i < n; i++) {
+        if (group[i] == i && !open_piece(arena, model, system, group, i)) {
+            model->piece_count = 0;
+            return;
         }
-    }
-    if (!good) {
-        close_pieces(model);
     }
 }
 
-bool gm_user_bracket_model_open(struct gm_user_bracket_model *model, struct gm_user_system *system)
+void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
+                                struct gm_user_system *system)
 {
     *model = (struct gm_user_bracket_model){.system = system};
     if (system->kind != GM_POISSON || system->timed) {
-        return true;
+        return;
     }
     const size_t n = system->n;
-    bool *marked = calloc(system->variable_count, sizeof *marked), *holds = malloc(n * n * sizeof *holds);
-    model->gradient = malloc((system->variable_count + 1) * sizeof *model->gradient);
-    bool good = marked && holds && model->gradient;
-    if (good) {
-        memset(marked, true, n * sizeof *marked);
-        good = gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient) &&
-               find_parts(system, model->gradient, holds);
-    }
-    if (good) {
-        find_turning(model, system);
-        model->axes = is_sum_over_axes(n, holds);
-        find_pieces(model, system, holds);
-    }
-    free(marked);
-    free(holds);
-    return good && !system->graph.failed;
-}
-
-void gm_user_bracket_model_close(struct gm_user_bracket_model *model)
-{
-    close_pieces(model);
-    free(model->gradient);
-    *model = (struct gm_user_bracket_model){0};
+    bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked),
+         *holds = gm_arena_take(arena, n * n, sizeof *holds);
+    model->gradient = gm_arena_take(arena, system->variable_count + 1, sizeof *model->gradient);
+    memset(marked, true, n * sizeof *marked);
+    gm_arena_need(
+        arena, gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient));
+    find_parts(arena, system, model->gradient, holds);
+    find_turning(model, system);
+    model->axes = is_sum_over_axes(n, holds);
+    find_pieces(arena, model, system, holds);
 }
 
 /* ---- with values ---- */
 
-static bool open_flow(struct gm_tape *tape, const struct gm_user_bracket_model *model,
-                      const struct gm_user_piece *piece, const double *values)
-{
-    const size_t n = model->system->n, slopes = piece->slopes.count;
-    gm_node_id *nodes = malloc((n + slopes + 1) * sizeof *nodes);
-    for (size_t i = 0; nodes && i < n + slopes; i++) {
-        nodes[i] = i < n ? piece->rates[i] : piece->slopes.entries[i - n].node;
-    }
-    const bool good = nodes && gm_tape_open(tape, &model->system->graph, nodes, n + slopes, n, values);
-    free(nodes);
-    return good;
-}
-
-bool gm_user_bracket_open(struct gm_user_bracket *bracket, const struct gm_user_bracket_model *model,
-                          const double *values)
+void gm_user_bracket_open(struct gm_arena *arena, struct gm_user_bracket *bracket,
+                          const struct gm_user_bracket_model *model, const double *values)
 {
     const struct gm_user_system *system = model->system;
     const struct gm_formula *graph = &system->graph;
     const size_t n = system->n;
-    *bracket = (struct gm_user_bracket){.model = model};
-    bool good = gm_tape_open(&bracket->energy, graph, &system->energy, 1, n, values) &&
-                gm_tape_open(&bracket->gradient, graph, model->gradient, n, n, values) &&
-                gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values);
-    bracket->pieces = calloc(model->piece_count + 1, sizeof *bracket->pieces);
-    good = good && bracket->pieces;
-    for (size_t i = 0; i < model->piece_count && good; i++) {
-        good = open_flow(&bracket->pieces[i], model, &model->pieces[i], values);
+    *bracket = (struct gm_user_bracket){
+        .model = model, .pieces = gm_arena_take(arena, model->piece_count, sizeof *bracket->pieces)};
+    gm_tape_keep(arena, &bracket->energy,
+                 gm_tape_open(&bracket->energy, graph, &system->energy, 1, n, values));
+    gm_tape_keep(arena, &bracket->gradient,
+                 gm_tape_open(&bracket->gradient, graph, model->gradient, n, n, values));
+    gm_tape_keep(arena, &bracket->matrix,
+                 gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values));
+    for (size_t i = 0; i < model->piece_count; i++) {
+        const struct gm_user_piece *piece = &model->pieces[i];
+        gm_tape_keep(
+            arena, &bracket->pieces[i],
+            gm_tape_open(&bracket->pieces[i], graph, piece->nodes, n + piece->slopes.count, n, values));
     }
-    return good;
-}
-
-void gm_user_bracket_close(struct gm_user_bracket *bracket)
-{
-    for (size_t i = 0; bracket->pieces && i < bracket->model->piece_count; i++) {
-        gm_tape_close(&bracket->pieces[i]);
-    }
-    gm_tape_close(&bracket->energy);
-    gm_tape_close(&bracket->gradient);
-    gm_tape_close(&bracket->matrix);
-    free(bracket->pieces);
-    *bracket = (struct gm_user_bracket){0};
 }
 
 /* out := factor A in */

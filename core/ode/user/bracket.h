@@ -9,7 +9,7 @@
 /* A piece of the energy: of components that commute, {y_i, y_j} = 0, and so rest in its flow. What the others do is
    linear in them. */
 struct gm_user_piece {
-    gm_node_id *rates;       /* n */
+    gm_node_id *nodes;       /* the rates, n, and the slopes */
     struct gm_sparse slopes; /* d rates[row] / d y of the others; of what rests alone */
 };
 
@@ -23,9 +23,10 @@ struct gm_user_bracket_model {
     struct gm_user_piece *pieces;
     size_t piece_count; /* 0: the energy does not fall into such pieces */
 };
-/* The graph of the system grows. False: out of memory. To be closed in both cases. */
-bool gm_user_bracket_model_open(struct gm_user_bracket_model *model, struct gm_user_system *system);
-void gm_user_bracket_model_close(struct gm_user_bracket_model *model);
+/* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
+   below. */
+void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
+                                struct gm_user_system *system);
 
 /* The same with the values of parameters; the model outlives it. */
 struct gm_user_bracket {
@@ -33,9 +34,8 @@ struct gm_user_bracket {
     struct gm_tape energy, gradient, matrix;
     struct gm_tape *pieces; /* rates and slopes of each */
 };
-bool gm_user_bracket_open(struct gm_user_bracket *bracket, const struct gm_user_bracket_model *model,
-                          const double *values);
-void gm_user_bracket_close(struct gm_user_bracket *bracket);
+void gm_user_bracket_open(struct gm_arena *arena, struct gm_user_bracket *bracket,
+                          const struct gm_user_bracket_model *model, const double *values);
 
 /* gm_poisson.flow; NaN where the motion is too fast for its exponential */
 void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, double h, double *y);

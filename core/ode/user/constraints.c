@@ -6,77 +6,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The nodes of a sparse matrix. */
-static gm_node_id *nodes_of(const struct gm_sparse *sparse)
+void gm_user_constraints_model_open(struct gm_arena *arena, struct gm_user_constraints_model *model,
+                                    struct gm_user_system *system)
 {
-    gm_node_id *nodes = malloc((sparse->count + 1) * sizeof *nodes);
-    for (size_t i = 0; nodes && i < sparse->count; i++) {
-        nodes[i] = sparse->entries[i].node;
-    }
-    return nodes;
-}
-
-bool gm_user_constraints_model_open(struct gm_user_constraints_model *model, struct gm_user_system *system)
-{
+    const size_t variables = system->variable_count;
+    gm_node_id *nodes = gm_arena_take(arena, system->item_count + 1, sizeof *nodes);
+    bool *coordinates = gm_arena_take(arena, variables, sizeof *coordinates);
     *model = (struct gm_user_constraints_model){.graph = &system->graph, .half = system->n / 2};
-    model->nodes = malloc((system->item_count + 1) * sizeof *model->nodes);
-    for (size_t i = 0; model->nodes && i < system->item_count; i++) {
+    memset(coordinates, true, model->half * sizeof *coordinates);
+    for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            model->nodes[model->count++] = system->items[i].nodes[0];
+            nodes[model->count++] = system->items[i].nodes[0];
         }
     }
-    if (model->nodes && model->count == 0) {
-        return true;
-    }
-    bool *coordinates = calloc(system->variable_count, sizeof *coordinates);
-    bool good = model->nodes && coordinates;
-    if (good) {
-        memset(coordinates, true, model->half * sizeof *coordinates);
-        good = gm_sparse_jacobian(&system->graph, model->nodes, model->count, coordinates,
-                                  system->variable_count, &model->slopes);
-    }
-    gm_node_id *slopes = good ? nodes_of(&model->slopes) : NULL;
-    good = slopes && gm_sparse_jacobian(&system->graph, slopes, model->slopes.count, coordinates,
-                                        system->variable_count, &model->second);
-    free(slopes);
-    free(coordinates);
-    return good;
+    gm_sparse_keep(
+        arena, &model->slopes,
+        gm_sparse_jacobian(&system->graph, nodes, model->count, coordinates, variables, &model->slopes));
+    nodes = gm_sparse_nodes(arena, nodes, model->count, &model->slopes);
+    gm_sparse_keep(arena, &model->second,
+                   gm_sparse_jacobian(&system->graph, nodes + model->count, model->slopes.count, coordinates,
+                                      variables, &model->second));
+    model->nodes = gm_sparse_nodes(arena, nodes, model->count + model->slopes.count, &model->second);
 }
 
-void gm_user_constraints_model_close(struct gm_user_constraints_model *model)
-{
-    free(model->nodes);
-    free(model->slopes.entries);
-    free(model->second.entries);
-    *model = (struct gm_user_constraints_model){0};
-}
-
-bool gm_user_constraints_open(struct gm_user_constraints *constraints,
+void gm_user_constraints_open(struct gm_arena *arena, struct gm_user_constraints *constraints,
                               const struct gm_user_constraints_model *model, const double *values)
 {
     const size_t count = model->count + model->slopes.count + model->second.count;
     *constraints = (struct gm_user_constraints){.model = model};
-    gm_node_id *nodes = malloc((count + 1) * sizeof *nodes);
-    if (nodes) {
-        gm_node_id *next = nodes;
-        memcpy(next, model->nodes, model->count * sizeof *nodes);
-        next += model->count;
-        for (size_t i = 0; i < model->slopes.count; i++) {
-            *next++ = model->slopes.entries[i].node;
-        }
-        for (size_t i = 0; i < model->second.count; i++) {
-            *next++ = model->second.entries[i].node;
-        }
-    }
-    const bool good =
-        nodes && gm_tape_open(&constraints->tape, model->graph, nodes, count, model->half, values);
-    free(nodes);
-    return good;
-}
-
-void gm_user_constraints_close(struct gm_user_constraints *constraints)
-{
-    gm_tape_close(&constraints->tape);
+    gm_tape_keep(arena, &constraints->tape,
+                 gm_tape_open(&constraints->tape, model->graph, model->nodes, count, model->half, values));
 }
 
 void gm_user_constraints_values(const struct gm_user_constraints *constraints, const double *q,

@@ -10,23 +10,22 @@
 struct gm_user_constraints_model {
     const struct gm_formula *graph;
     size_t half, count;
-    gm_node_id *nodes;       /* g */
+    gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
     struct gm_sparse slopes; /* dg[row] / dq */
     struct gm_sparse second; /* of the slopes: row is one of their entries */
 };
-/* The graph of the system grows; without constraints `count` is 0. False: out of memory. To be closed in both
-   cases. */
-bool gm_user_constraints_model_open(struct gm_user_constraints_model *model, struct gm_user_system *system);
-void gm_user_constraints_model_close(struct gm_user_constraints_model *model);
+/* The graph of the system grows; without constraints `count` is 0. What it is made of lies in the arena, whose body is
+   left where memory is short; so it is below. */
+void gm_user_constraints_model_open(struct gm_arena *arena, struct gm_user_constraints_model *model,
+                                    struct gm_user_system *system);
 
 /* The same with the values of parameters; the model outlives it. */
 struct gm_user_constraints {
     const struct gm_user_constraints_model *model;
     struct gm_tape tape;
 };
-bool gm_user_constraints_open(struct gm_user_constraints *constraints,
+void gm_user_constraints_open(struct gm_arena *arena, struct gm_user_constraints *constraints,
                               const struct gm_user_constraints_model *model, const double *values);
-void gm_user_constraints_close(struct gm_user_constraints *constraints);
 
 /* gm_action.constrain; NaN where memory is short, which is noted */
 void gm_user_constraints_values(const struct gm_user_constraints *constraints, const double *q,

@@ -38,7 +38,7 @@ struct own {
     struct gm_grid1 line;
     enum gm_derivatives space;
     size_t fields, inputs;
-    char *names; /* "u[] v[]" */
+    const char *names; /* "u[] v[]" */
     bool massive;
     /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
     double mirrored[GM_MOST_FIELDS];
@@ -47,6 +47,7 @@ struct own {
     double complex *symbols; /* of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
+    struct gm_arena *arena; /* in which all this lies */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -56,15 +57,21 @@ static struct own *own_of(const struct gm_problem *problem)
 
 /* ---- what is derived ---- */
 
-static bool renumber(struct gm_user_system *system, gm_node_id *nodes, size_t count)
+struct deriving {
+    struct gm_user_evolution *evolution;
+    struct gm_user_system *system;
+    struct gm_arena *arena;
+    gm_node_id *others; /* what stands for the system's variables */
+};
+
+static void number_inputs(struct deriving *deriving)
 {
+    struct gm_user_system *system = deriving->system;
     const size_t n = system->n, inputs = n * ORDERS + 2;
-    gm_node_id *others = malloc(system->variable_count * sizeof *others);
-    for (size_t i = 0; others && i < system->variable_count; i++) {
+    gm_node_id *others = deriving->others =
+        gm_arena_take(deriving->arena, system->variable_count, sizeof *others);
+    for (size_t i = 0; i < system->variable_count; i++) {
         others[i] = GM_NO_NODE;
-    }
-    if (!others) {
-        return false;
     }
     others[n] = gm_formula_variable(&system->graph, inputs - 1);
     others[system->velocities] = gm_formula_variable(&system->graph, inputs - 2);
@@ -74,74 +81,92 @@ static bool renumber(struct gm_user_system *system, gm_node_id *nodes, size_t co
     for (size_t i = system->parameters; i < system->velocities; i++) {
         others[i] = gm_formula_variable(&system->graph, inputs + i - system->parameters);
     }
-    const bool good = gm_formula_substitute(&system->graph, nodes, count, others, system->variable_count);
-    free(others);
-    return good && !system->graph.failed;
 }
 
-static bool split(struct gm_user_evolution *evolution, struct gm_user_system *system)
+static void renumber(const struct deriving *deriving, gm_node_id *nodes, size_t count)
 {
-    bool good = true;
-    for (size_t i = 0; i < system->n && good; i++) {
-        good = gm_system_linear_part(system, system->rates[i], &evolution->linear[i], &evolution->rests[i]);
+    struct gm_user_system *system = deriving->system;
+    gm_arena_need(deriving->arena, gm_formula_substitute(&system->graph, nodes, count, deriving->others,
+                                                         system->variable_count));
+}
+
+static void split(const struct deriving *deriving)
+{
+    struct gm_user_evolution *evolution = deriving->evolution;
+    struct gm_user_system *system = deriving->system;
+    for (size_t i = 0; i < system->n; i++) {
+        gm_arena_need(deriving->arena, gm_system_linear_part(system, system->rates[i], &evolution->linear[i],
+                                                             &evolution->rests[i]));
         evolution->lines[i] = evolution->linear[i];
     }
-    return good && renumber(system, evolution->lines, system->n) &&
-           renumber(system, evolution->rests, system->n);
+    renumber(deriving, evolution->lines, system->n);
+    renumber(deriving, evolution->rests, system->n);
 }
 
-static bool find_kink(struct gm_user_evolution *evolution, struct gm_user_system *system)
+static void find_kink(const struct deriving *deriving)
 {
-    bool *marked = calloc(system->variable_count, sizeof *marked);
+    struct gm_user_evolution *evolution = deriving->evolution;
+    struct gm_user_system *system = deriving->system;
+    bool *marked = gm_arena_take(deriving->arena, system->variable_count, sizeof *marked);
     evolution->kink = GM_NO_NODE;
-    for (size_t i = 0; marked && i < system->n; i++) {
+    for (size_t i = 0; i < system->n; i++) {
         marked[i] = true;
         for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
             marked[system->velocities + 1 + i * GM_MOST_DERIVATIVES + k] = true;
         }
     }
-    for (size_t i = 0; marked && i < system->n && evolution->kink == GM_NO_NODE; i++) {
+    for (size_t i = 0; i < system->n && evolution->kink == GM_NO_NODE; i++) {
         evolution->kink = gm_formula_kink(&system->graph, system->rates[i], marked, system->variable_count);
         evolution->kinked = i;
     }
-    const bool good = marked && !system->graph.failed;
-    free(marked);
-    return good;
 }
 
-bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system)
+static void derive_all(struct gm_arena *arena, void *data)
 {
+    struct deriving *deriving = data;
+    struct gm_user_evolution *evolution = deriving->evolution;
+    struct gm_user_system *system = deriving->system;
     const size_t n = system->n;
-    *evolution = (struct gm_user_evolution){
-        .system = system, .densities = malloc((system->item_count + 1) * sizeof *evolution->densities)};
-    bool good = evolution->densities != NULL;
+    deriving->arena = arena;
+    evolution->densities = gm_arena_take(arena, system->item_count + 1, sizeof *evolution->densities);
     for (size_t i = 0; i < n; i++) {
         evolution->rates[i] = system->rates[i];
         evolution->masses[i] = gm_formula_variable(&system->graph, i);
     }
-    for (size_t i = 0; good && i < system->item_count; i++) {
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             evolution->densities[evolution->density_count++] = item->nodes[0];
         }
     }
-    good = good && gm_line_derive(&evolution->formulas, system) && renumber(system, evolution->rates, n) &&
-           renumber(system, evolution->densities, evolution->density_count);
-    for (size_t i = 0; good && i < system->item_count; i++) {
+    gm_arena_need(arena, gm_line_derive(&evolution->formulas, system));
+    number_inputs(deriving);
+    renumber(deriving, evolution->rates, n);
+    renumber(deriving, evolution->densities, evolution->density_count);
+    for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_MASS) {
             gm_node_id mass = system->items[i].nodes[0];
             const size_t field = gm_system_mass_field(system, mass);
-            good = renumber(system, &mass, 1);
+            renumber(deriving, &mass, 1);
             evolution->masses[field] = mass;
         }
     }
-    return good && find_kink(evolution, system) && split(evolution, system);
+    find_kink(deriving);
+    split(deriving);
+    gm_arena_need(arena, !system->graph.failed);
+}
+
+bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system)
+{
+    *evolution = (struct gm_user_evolution){.system = system, .arena = gm_arena_open()};
+    return gm_arena_run(evolution->arena, derive_all,
+                        &(struct deriving){.evolution = evolution, .system = system});
 }
 
 void gm_user_evolution_close(struct gm_user_evolution *evolution)
 {
-    free(evolution->densities);
-    evolution->densities = NULL;
+    gm_arena_close(evolution->arena);
+    evolution->arena = NULL;
 }
 
 /* ---- room ---- */
@@ -317,35 +342,38 @@ static void symbol(const struct gm_problem *problem, size_t mode, double complex
 
 /* ---- the problem ---- */
 
+static void open_tape(const struct own *self, struct gm_tape *tape, const gm_node_id *nodes, size_t count,
+                      const double *values)
+{
+    gm_tape_keep(self->arena, tape,
+                 gm_tape_open(tape, &self->evolution->system->graph, nodes, count, self->inputs, values));
+}
+
 /* The coefficients of what is linear: its values where one input is 1 and the others are 0. */
-static bool coefficients_of(const struct own *self, const gm_node_id *nodes, const double *values,
-                            double *coefficients)
+static void find_coefficients(const struct own *self, const gm_node_id *nodes, const double *values,
+                              double *coefficients)
 {
     const size_t n = self->fields;
-    struct gm_tape tape;
-    const bool good = gm_tape_open(&tape, &self->evolution->system->graph, nodes, n, self->inputs, values);
-    for (size_t k = 0; good && k < n * ORDERS; k++) {
+    struct gm_tape *tape = gm_arena_take(self->arena, 1, sizeof *tape);
+    open_tape(self, tape, nodes, n, values);
+    for (size_t k = 0; k < n * ORDERS; k++) {
         double inputs[MOST_INPUTS] = {0}, outputs[GM_MOST_FIELDS];
         inputs[k] = 1;
-        gm_tape_values(&tape, inputs, outputs, 1);
+        gm_tape_values(tape, inputs, outputs, 1);
         for (size_t i = 0; i < n; i++) {
             coefficients[i * n * ORDERS + k] = outputs[i];
         }
     }
-    gm_tape_close(&tape);
-    return good;
 }
 
-static bool make_symbols(struct own *self, const double *values)
+static void make_symbols(struct own *self, const double *values)
 {
     const size_t n = self->fields, half = gm_modes_half(self->line.points);
     double linear[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS], mass[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS];
-    self->symbols = malloc(half * n * n * sizeof *self->symbols);
-    self->masses = malloc(half * n * sizeof *self->masses);
-    if (!self->symbols || !self->masses || !coefficients_of(self, self->evolution->lines, values, linear) ||
-        !coefficients_of(self, self->evolution->masses, values, mass)) {
-        return false;
-    }
+    self->symbols = gm_arena_take(self->arena, half * n * n, sizeof *self->symbols);
+    self->masses = gm_arena_take(self->arena, half * n, sizeof *self->masses);
+    find_coefficients(self, self->evolution->lines, values, linear);
+    find_coefficients(self, self->evolution->masses, values, mass);
     for (size_t mode = 0; mode < half; mode++) {
         for (size_t i = 0; i < n; i++) {
             double complex of_mass = 0, row[GM_MOST_FIELDS] = {0};
@@ -361,7 +389,6 @@ static bool make_symbols(struct own *self, const double *values)
             }
         }
     }
-    return true;
 }
 
 /* Whether a mirrored field, of those signs, has the mirrored rate, at places that are as good as any. */
@@ -408,7 +435,7 @@ static void find_mirror(struct own *self)
 }
 
 /* Which derivatives the rates and densities hold. */
-static bool find_needed(struct own *self)
+static void find_needed(struct own *self)
 {
     const struct gm_user_evolution *evolution = self->evolution;
     const struct gm_formula *graph = &evolution->system->graph;
@@ -416,114 +443,115 @@ static bool find_needed(struct own *self)
         const gm_node_id node =
             i < self->fields ? evolution->rates[i] : evolution->densities[i - self->fields];
         size_t count = 0;
-        gm_node_id *parts = gm_formula_parts(graph, node, &count);
-        for (size_t k = 0; parts && k < count; k++) {
+        gm_node_id *parts = gm_arena_keep(self->arena, gm_formula_parts(graph, node, &count), free);
+        for (size_t k = 0; k < count; k++) {
             const struct gm_node *part = &graph->nodes[parts[k]];
             if (part->operation == GM_VARIABLE && part->a < self->fields * ORDERS) {
                 self->needed[part->a] = true;
             }
         }
-        free(parts);
-        if (!parts) {
-            return false;
-        }
+        gm_arena_drop(self->arena, parts);
     }
-    return true;
 }
 
-static bool name_fields(struct own *self)
+static void name_fields(struct own *self)
 {
-    size_t length = 1;
+    self->names = "";
     for (size_t i = 0; i < self->fields; i++) {
-        length += strlen(self->evolution->system->variables[i].name) + 3;
+        self->names = gm_arena_print(self->arena, "%s%s%s[]", self->names, i ? " " : "",
+                                     self->evolution->system->variables[i].name);
     }
-    self->names = calloc(length, 1);
-    for (size_t i = 0; self->names && i < self->fields; i++) {
-        strcat(strcat(strcat(self->names, i ? " " : ""), self->evolution->system->variables[i].name), "[]");
-    }
-    return self->names != NULL;
 }
 
-/* The values of all variables in their new order. malloc'ed. */
-static double *renumbered(const struct own *self, const double *values)
-{
-    const struct gm_user_system *system = self->evolution->system;
-    const size_t parameters = system->velocities - system->parameters;
-    double *made = calloc(self->inputs + parameters, sizeof *made);
-    if (made) {
-        memcpy(made + self->inputs, values + system->parameters, parameters * sizeof *made);
-    }
-    return made;
-}
-
-static bool open_tapes(struct own *self, const double *values)
+static void open_tapes(struct own *self, const double *values)
 {
     const struct gm_user_evolution *evolution = self->evolution;
-    const struct gm_formula *graph = &evolution->system->graph;
-    const size_t n = self->fields, inputs = self->inputs;
-    self->densities = calloc(evolution->density_count + 1, sizeof *self->densities);
-    bool good = self->densities && gm_tape_open(&self->rates, graph, evolution->rates, n, inputs, values) &&
-                gm_tape_open(&self->rests, graph, evolution->rests, n, inputs, values);
-    for (size_t i = 0; good && i < evolution->density_count; i++) {
-        good = gm_tape_open(&self->densities[i], graph, &evolution->densities[i], 1, inputs, values);
+    const size_t n = self->fields;
+    self->densities = gm_arena_take(self->arena, evolution->density_count, sizeof *self->densities);
+    open_tape(self, &self->rates, evolution->rates, n, values);
+    open_tape(self, &self->rests, evolution->rests, n, values);
+    for (size_t i = 0; i < evolution->density_count; i++) {
+        open_tape(self, &self->densities[i], &evolution->densities[i], 1, values);
     }
-    return good;
 }
 
-bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
-                            const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_evolution *evolution;
+    const double *values;
+    enum gm_derivatives space;
+};
+
+static void close_idle(void *idle)
 {
-    struct own *self = calloc(1, sizeof *self);
-    *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
-    if (!self) {
-        return false;
-    }
-    self->evolution = evolution;
-    self->line = *grid;
-    self->space = space;
-    self->fields = evolution->system->n;
+    room_close(atomic_exchange((struct room * _Atomic *)idle, NULL));
+}
+
+static void close_line(void *line)
+{
+    gm_user_line_close(line);
+}
+
+static void open_problem(struct gm_arena *arena, void *data)
+{
+    const struct opening *opening = data;
+    const struct gm_user_system *system = opening->evolution->system;
+    struct gm_problem *problem = opening->problem;
+    const size_t parameters = system->velocities - system->parameters;
+    struct own *self = gm_arena_take(arena, 1, sizeof *self);
+    gm_arena_keep(arena, &self->idle, close_idle);
+    self->arena = arena;
+    self->evolution = opening->evolution;
+    self->line = problem->line;
+    self->space = opening->space;
+    self->fields = system->n;
     self->inputs = self->fields * ORDERS + 2;
-    problem->n = self->fields * grid->points;
+    problem->n = self->fields * self->line.points;
     problem->parameters = self;
     problem->facets = &self->facets;
-    double *ordered = renumbered(self, values);
-    const bool good = ordered &&
-                      gm_user_line_open(&self->along, evolution->system, evolution->formulas.start,
-                                        self->fields, evolution->formulas.exact, values) &&
-                      open_tapes(self, ordered) && make_symbols(self, ordered) && find_needed(self) &&
-                      name_fields(self);
-    free(ordered);
-    if (good && grid->walls) {
+    gm_arena_keep(arena, &self->along, close_line);
+    gm_arena_need(arena,
+                  gm_user_line_open(&self->along, system, opening->evolution->formulas.start, self->fields,
+                                    opening->evolution->formulas.exact, opening->values));
+    /* the values of all variables in their new order */
+    double *values = gm_arena_take(arena, self->inputs + parameters, sizeof *values);
+    memcpy(values + self->inputs, opening->values + system->parameters, parameters * sizeof *values);
+    open_tapes(self, values);
+    make_symbols(self, values);
+    find_needed(self);
+    name_fields(self);
+    if (self->line.walls) {
         find_mirror(self);
     }
     self->semilinear = (struct gm_semilinear){self->fields, symbol, nonlinear};
     self->loops = (struct gm_loops){.field = field};
     self->facets = (struct gm_ode){
         .components = self->names,
-        .rough = evolution->kink != GM_NO_NODE,
+        .rough = self->evolution->kink != GM_NO_NODE,
         .semilinear = &self->semilinear,
         .loops = {&self->loops, &self->loops, &self->loops},
     };
-    return good;
+}
+
+bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
+                            const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
+{
+    struct gm_arena *arena = gm_arena_open();
+    *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
+    const bool opened =
+        gm_arena_run(arena, open_problem, &(struct opening){problem, evolution, values, space});
+    if (!opened) {
+        gm_arena_close(arena);
+        problem->parameters = problem->facets = NULL;
+    }
+    return opened;
 }
 
 void gm_user_evolution_shut(struct gm_problem *problem)
 {
-    struct own *self = own_of(problem);
-    if (self) {
-        gm_user_line_close(&self->along);
-        gm_tape_close(&self->rates);
-        gm_tape_close(&self->rests);
-        for (size_t i = 0; self->densities && i < self->evolution->density_count; i++) {
-            gm_tape_close(&self->densities[i]);
-        }
-        room_close(atomic_exchange(&self->idle, NULL));
-        free(self->densities);
-        free(self->symbols);
-        free(self->masses);
-        free(self->names);
+    if (problem->parameters) {
+        gm_arena_close(own_of(problem)->arena);
     }
-    free(self);
     problem->parameters = problem->facets = NULL;
 }
 

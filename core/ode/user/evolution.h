@@ -6,8 +6,8 @@
 #ifndef GM_CORE_ODE_USER_EVOLUTION_H
 #define GM_CORE_ODE_USER_EVOLUTION_H
 
-#include "core/model/line.h"
 #include "core/ode/ode.h"
+#include "core/user/line.h"
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 
@@ -26,6 +26,7 @@ struct gm_user_evolution {
     gm_node_id
         kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
     size_t kinked; /* in which */
+    struct gm_arena *arena;
 };
 
 /* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */

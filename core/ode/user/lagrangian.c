@@ -9,55 +9,18 @@
 #include "core/model/equations.h"
 #include "core/ode/kernel/members.h"
 
-static bool is_linear(struct gm_user_system *system, bool *marked)
+static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, bool *marked)
 {
     memset(marked + system->velocities, true, system->n / 2);
-    bool *dependent = gm_formula_dependent(&system->graph, marked, system->variable_count);
-    bool linear = dependent != NULL;
-    for (size_t i = 0; linear && i < system->mass.count; i++) {
-        linear = !dependent[system->mass.entries[i].node];
+    bool *dependent =
+        gm_arena_keep(arena, gm_formula_dependent(&system->graph, marked, system->variable_count), free);
+    bool linear = true;
+    for (size_t i = 0; i < system->mass.count; i++) {
+        linear = linear && !dependent[system->mass.entries[i].node];
     }
-    system->graph.failed |= !dependent;
-    free(dependent);
+    gm_arena_drop(arena, dependent);
     memset(marked, false, system->variable_count);
     return linear;
-}
-
-bool gm_user_lagrangian_model_open(struct gm_user_lagrangian_model *model, struct gm_user_system *system)
-{
-    const size_t n = system->n, half = n / 2, count = system->variable_count;
-    *model = (struct gm_user_lagrangian_model){
-        .graph = &system->graph, .half = half, .components = n + system->timed};
-    gm_node_id *others = malloc(count * sizeof *others);
-    bool *marked = calloc(count, sizeof *marked);
-    model->nodes = malloc((n + 1) * sizeof *model->nodes);
-    if (!others || !marked || !model->nodes) {
-        system->graph.failed = true;
-    } else {
-        model->linear = is_linear(system, marked);
-        memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
-        memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
-        model->nodes[n] = system->energy;
-        gm_equations_in_velocities(system, model->nodes, n + 1); /* a force may hold momenta */
-        for (size_t i = 0; i < count; i++) {
-            const bool velocity = i >= system->velocities && i < system->velocities + half;
-            others[i] =
-                velocity ? gm_formula_variable(&system->graph, half + i - system->velocities) : GM_NO_NODE;
-        }
-        gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
-        memset(marked, true, model->components);
-        gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes);
-    }
-    free(others);
-    free(marked);
-    return !system->graph.failed;
-}
-
-void gm_user_lagrangian_model_close(struct gm_user_lagrangian_model *model)
-{
-    free(model->nodes);
-    free(model->slopes.entries);
-    *model = (struct gm_user_lagrangian_model){0};
 }
 
 /* whether it is one of the mass matrix */
@@ -66,40 +29,56 @@ static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struc
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
 }
 
-bool gm_user_lagrangian_open(struct gm_user_lagrangian *lagrangian,
-                             const struct gm_user_lagrangian_model *model, const double *values)
+void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
+                                   struct gm_user_system *system)
 {
-    const struct gm_formula *graph = model->graph;
-    const size_t half = model->half, n = model->components;
-    *lagrangian = (struct gm_user_lagrangian){.model = model};
-    gm_node_id *nodes = malloc((half + model->slopes.count) * sizeof *nodes);
-    bool good = nodes != NULL;
-    if (nodes) {
-        size_t count = half;
-        memcpy(nodes, model->nodes, half * sizeof *nodes);
-        for (size_t i = 0; i < model->slopes.count; i++) {
-            if (is_of_mass(model, &model->slopes.entries[i])) {
-                nodes[count++] = model->slopes.entries[i].node;
-            }
-        }
-        good = gm_tape_open(&lagrangian->momenta, graph, nodes, count, n, values) &&
-               gm_tape_open(&lagrangian->rates, graph, model->nodes + half, half, n, values) &&
-               gm_tape_open(&lagrangian->value, graph, model->nodes + 2 * half, 1, n, values);
-        for (size_t i = 0; i < model->slopes.count; i++) {
-            nodes[i] = model->slopes.entries[i].node;
-        }
-        good = good && gm_tape_open(&lagrangian->slopes, graph, nodes, model->slopes.count, n, values);
+    const size_t n = system->n, half = n / 2, count = system->variable_count;
+    gm_node_id *others = gm_arena_take(arena, count, sizeof *others);
+    bool *marked = gm_arena_take(arena, count, sizeof *marked);
+    *model = (struct gm_user_lagrangian_model){.graph = &system->graph,
+                                               .half = half,
+                                               .components = n + system->timed,
+                                               .linear = is_linear(arena, system, marked),
+                                               .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
+    memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
+    memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
+    model->nodes[n] = system->energy;
+    gm_equations_in_velocities(system, model->nodes, n + 1); /* a force may hold momenta */
+    for (size_t i = 0; i < count; i++) {
+        const bool velocity = i >= system->velocities && i < system->velocities + half;
+        others[i] =
+            velocity ? gm_formula_variable(&system->graph, half + i - system->velocities) : GM_NO_NODE;
     }
-    free(nodes);
-    return good;
+    gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
+    memset(marked, true, model->components);
+    gm_sparse_keep(arena, &model->slopes,
+                   gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes));
+    model->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &model->slopes);
+    model->momenta = gm_sparse_nodes(arena, model->nodes, half, &model->slopes);
+    model->momenta_count = half;
+    for (size_t i = 0; i < model->slopes.count; i++) {
+        if (is_of_mass(model, &model->slopes.entries[i])) {
+            model->momenta[model->momenta_count++] = model->slopes.entries[i].node;
+        }
+    }
 }
 
-void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian)
+static void open_tape(struct gm_arena *arena, struct gm_tape *tape,
+                      const struct gm_user_lagrangian_model *model, const gm_node_id *nodes, size_t count,
+                      const double *values)
 {
-    gm_tape_close(&lagrangian->momenta);
-    gm_tape_close(&lagrangian->rates);
-    gm_tape_close(&lagrangian->value);
-    gm_tape_close(&lagrangian->slopes);
+    gm_tape_keep(arena, tape, gm_tape_open(tape, model->graph, nodes, count, model->components, values));
+}
+
+void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
+                             const struct gm_user_lagrangian_model *model, const double *values)
+{
+    const size_t half = model->half;
+    *lagrangian = (struct gm_user_lagrangian){.model = model};
+    open_tape(arena, &lagrangian->momenta, model, model->momenta, model->momenta_count, values);
+    open_tape(arena, &lagrangian->rates, model, model->nodes + half, half, values);
+    open_tape(arena, &lagrangian->value, model, model->nodes + 2 * half, 1, values);
+    open_tape(arena, &lagrangian->slopes, model, model->slope_nodes, model->slopes.count, values);
 }
 
 static void no_numbers(double *values, size_t count)
@@ -118,19 +97,21 @@ struct transform {
     double *scratch;
 };
 
-static bool open_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian)
+static void lay_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian,
+                          double *memory)
 {
-    const size_t half = lagrangian->model->half, n = lagrangian->model->components,
-                 outputs = lagrangian->momenta.outputs;
-    *transform = (struct transform){.lagrangian = lagrangian};
-    transform->at = malloc((n + outputs + half + gm_newton_scratch(half)) * sizeof(double));
-    if (!transform->at) {
-        return false;
-    }
-    transform->outputs = transform->at + n;
-    transform->wanted = transform->outputs + outputs;
+    const size_t half = lagrangian->model->half;
+    transform->lagrangian = lagrangian;
+    transform->at = memory;
+    transform->outputs = transform->at + lagrangian->model->components;
+    transform->wanted = transform->outputs + lagrangian->momenta.outputs;
     transform->scratch = transform->wanted + half;
-    return true;
+}
+
+static size_t transform_size(const struct gm_user_lagrangian *lagrangian)
+{
+    const size_t half = lagrangian->model->half;
+    return lagrangian->model->components + lagrangian->momenta.outputs + half + gm_newton_scratch(half);
 }
 
 /* The mass matrix from the values of all slopes, or of those that are `alone` in it. */
@@ -188,29 +169,28 @@ static void find_velocities(struct transform *transform, const double *y, size_t
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
 }
 
-/* The m states with velocities in place of the momenta, or with 0; malloc'ed, NULL: out of memory. */
+/* The m states with velocities in place of the momenta, or with 0; malloc'ed. NULL where memory is short: then the
+   `count` numbers that were to come of them are none. */
 static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
-                             bool found)
+                             bool found, double *numbers, size_t count)
 {
     const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = malloc(n * m * sizeof *at), *v = malloc(half * sizeof *v);
-    struct transform transform = {0};
-    const bool good = at && v && open_transform(&transform, lagrangian);
-    for (size_t i = 0; good && i < n * m; i++) {
-        at[i] = i >= half * m && i < 2 * half * m ? 0 : y[i];
+    double *at = malloc((n * m + half + transform_size(lagrangian)) * sizeof *at);
+    if (!at) {
+        no_numbers(numbers, count);
+        return NULL;
     }
-    for (size_t l = 0; good && found && l < m; l++) {
+    double *v = at + n * m;
+    struct transform transform;
+    lay_transform(&transform, lagrangian, v + half);
+    memcpy(at, y, n * m * sizeof *at);
+    memset(at + half * m, 0, half * m * sizeof *at);
+    for (size_t l = 0; found && l < m; l++) {
         find_velocities(&transform, y, m, l, v);
         for (size_t i = 0; i < half; i++) {
             at[(half + i) * m + l] = v[i];
         }
     }
-    free(transform.at);
-    if (!good) {
-        free(at);
-        at = NULL;
-    }
-    free(v);
     return at;
 }
 
@@ -218,15 +198,13 @@ void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const
                               size_t m)
 {
     const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, f, n * m);
     if (at) {
         memcpy(f, at + half * m, half * m * sizeof *f);
         gm_tape_values(&lagrangian->rates, at, f + half * m, m);
         for (size_t i = 2 * half * m; i < n * m; i++) {
             f[i] = 1; /* of t */
         }
-    } else {
-        no_numbers(f, n * m);
     }
     free(at);
 }
@@ -235,11 +213,9 @@ void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, co
                                  double *velocity, size_t m)
 {
     const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, velocity, half * m);
     if (at) {
         memcpy(velocity, at + half * m, half * m * sizeof *velocity);
-    } else {
-        no_numbers(velocity, half * m);
     }
     free(at);
 }
@@ -247,11 +223,9 @@ void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, co
 void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
                               size_t m)
 {
-    double *at = at_velocities(lagrangian, y, m, false);
+    double *at = at_velocities(lagrangian, y, m, false, force, lagrangian->model->half * m);
     if (at) {
         gm_tape_values(&lagrangian->rates, at, force, m);
-    } else {
-        no_numbers(force, lagrangian->model->half * m);
     }
     free(at);
 }
@@ -260,7 +234,7 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
                                size_t m)
 {
     const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true);
+    double *at = at_velocities(lagrangian, y, m, true, energy, m);
     if (at) {
         gm_tape_values(&lagrangian->value, at, energy, m);
         for (size_t l = 0; l < m; l++) {
@@ -270,8 +244,6 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
             }
             energy[l] = sum - energy[l];
         }
-    } else {
-        no_numbers(energy, m);
     }
     free(at);
 }
@@ -311,13 +283,13 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     const struct gm_sparse_entry *entries = model->slopes.entries;
     struct transform transform;
     /* columns of dv over the state, the slopes' values, a velocity */
-    double *columns = calloc(n * half + count + half, sizeof *columns);
-    if (!columns || !open_transform(&transform, lagrangian)) {
-        free(columns);
+    double *columns = calloc(n * half + count + half + transform_size(lagrangian), sizeof *columns);
+    if (!columns) {
         no_numbers(matrix, n * n);
         return;
     }
     double *values = columns + n * half, *v = values + count;
+    lay_transform(&transform, lagrangian, v + half);
     find_velocities(&transform, y, 1, 0, v);
     gm_tape_values(&lagrangian->slopes, transform.at, values, 1);
     memset(matrix, 0, n * n * sizeof *matrix);
@@ -349,6 +321,5 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     if (!isfinite(v[0])) {
         no_numbers(matrix, n * n);
     }
-    free(transform.at);
     free(columns);
 }

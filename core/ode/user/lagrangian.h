@@ -15,23 +15,26 @@ struct gm_user_lagrangian_model {
     bool linear;             /* dL/dv is linear in v: one solve finds it */
     gm_node_id *nodes;       /* dL/dv, p' (half each), L */
     struct gm_sparse slopes; /* of dL/dv and p' over q, v, t */
+    gm_node_id *slope_nodes;
+    gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
+    size_t momenta_count;
 };
-/* The graph of the system grows. False: out of memory. To be closed in both cases. */
-bool gm_user_lagrangian_model_open(struct gm_user_lagrangian_model *model, struct gm_user_system *system);
-void gm_user_lagrangian_model_close(struct gm_user_lagrangian_model *model);
+/* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
+   below. */
+void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
+                                   struct gm_user_system *system);
 
 /* The same with the values of parameters; the model outlives it, and threads share it. */
 struct gm_user_lagrangian {
     const struct gm_user_lagrangian_model *model;
-    struct gm_tape momenta; /* dL/dv, and the entries of the mass matrix */
-    struct gm_tape rates;   /* p' */
-    struct gm_tape value;   /* L */
+    struct gm_tape momenta;
+    struct gm_tape rates; /* p' */
+    struct gm_tape value; /* L */
     struct gm_tape slopes;
 };
-/* values are those of the system's variables. False: out of memory. To be closed in both cases. */
-bool gm_user_lagrangian_open(struct gm_user_lagrangian *lagrangian,
+/* values are those of the system's variables. */
+void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
                              const struct gm_user_lagrangian_model *model, const double *values);
-void gm_user_lagrangian_close(struct gm_user_lagrangian *lagrangian);
 
 /* Of m states y (components * m): their rates (components * m), q' and p' alone (half * m), where L = T(v) -
    V(q), and the energy p v - L (m). They are not finite where the transform is singular, or where memory is

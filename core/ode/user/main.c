@@ -12,24 +12,11 @@
 #include <string.h>
 
 #include "core/expression/derivative.h"
+#include "core/files/generated.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/digest.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/model.h"
-
-static char *read_all(const char *name, size_t *size)
-{
-    char *text = NULL, part[4096];
-    FILE *in = fopen(name, "r"), *out = in ? open_memstream(&text, size) : NULL;
-    for (size_t count; out && (count = fread(part, 1, sizeof part, in)) > 0;) {
-        fwrite(part, 1, count, out);
-    }
-    const bool good = out && !ferror(in) && fclose(out) == 0;
-    if (in) {
-        fclose(in);
-    }
-    return good ? text : NULL;
-}
 
 /* GM_NO_NODE: the file tells none. */
 static gm_node_id energy_of(const struct gm_user_system *system)
@@ -198,7 +185,7 @@ int main(int argc, char *argv[])
     struct gm_system_value value;
     const char *lacks = "it could not be read";
     size_t size = 0;
-    char *source = argc == 3 || argc == 4 ? read_all(argv[1], &size) : NULL, *text = NULL,
+    char *source = argc == 3 || argc == 4 ? gm_input_read(argv[1], &size) : NULL, *text = NULL,
          *equals = argc == 4 ? strchr(argv[3], '=') : NULL;
     if (equals) {
         *equals = '\0';

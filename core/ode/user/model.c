@@ -75,98 +75,96 @@ static char *names_of(const struct gm_user_system *system)
     return names;
 }
 
-/* The monitor's node and those of its gradient; false: out of memory. */
-static bool open_slopes(struct gm_user_model *model, struct gm_user_system *system, bool *marked)
+struct opening {
+    struct gm_user_model *model;
+    struct gm_user_system *system;
+    bool *marked; /* the components */
+};
+
+/* The monitor's node and those of its gradient. */
+static void open_slopes(struct gm_arena *arena, const struct opening *opening)
 {
-    const size_t n = model->components;
-    for (size_t i = 0; i < system->item_count; i++) {
+    struct gm_user_model *model = opening->model;
+    struct gm_user_system *system = opening->system;
+    for (size_t i = 0; i < system->item_count && !model->slopes; i++) {
         if (system->items[i].word == GM_WORD_MONITOR) {
             model->monitor = system->items[i].nodes[0];
-            model->slopes = malloc((system->variable_count + 1) * sizeof *model->slopes);
-            memset(marked, false, system->variable_count * sizeof *marked);
-            memset(marked, true, n * sizeof *marked);
-            return model->slopes &&
-                   gm_gradient(&system->graph, model->monitor, marked, system->variable_count, model->slopes);
+            model->slopes = gm_arena_take(arena, system->variable_count + 1, sizeof *model->slopes);
+            gm_arena_need(arena, gm_gradient(&system->graph, model->monitor, opening->marked,
+                                             system->variable_count, model->slopes));
         }
     }
-    return true;
 }
 
-/* Room for the rates for all parameters, and for those that lines `compile:` give a value. False: out of memory. */
-static bool open_rates(struct gm_user_model *model, struct gm_user_system *system)
+/* The rates for all parameters, or for the value that a line `compile:` gives to one, and their Jacobian. */
+static void open_rates(struct gm_arena *arena, const struct opening *opening,
+                       const struct gm_system_item *compiled)
 {
+    struct gm_user_model *model = opening->model;
+    struct gm_user_system *system = opening->system;
+    const size_t n = model->components, variables = system->variable_count;
+    struct gm_user_rates *rates = &model->rates[model->rate_count++];
+    rates->parameter = compiled ? compiled->variable : SIZE_MAX;
+    rates->value = compiled ? compiled->value : 0;
+    rates->nodes = gm_arena_take(arena, n + 1, sizeof *rates->nodes);
+    memcpy(rates->nodes, system->rates, system->n * sizeof *rates->nodes);
+    if (system->timed) {
+        rates->nodes[system->n] = gm_formula_constant(&system->graph, 1);
+    }
+    if (system->kind == GM_LAGRANGIAN) {
+        return;
+    }
+    if (compiled) {
+        gm_node_id *replacement = gm_arena_take(arena, variables, sizeof *replacement);
+        for (size_t i = 0; i < variables; i++) {
+            replacement[i] =
+                i == rates->parameter ? gm_formula_constant(&system->graph, rates->value) : GM_NO_NODE;
+        }
+        gm_arena_need(arena, gm_formula_substitute(&system->graph, rates->nodes, n, replacement, variables));
+    }
+    if (model->has_jacobian) {
+        gm_sparse_keep(arena, &rates->jacobian,
+                       gm_sparse_jacobian(&system->graph, rates->nodes, n, opening->marked, variables,
+                                          &rates->jacobian));
+        rates->slopes = gm_sparse_nodes(arena, NULL, 0, &rates->jacobian);
+    }
+}
+
+static void open_model(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    struct gm_user_model *model = opening->model;
+    struct gm_user_system *system = opening->system;
     const size_t n = model->components;
-    model->rates = calloc(system->item_count + 1, sizeof *model->rates);
-    for (size_t i = 0; model->rates && i <= system->item_count; i++) {
-        const struct gm_system_item *item = i > 0 ? &system->items[i - 1] : NULL;
-        if (item && item->word != GM_WORD_COMPILE) {
-            continue;
-        }
-        struct gm_user_rates *rates = &model->rates[model->rate_count++];
-        rates->parameter = item ? item->variable : SIZE_MAX;
-        rates->value = item ? item->value : 0;
-        rates->nodes = malloc((n + 1) * sizeof *rates->nodes);
-        if (!rates->nodes) {
-            return false;
-        }
-        memcpy(rates->nodes, system->rates, system->n * sizeof *rates->nodes);
-        if (system->timed) {
-            rates->nodes[system->n] = gm_formula_constant(&system->graph, 1);
+    gm_arena_need(arena, gm_facts_find(system, model->findings));
+    model->names = gm_arena_keep(arena, names_of(system), free);
+    model->rates = gm_arena_take(arena, system->item_count + 1, sizeof *model->rates);
+    model->has_jacobian = n <= GM_NEWTON_LARGEST;
+    opening->marked = gm_arena_take(arena, system->variable_count, sizeof *opening->marked);
+    memset(opening->marked, true, n * sizeof *opening->marked);
+    gm_user_constraints_model_open(arena, &model->constraints, system);
+    if (system->kind == GM_LAGRANGIAN) {
+        gm_user_lagrangian_model_open(arena, &model->lagrangian, system);
+    }
+    open_rates(arena, opening, NULL);
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_COMPILE) {
+            open_rates(arena, opening, &system->items[i]);
         }
     }
-    return model->rates != NULL;
-}
-
-/* The graph with the value in the parameter's place. False: out of memory. */
-static bool put_value(struct gm_user_system *system, struct gm_user_rates *rates, size_t n)
-{
-    gm_node_id *replacement = malloc(system->variable_count * sizeof *replacement);
-    for (size_t i = 0; replacement && i < system->variable_count; i++) {
-        replacement[i] = GM_NO_NODE;
+    open_slopes(arena, opening);
+    gm_user_bracket_model_open(arena, &model->bracket, system);
+    for (size_t i = 0; i < model->rate_count && system->kind != GM_LAGRANGIAN; i++) {
+        gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }
-    if (replacement) {
-        replacement[rates->parameter] = gm_formula_constant(&system->graph, rates->value);
-    }
-    const bool good = replacement && gm_formula_substitute(&system->graph, rates->nodes, n, replacement,
-                                                           system->variable_count);
-    free(replacement);
-    return good;
+    gm_arena_need(arena, !system->graph.failed);
 }
 
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system)
 {
-    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
-    const size_t n = model->components;
-    if (!gm_facts_find(system, model->findings)) {
-        return false;
-    }
-    model->names = names_of(system);
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    if (!open_rates(model, system) || !model->names || !marked) {
-        free(marked);
-        return false;
-    }
-    model->has_jacobian = n <= GM_NEWTON_LARGEST;
-    bool good = gm_user_constraints_model_open(&model->constraints, system);
-    if (system->kind == GM_LAGRANGIAN) {
-        gm_user_lagrangian_model_open(&model->lagrangian, system);
-    } else {
-        memset(marked, true, n);
-        for (size_t i = 0; i < model->rate_count && good; i++) {
-            struct gm_user_rates *rates = &model->rates[i];
-            good = (i == 0 || put_value(system, rates, n)) &&
-                   (!model->has_jacobian || gm_sparse_jacobian(&system->graph, rates->nodes, n, marked,
-                                                               system->variable_count, &rates->jacobian));
-        }
-    }
-    if (good) {
-        good = open_slopes(model, system, marked) && gm_user_bracket_model_open(&model->bracket, system);
-    }
-    free(marked);
-    for (size_t i = 0; i < model->rate_count && good && system->kind != GM_LAGRANGIAN; i++) {
-        good = gm_formula_quicken(&system->graph, model->rates[i].nodes, n);
-    }
-    return good && !system->graph.failed;
+    *model = (struct gm_user_model){
+        .system = system, .components = system->n + system->timed, .arena = gm_arena_open()};
+    return gm_arena_run(model->arena, open_model, &(struct opening){.model = model, .system = system});
 }
 
 const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *model, const double *values)
@@ -180,16 +178,7 @@ const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *mode
 
 void gm_user_model_close(struct gm_user_model *model)
 {
-    gm_user_lagrangian_model_close(&model->lagrangian);
-    gm_user_constraints_model_close(&model->constraints);
-    gm_user_bracket_model_close(&model->bracket);
-    for (size_t i = 0; i < model->rate_count; i++) {
-        free(model->rates[i].nodes);
-        free(model->rates[i].jacobian.entries);
-    }
-    free(model->rates);
-    free(model->slopes);
-    free(model->names);
+    gm_arena_close(model->arena);
     *model = (struct gm_user_model){0};
 }
 

@@ -16,7 +16,8 @@
 struct gm_user_rates {
     gm_node_id *nodes;
     struct gm_sparse jacobian;
-    size_t parameter; /* a number of a variable; SIZE_MAX: none */
+    gm_node_id *slopes; /* the nodes of the Jacobian */
+    size_t parameter;   /* a number of a variable; SIZE_MAX: none */
     double value;
 };
 
@@ -34,6 +35,7 @@ struct gm_user_model {
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket_model bracket;
     char *names; /* of the components, as in struct gm_ode */
+    struct gm_arena *arena;
 };
 
 /* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */

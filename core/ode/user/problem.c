@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/loops.h"
@@ -36,7 +37,6 @@ struct own {
     double *frequencies;                                /* of coordinates */
     struct gm_late_tape field, velocity, force, energy, jacobian;
     struct gm_late_tape *pieces; /* the rates, one by one, where each component alone has an exact flow */
-    gm_node_id *slopes_of_rates; /* the nodes of the Jacobian */
     struct gm_user_lagrangian lagrangian;
     struct gm_user_constraints constraints;
     struct gm_action action;
@@ -49,6 +49,7 @@ struct own {
     double *values;   /* of the system's variables */
     const struct gm_user_model *model;
     const struct gm_user_rates *rates; /* of the model */
+    struct gm_arena *arena;            /* in which all this lies */
 };
 
 /* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
@@ -259,11 +260,12 @@ static void kepler_solution(const struct gm_problem *problem, double t, const do
 }
 
 /* Whether the forces at two nodes vanish wherever a system is, with these values of its parameters. */
-static bool vanish(const struct gm_user_system *system, const gm_node_id nodes[2], const double *values)
+static bool vanish(struct gm_arena *arena, const struct gm_user_system *system, const gm_node_id nodes[2],
+                   const double *values)
 {
-    double *fixed = malloc(system->variable_count * sizeof *fixed);
-    bool zero = fixed != NULL;
-    for (size_t i = 0; zero && i < system->variable_count; i++) {
+    double *fixed = gm_arena_take(arena, system->variable_count, sizeof *fixed);
+    bool zero = true;
+    for (size_t i = 0; i < system->variable_count; i++) {
         fixed[i] = i >= system->parameters && i < system->velocities ? values[i] : NAN;
     }
     for (int k = 0; k < 2 && zero; k++) {
@@ -271,80 +273,81 @@ static bool vanish(const struct gm_user_system *system, const gm_node_id nodes[2
             gm_identity_of(&system->graph, nodes[k], fixed, system->variable_count);
         zero = identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED;
     }
-    free(fixed);
     return zero;
 }
 
-/* The facets of H = |p|^2/2 + V(q). False: out of memory. */
-static bool open_mechanical(struct own *self, struct gm_problem *problem, const double *values)
+/* A tape of the problem's graph and values. */
+static void open_tape(struct own *self, struct gm_tape *tape, const gm_node_id *nodes, size_t count,
+                      size_t inputs)
+{
+    gm_tape_keep(self->arena, tape,
+                 gm_tape_open(tape, &self->model->system->graph, nodes, count, inputs, self->values));
+}
+
+/* The values of nodes that hold no component. */
+static void find_constants(struct own *self, const gm_node_id *nodes, size_t count, double *constants)
+{
+    struct gm_tape *tape = gm_arena_take(self->arena, 1, sizeof *tape);
+    open_tape(self, tape, nodes, count, 0);
+    gm_tape_values(tape, NULL, constants, 1);
+}
+
+/* The facets of H = |p|^2/2 + V(q). */
+static void open_mechanical(struct own *self, struct gm_problem *problem)
 {
     const struct gm_user_model *model = self->model;
-    const struct gm_formula *graph = &model->system->graph;
     const struct gm_finding *findings = model->findings;
     const size_t half = model->system->n / 2;
-    bool good = true;
-    if (gm_user_model_holds(model, values, GM_FACT_FAST_LINEAR)) {
-        struct gm_tape tape;
+    if (gm_user_model_holds(model, self->values, GM_FACT_FAST_LINEAR)) {
         const gm_node_id *nodes = findings[GM_FACT_FAST_LINEAR].nodes;
         bool real = true;
-        self->frequencies = calloc(half, sizeof *self->frequencies);
-        good = gm_tape_open(&tape, graph, nodes, half, 0, values) && self->frequencies;
+        self->frequencies = gm_arena_take(self->arena, half, sizeof *self->frequencies);
+        find_constants(self, nodes, half, self->frequencies);
         self->slow_force = late_tape(self, nodes + half, half, half);
-        if (good) {
-            gm_tape_values(&tape, NULL, self->frequencies, 1);
-        }
-        gm_tape_close(&tape);
-        for (size_t i = 0; good && i < half; i++) {
+        for (size_t i = 0; i < half; i++) {
             real = real && isfinite(self->frequencies[i]);
         }
         self->fast_linear = (struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force};
         self->ode.fast_linear = real ? &self->fast_linear : NULL;
     }
-    if (gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)) {
+    if (gm_user_model_holds(model, self->values, GM_FACT_KEPLER_SPLIT)) {
         const gm_node_id *nodes = findings[GM_FACT_KEPLER_SPLIT].nodes;
-        good = good && gm_tape_open(&self->attraction, graph, nodes, 1, 2, values) &&
-               gm_tape_open(&self->perturbation, graph, nodes + 1, 2, 2, values);
+        open_tape(self, &self->attraction, nodes, 1, 2);
+        open_tape(self, &self->perturbation, nodes + 1, 2, 2);
         self->kepler_split =
             (struct gm_kepler_split){.potential = attraction, .perturbing_force = perturbing_force};
         self->ode.kepler_split = &self->kepler_split;
         static const struct gm_exact kepler = {.solution = kepler_solution};
-        problem->exact = vanish(model->system, nodes + 1, values) ? &kepler : NULL;
+        problem->exact = vanish(self->arena, model->system, nodes + 1, self->values) ? &kepler : NULL;
     }
-    if (gm_user_model_holds(model, values, GM_FACT_LAGRANGIAN)) {
-        good =
-            good && gm_tape_open(&self->potential, graph, findings[GM_FACT_LAGRANGIAN].nodes, 3, 1, values);
+    if (gm_user_model_holds(model, self->values, GM_FACT_LAGRANGIAN)) {
+        open_tape(self, &self->potential, findings[GM_FACT_LAGRANGIAN].nodes, 3, 1);
         self->one_degree.potential = potential;
         self->ode.lagrangian = &self->one_degree;
     }
-    return good;
 }
 
-/* What variational schemes need. False: out of memory. */
-static bool open_action(struct own *self, const double *values)
+/* What variational schemes need. */
+static void open_action(struct own *self)
 {
     const struct gm_user_model *model = self->model;
     const bool constrained = model->constraints.count > 0;
     if (!gm_user_model_has_action(model) ||
-        (model->system->kind == GM_CANONICAL && !gm_user_model_holds(model, values, GM_FACT_NYSTROM))) {
-        return true;
+        (model->system->kind == GM_CANONICAL && !gm_user_model_holds(model, self->values, GM_FACT_NYSTROM))) {
+        return;
     }
     self->action = (struct gm_action){.motion = model->system->kind == GM_LAGRANGIAN ? motion : NULL,
                                       .free = constrained ? &self->free : NULL,
                                       .constraints = model->constraints.count,
                                       .constrain = constrain};
     self->ode.action = &self->action;
-    bool good = !constrained || gm_user_constraints_open(&self->constraints, &model->constraints, values);
-    if (gm_user_model_holds(model, values, GM_FACT_CONFORMAL)) {
-        struct gm_tape tape;
-        const gm_node_id *nodes = model->findings[GM_FACT_CONFORMAL].nodes;
-        good = good && gm_tape_open(&tape, &model->system->graph, nodes, 1, 0, values);
-        if (good) {
-            gm_tape_values(&tape, NULL, &self->friction, 1);
-            self->action.friction = friction;
-        }
-        gm_tape_close(&tape);
+    if (constrained) {
+        gm_user_constraints_open(self->arena, &self->constraints, &model->constraints, self->values);
     }
-    return good;
+    if (gm_user_model_holds(model, self->values, GM_FACT_CONFORMAL)) {
+        find_constants(self, model->findings[GM_FACT_CONFORMAL].nodes, 1, &self->friction);
+        self->action.friction = friction;
+    }
 }
 
 /* The moments of inertia of a body that nothing turns: slopes that are linear, each of its own component. */
@@ -369,12 +372,12 @@ static void find_moments(struct own *self, const struct gm_problem *problem)
     }
 }
 
-/* What schemes for brackets need. False: out of memory. */
-static bool open_poisson(struct own *self, const struct gm_problem *problem, const double *values)
+/* What schemes for brackets need. */
+static void open_poisson(struct own *self, const struct gm_problem *problem)
 {
     const struct gm_user_bracket_model *model = &self->model->bracket;
     if (!model->gradient) {
-        return true;
+        return;
     }
     self->poisson = (struct gm_poisson){.energy = energy_of_bracket,
                                         .gradient = gradient,
@@ -385,28 +388,25 @@ static bool open_poisson(struct own *self, const struct gm_problem *problem, con
                                         .pieces = model->piece_count,
                                         .flow = flow_of_piece};
     self->ode.poisson = &self->poisson;
-    const bool good = gm_user_bracket_open(&self->bracket, model, values);
-    if (good) {
-        find_moments(self, problem);
-    }
-    return good;
+    gm_user_bracket_open(self->arena, &self->bracket, model, self->values);
+    find_moments(self, problem);
 }
 
-/* What schemes need that choose their step. False: out of memory. */
-static bool open_monitor(struct own *self, const double *values)
+/* What schemes need that choose their step. */
+static void open_monitor(struct own *self)
 {
     const struct gm_user_model *model = self->model;
-    const struct gm_formula *graph = &model->system->graph;
     if (!model->slopes) {
-        return true;
+        return;
     }
     self->monitor = (struct gm_monitor){.density = density, .of_places = true};
     for (size_t i = model->system->n / 2; i < model->components; i++) {
-        self->monitor.of_places = self->monitor.of_places && gm_is_constant(graph, model->slopes[i], 0);
+        self->monitor.of_places =
+            self->monitor.of_places && gm_is_constant(&model->system->graph, model->slopes[i], 0);
     }
     self->ode.monitor = &self->monitor;
-    return gm_tape_open(&self->density, graph, &model->monitor, 1, model->components, values) &&
-           gm_tape_open(&self->slopes, graph, model->slopes, model->components, model->components, values);
+    open_tape(self, &self->density, &model->monitor, 1, model->components);
+    open_tape(self, &self->slopes, model->slopes, model->components, model->components);
 }
 
 static bool is_unit_mass(const struct own *self)
@@ -421,59 +421,65 @@ static bool is_unit_mass(const struct own *self)
     return unit;
 }
 
-static bool open_tapes(struct own *self, const double *values)
+static void close_late(void *tape)
+{
+    gm_late_tape_close(tape);
+}
+
+static void open_tapes(struct own *self)
 {
     const struct gm_user_model *model = self->model;
     const struct gm_user_rates *rates = self->rates;
     const struct gm_user_system *system = model->system;
     const size_t n = model->components, half = system->n / 2;
+    struct gm_late_tape *const late[] = {&self->field,  &self->velocity, &self->force,
+                                         &self->energy, &self->jacobian, &self->slow_force};
+    for (size_t i = 0; i < GM_COUNT(late); i++) {
+        gm_arena_keep(self->arena, late[i], close_late);
+    }
     if (system->kind == GM_LAGRANGIAN) {
-        return gm_user_lagrangian_open(&self->lagrangian, &model->lagrangian, values);
+        gm_user_lagrangian_open(self->arena, &self->lagrangian, &model->lagrangian, self->values);
+        return;
     }
     self->field = late_tape(self, rates->nodes, n, n);
     self->velocity = late_tape(self, rates->nodes, half, n);
     self->force = late_tape(self, rates->nodes + half, half, n);
     self->energy = late_tape(self, &system->energy, 1, n);
-    if (model->has_jacobian) {
-        gm_node_id *nodes = self->slopes_of_rates = malloc((rates->jacobian.count + 1) * sizeof *nodes);
-        for (size_t i = 0; nodes && i < rates->jacobian.count; i++) {
-            nodes[i] = rates->jacobian.entries[i].node;
-        }
-        self->jacobian = late_tape(self, nodes, rates->jacobian.count, n);
-    }
+    self->jacobian = late_tape(self, rates->slopes, rates->jacobian.count, n);
     if (self->ode.volume) {
-        self->pieces = malloc(n * sizeof *self->pieces);
-        for (size_t i = 0; self->pieces && i < n; i++) {
+        self->pieces = gm_arena_take(self->arena, n, sizeof *self->pieces);
+        for (size_t i = 0; i < n; i++) {
             self->pieces[i] = late_tape(self, &rates->nodes[i], 1, n);
+            gm_arena_keep(self->arena, &self->pieces[i], close_late);
         }
     }
-    return (self->slopes_of_rates || !model->has_jacobian) && (self->pieces || !self->ode.volume);
 }
 
 /* Whether the energy of rest is negative where these values of all variables have it start. Of a Hamiltonian the
    formula itself is asked: no tape is made for one number. */
-static bool attracts(const struct gm_problem *problem, const double *values)
+static bool attracts(const struct own *self, const struct gm_problem *problem)
 {
-    const struct gm_user_system *system = own_of(problem)->model->system;
+    const struct gm_user_system *system = self->model->system;
     const gm_node_id energy = system->energy;
+    const size_t places = problem->n / 2;
     size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, energy, &count);
-    double *rest = malloc(system->variable_count * sizeof *rest),
-           *at = malloc((energy + (size_t)1) * sizeof *at); /* of the parts alone */
-    bool negative = false;
-    if (parts && rest && at) {
-        memcpy(rest, values, system->variable_count * sizeof *rest);
-        memset(rest + problem->n / 2, 0, (problem->n - problem->n / 2) * sizeof *rest);
-        gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
-        negative = (system->kind == GM_LAGRANGIAN ? gm_energy(problem, rest) : at[energy]) < 0;
+    double *rest = gm_arena_take(self->arena, system->variable_count, sizeof *rest);
+    memcpy(rest, self->values, system->variable_count * sizeof *rest);
+    memset(rest + places, 0, (problem->n - places) * sizeof *rest);
+    if (system->kind == GM_LAGRANGIAN) {
+        return gm_energy(problem, rest) < 0;
     }
-    free(parts);
-    free(rest);
-    free(at);
+    const gm_node_id *parts =
+        gm_arena_keep(self->arena, gm_formula_parts(&system->graph, energy, &count), free);
+    /* of the parts alone */
+    double *at = gm_arena_keep(self->arena, malloc((energy + (size_t)1) * sizeof *at), free);
+    gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
+    const bool negative = at[energy] < 0;
+    gm_arena_drop(self->arena, at);
     return negative;
 }
 
-/* Whether y' = A y in three dimensions with tr A = 0, to round-off; notes A. */
+/* Returns true if the rates are A y in three dimensions with tr A = 0, to round-off; notes A. */
 static bool is_trace_free(struct own *self, const struct gm_problem *problem)
 {
     const double origin[3] = {0}, *a = self->matrix;
@@ -487,23 +493,26 @@ static bool is_trace_free(struct own *self, const struct gm_problem *problem)
            fabs(a[0] + a[4] + a[8]) <= 1e-15 * (fabs(a[0]) + fabs(a[4]) + fabs(a[8]));
 }
 
-bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_model *model;
+    const double *values;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
+    const struct opening *opening = data;
+    const struct gm_user_model *model = opening->model;
     const struct gm_user_system *system = model->system;
-    struct own *self = calloc(1, sizeof *self);
-    *problem = (struct gm_problem){
-        .name = "system", .kind = &gm_kind_ode, .n = model->components, .m = 1, .parameters = self};
-    if (!self) {
-        return false;
-    }
-    problem->facets = &self->ode;
+    struct gm_problem *problem = opening->problem;
+    struct own *self = gm_arena_take(arena, 1, sizeof *self);
+    const double *values = self->values = gm_arena_take(arena, system->variable_count, sizeof *self->values);
+    memcpy(self->values, opening->values, system->variable_count * sizeof *values);
+    self->arena = arena;
     self->model = model;
     self->rates = gm_user_model_rates(model, values);
-    self->values = malloc((system->variable_count + 1) * sizeof *self->values);
-    if (!self->values) {
-        return false;
-    }
-    memcpy(self->values, values, system->variable_count * sizeof *values);
+    problem->parameters = self;
+    problem->facets = &self->ode;
     const bool lagrangian = system->kind == GM_LAGRANGIAN;
     self->loops = (struct gm_loops){.field = lagrangian ? lagrangian_field : field,
                                     .jacobian = !model->has_jacobian ? NULL
@@ -542,16 +551,28 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         self->ode.volume = &self->volume;
     }
     self->interpreted = self->loops;
-    if (!open_tapes(self, values) || !open_mechanical(self, problem, values) || !open_action(self, values) ||
-        !open_monitor(self, values) || !open_poisson(self, problem, values)) {
-        return false;
-    }
+    open_tapes(self);
+    open_mechanical(self, problem);
+    open_action(self);
+    open_monitor(self);
+    open_poisson(self, problem);
     if (self->ode.linear && !self->ode.volume && is_trace_free(self, problem)) {
         self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
         self->ode.volume = &self->volume;
     }
-    self->split.attracts = self->ode.split && self->ode.hamiltonian && attracts(problem, values);
-    return true;
+    self->split.attracts = self->ode.split && self->ode.hamiltonian && attracts(self, problem);
+}
+
+bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
+{
+    struct gm_arena *arena = gm_arena_open();
+    *problem = (struct gm_problem){.name = "system", .kind = &gm_kind_ode, .n = model->components, .m = 1};
+    const bool opened = gm_arena_run(arena, open_problem, &(struct opening){problem, model, values});
+    if (!opened) {
+        gm_arena_close(arena);
+        *problem = (struct gm_problem){0};
+    }
+    return opened;
 }
 
 /* The tapes of which kernels are written; NULL: there is none. False: out of memory. */
@@ -630,30 +651,8 @@ const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem)
 
 void gm_user_problem_close(struct gm_problem *problem)
 {
-    struct own *self = (struct own *)problem->parameters;
-    if (self) {
-        for (size_t i = 0; self->pieces && i < problem->n; i++) {
-            gm_late_tape_close(&self->pieces[i]);
-        }
-        gm_late_tape_close(&self->field);
-        gm_late_tape_close(&self->velocity);
-        gm_late_tape_close(&self->force);
-        gm_late_tape_close(&self->energy);
-        gm_late_tape_close(&self->jacobian);
-        gm_user_lagrangian_close(&self->lagrangian);
-        gm_user_constraints_close(&self->constraints);
-        gm_late_tape_close(&self->slow_force);
-        gm_tape_close(&self->attraction);
-        gm_tape_close(&self->perturbation);
-        gm_tape_close(&self->potential);
-        gm_tape_close(&self->density);
-        gm_tape_close(&self->slopes);
-        gm_user_bracket_close(&self->bracket);
-        free(self->frequencies);
-        free(self->pieces);
-        free(self->slopes_of_rates);
-        free(self->values);
-        free(self);
+    if (problem->parameters) {
+        gm_arena_close(own_of(problem)->arena);
     }
     *problem = (struct gm_problem){0};
 }

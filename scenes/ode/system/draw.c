@@ -357,6 +357,7 @@ static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const 
         const struct gm_style style = {role, 0.9, 1.6, last ? GM_SOLID : gm_lane_dash(body)};
         count = last ? count : average(points, count);
         gm_mark_line(picture, panel, style, points, count, false);
+        gm_mark_switches(picture, panel, lane, false);
         gm_mark_points(picture, panel, (struct gm_style){role, 1, 3.4, GM_SOLID}, points,
                        last && count < 1500 ? count : 0);
         return;

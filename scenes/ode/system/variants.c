@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "scenes/ode/system/pieces.h"
 
 enum { MOST_BUILDING = 16 };
@@ -21,7 +22,7 @@ struct tables {
     size_t row_count, observable_count;
 };
 
-/* The number of a row of that key, which is what rows begin with; their number: there is none. */
+/* The number of the row, of so many of that size, that begins with the key; their number: there is none. */
 static size_t find(const void *rows, size_t size, size_t count, const char *key)
 {
     size_t i = 0;
@@ -29,16 +30,6 @@ static size_t find(const void *rows, size_t size, size_t count, const char *key)
         i++;
     }
     return i;
-}
-
-static size_t find_row(const struct gm_parameter *rows, size_t count, const char *key)
-{
-    return find(rows, sizeof *rows, count, key);
-}
-
-static size_t find_observable(const struct gm_observable *rows, size_t count, const char *key)
-{
-    return find(rows, sizeof *rows, count, key);
 }
 
 /* Whether another value of a row is another system: of a choice, and of what the equations are built on where no words
@@ -57,23 +48,25 @@ static bool builds(const struct gm_system_scene *scene, size_t row)
 static void add(struct tables *tables, const struct gm_system_scene *other)
 {
     for (size_t i = 0; i < other->row_count; i++) {
-        const size_t row = find_row(tables->rows, tables->row_count, other->rows[i].key);
+        const size_t row = find(tables->rows, sizeof *tables->rows, tables->row_count, other->rows[i].key);
         struct gm_parameter *to = &tables->rows[row], own = other->rows[i];
+        if (builds(other, i) && own.type != GM_CHOICE) {
+            own.lowest = other->system.variables[other->variables[i]].low;
+            own.highest = other->system.variables[other->variables[i]].high;
+        }
         if (row == tables->row_count) {
             *to = own;
-            to->offset = row < GM_SYSTEM_ROWS ? own.offset
-                                              : offsetof(struct gm_system_lane, values) +
-                                                    (row - GM_SYSTEM_ROWS) * sizeof(double);
+            to->offset += (row - i) * sizeof(double);
             tables->row_count++;
         }
         to->lowest = fmin(to->lowest, own.lowest);
         to->highest = fmax(to->highest, own.highest);
     }
     for (size_t i = 0; i < other->observable_count; i++) {
-        const struct gm_observable *row = &other->observables[i];
-        if (find_observable(tables->observables, tables->observable_count, row->key) ==
+        struct gm_observable *rows = tables->observables;
+        if (find(rows, sizeof *rows, tables->observable_count, other->observables[i].key) ==
             tables->observable_count) {
-            tables->observables[tables->observable_count++] = *row;
+            rows[tables->observable_count++] = other->observables[i];
         }
     }
 }
@@ -84,162 +77,145 @@ static double nothing(const struct gm_view *view)
     return NAN;
 }
 
-/* A system takes the rows, and puts its values where each now is. False: out of memory. */
-static bool take_rows(struct gm_system_scene *own, const struct tables *tables)
+/* A system takes the rows: its values and formulas stand where each now is. False: out of memory. */
+static bool take(struct gm_system_scene *own, const struct tables *tables)
 {
-    const size_t all = tables->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS;
-    const size_t size = sizeof *own->initial + tables->row_count * (sizeof(double) + 1);
-    struct gm_parameter *rows = malloc(all * sizeof *rows);
-    size_t *variables = malloc(tables->row_count * sizeof *variables);
-    struct gm_system_lane *initial = calloc(1, size);
+    const size_t rows = tables->row_count, count = tables->observable_count,
+                 size = sizeof *own->initial + rows * (sizeof(double) + 1);
+    const struct gm_system_scene before = *own;
     char text[GM_CHOICE_SIZE + 32];
-    for (size_t row = 0; rows && variables && initial && row < tables->row_count; row++) {
-        const size_t before = find_row(own->rows, own->row_count, tables->rows[row].key);
-        variables[row] = before < own->row_count ? own->variables[before] : GM_NO_VARIABLE;
-        const char *value = tables->rows[row].standard;
-        if (before < own->row_count) {
-            value = gm_parameter_format(&own->rows[before], own->initial, text, sizeof text);
-        }
-        gm_parameter_set(&tables->rows[row], initial, value);
+    own->rows = calloc(rows + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *own->rows);
+    own->variables = calloc(rows, sizeof *own->variables);
+    own->initial = calloc(1, size);
+    own->observables = calloc(count + 1, sizeof *own->observables);
+    own->formulas = calloc(count + 1, sizeof *own->formulas);
+    own->terms = calloc(count + 1, sizeof *own->terms);
+    const bool good =
+        own->rows && own->variables && own->initial && own->observables && own->formulas && own->terms;
+    for (size_t row = 0; good && row < rows; row++) {
+        const struct gm_parameter *to = &tables->rows[row];
+        const size_t from = find(before.rows, sizeof *to, before.row_count, to->key);
+        const bool found = from < before.row_count;
+        own->variables[row] = found ? before.variables[from] : GM_NO_VARIABLE;
+        gm_parameter_set(to, own->initial,
+                         found ? gm_parameter_format(&before.rows[from], before.initial, text, sizeof text)
+                               : to->standard);
     }
-    if (!rows || !variables || !initial) {
-        free(rows);
-        free(variables);
-        free(initial);
-        return false;
-    }
-    memcpy(initial, own->initial, offsetof(struct gm_system_lane, values));
-    memcpy(rows, tables->rows, all * sizeof *rows);
-    free(own->rows);
-    free(own->variables);
-    free(own->initial);
-    own->rows = rows;
-    own->common = rows + tables->row_count;
-    own->variables = variables;
-    own->initial = initial;
-    own->scene.parameter_count += tables->row_count - own->row_count;
-    own->row_count = tables->row_count;
-    own->scene.size = size;
-    own->scene.initial = initial;
-    own->scene.parameters = rows;
-    return true;
-}
-
-static bool take_observables(struct gm_system_scene *own, const struct tables *tables)
-{
-    const size_t count = tables->observable_count;
-    struct gm_observable *observables = calloc(count + 1, sizeof *observables);
-    struct gm_tape *formulas = calloc(count + 1, sizeof *formulas), *terms = calloc(count + 1, sizeof *terms);
-    const bool good = observables && formulas && terms;
     for (size_t i = 0; good && i < count; i++) {
         const struct gm_observable *row = &tables->observables[i];
-        const size_t before = find_observable(own->observables, own->observable_count, row->key);
-        const bool found = before < own->observable_count;
-        observables[i] = found ? own->observables[before]
-                               : (struct gm_observable){.key = row->key,
-                                                        .title = row->title,
-                                                        .unit = row->unit,
-                                                        .evaluate = nothing,
-                                                        .missing = own->lacks,
-                                                        .logarithmic = row->logarithmic};
-        if (found) {
-            formulas[i] = own->formulas[before];
-            terms[i] = own->terms[before];
+        const size_t from = find(before.observables, sizeof *row, before.observable_count, row->key);
+        if (from < before.observable_count) {
+            own->observables[i] = before.observables[from];
+            own->formulas[i] = before.formulas[from];
+            own->terms[i] = before.terms[from];
+            before.formulas[from] = before.terms[from] = (struct gm_tape){0};
+        } else {
+            own->observables[i] = (struct gm_observable){.key = row->key,
+                                                         .title = row->title,
+                                                         .unit = row->unit,
+                                                         .evaluate = nothing,
+                                                         .missing = own->lacks,
+                                                         .logarithmic = row->logarithmic};
         }
     }
-    free(good ? own->observables : observables);
-    free(good ? own->formulas : formulas);
-    free(good ? own->terms : terms);
-    if (good) {
-        own->scene.observables = own->observables = observables;
-        own->scene.observable_count = own->observable_count = count;
-        own->formulas = formulas;
-        own->terms = terms;
+    for (size_t i = 0; good && i < before.observable_count; i++) { /* what no row of the scene is */
+        gm_tape_close(&before.formulas[i]);
+        gm_tape_close(&before.terms[i]);
     }
+    struct gm_system_scene gone = good ? before : *own;
+    if (good) {
+        memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
+        memcpy(own->rows, tables->rows, (rows + GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *own->rows);
+        own->common = own->rows + rows;
+        own->scene.parameter_count += rows - own->row_count;
+        own->row_count = rows;
+        own->observable_count = own->scene.observable_count = count;
+        own->scene.size = size;
+        own->scene.initial = own->initial;
+        own->scene.parameters = own->rows;
+        own->scene.observables = own->observables;
+    } else {
+        *own = before;
+    }
+    free(gone.rows);
+    free(gone.variables);
+    free(gone.initial);
+    free(gone.observables);
+    free(gone.formulas);
+    free(gone.terms);
     return good;
 }
 
-/* `value`: what makes it another system than the first. */
-static bool take(struct gm_system_scene *own, struct gm_system_scene *first, const struct tables *tables,
-                 const struct gm_system_value *value)
+/* Puts a system among those of the file, with their rows. */
+static bool join(struct gm_system_scene *own, struct gm_system_scene *first, const struct tables *tables)
 {
-    own->first = first;
-    own->lacks = gm_system_kept_text(own, "with %s=%s there is none", value->name, value->text);
     own->scene.asked = first->scene.asked;
     own->scene.asked_count = first->scene.asked_count;
-    return own->lacks && take_rows(own, tables) && take_observables(own, tables);
+    own->first = take(own, tables) ? first : NULL;
+    return own->first != NULL;
 }
 
-/* The first system takes the rows of all, and then these do. */
-static bool take_all(struct gm_system_scene *first, const struct gm_system_value *values)
+bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value)
 {
-    size_t rows = GM_COMMON_ROWS + GM_CAMERA_KEYS, observables = 1, number = 0;
-    for (const struct gm_system_scene *other = first; other; other = other->next) {
-        rows += other->row_count;
-        observables += other->observable_count;
-    }
-    struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
-                            .observables = calloc(observables, sizeof *tables.observables)};
-    bool good = tables.rows && tables.observables;
-    for (const struct gm_system_scene *other = first; good && other; other = other->next) {
-        add(&tables, other);
-    }
-    for (size_t row = GM_SYSTEM_ROWS; good && row < first->row_count; row++) {
-        if (builds(first, row) && tables.rows[row].type != GM_CHOICE) {
-            tables.rows[row].lowest = first->system.variables[first->variables[row]].low;
-            tables.rows[row].highest = first->system.variables[first->variables[row]].high;
-        }
-    }
-    if (good) {
-        memcpy(tables.rows + tables.row_count, first->common,
-               (GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *tables.rows);
-    }
-    for (struct gm_system_scene *other = first; good && other; other = other->next) {
-        good = take(other, first, &tables, &values[number++]);
-    }
-    free(tables.rows);
-    free(tables.observables);
-    return good;
+    own->lacks = gm_system_kept_text(own, "with %s=%s there is none", key, value);
+    return own->lacks != NULL;
 }
 
 bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
                      char *sentence)
 {
     const struct gm_written_choices *choices = &first->system.choices;
-    struct gm_system_value values[1 + GM_MOST_CHOICES * GM_MOST_CHOICE_WORDS] = {{"the usual values", ""}};
-    struct gm_system_scene **last = &first->next;
-    size_t count = 1, building = 0;
+    size_t building = 0, rows = first->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS,
+           observables = first->observable_count + 1;
     for (size_t row = 0; row < first->row_count; row++) {
         building += builds(first, row);
     }
     for (size_t i = 0; i < choices->count; i++) {
         const struct gm_written_choice *choice = &choices->list[i];
-        values[0] = (struct gm_system_value){choice->name, choice->words[choice->chosen]};
         for (size_t k = 0; k < choice->count; k++) {
-            if (k == choice->chosen) {
-                continue;
-            }
-            values[count] = (struct gm_system_value){choice->name, choice->words[k]};
-            *last = make(first, &values[count++], 1, fault, sentence);
-            if (!*last) {
+            const struct gm_system_value word = {choice->name, choice->words[k]};
+            struct gm_system_scene *other =
+                k != choice->chosen ? make(first, &word, 1, fault, sentence) : NULL;
+            if (other) {
+                other->next = first->next;
+                first->next = other;
+                rows += other->row_count;
+                observables += other->observable_count;
+            } else if (k != choice->chosen) {
                 return false;
             }
-            last = &(*last)->next;
         }
     }
-    return building == 0 || take_all(first, values) || gm_refuse(sentence, "not enough memory");
+    struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
+                            .observables = calloc(observables, sizeof *tables.observables)};
+    const struct gm_written_choice *usual = choices->list;
+    bool good =
+        tables.rows && tables.observables && gm_system_lack(first, usual->name, usual->words[usual->chosen]);
+    for (const struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+        add(&tables, other);
+    }
+    if (good) {
+        memcpy(tables.rows + tables.row_count, first->common,
+               (GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *tables.rows);
+    }
+    for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+        good = join(other, first, &tables);
+    }
+    free(tables.rows);
+    free(tables.observables);
+    return good || gm_refuse(sentence, "not enough memory");
 }
 
 /* Whether a system is that of a lane's values. */
 static bool is_of(const struct gm_system_scene *other, const struct gm_system_lane *lane)
 {
-    for (size_t row = 0; row < other->row_count; row++) {
+    for (size_t row = 0; other->first && row < other->row_count; row++) {
         if (builds(other, row) && gm_parameter_get(&other->rows[row], lane) !=
                                       gm_parameter_get(&other->rows[row], other->initial)) {
             return false;
         }
     }
-    return true;
+    return other->first != NULL;
 }
 
 /* Makes one that there is not yet. */
@@ -247,24 +223,25 @@ static struct gm_system_scene *add_variant(struct gm_system_scene *first, const 
                                            gm_system_maker make, char *sentence)
 {
     struct gm_system_value values[MOST_BUILDING];
-    char texts[MOST_BUILDING][64];
+    char texts[MOST_BUILDING][GM_CHOICE_SIZE + 32];
     size_t count = 0;
-    struct gm_fault fault = {0};
+    struct gm_fault fault;
+    const unsigned long refusals = gm_memory_refusals();
     for (size_t row = 0; row < first->row_count && count < MOST_BUILDING; row++) {
         if (builds(first, row)) {
-            gm_parameter_format(&first->rows[row], lane, texts[count], sizeof texts[count]);
-            values[count] = (struct gm_system_value){first->rows[row].key, texts[count]};
+            const struct gm_parameter *at = &first->rows[row];
+            values[count] = (struct gm_system_value){
+                at->key, gm_parameter_format(at, lane, texts[count], sizeof texts[count])};
             count++;
         }
     }
     struct gm_system_scene *made = make(first, values, count, &fault, sentence);
     const struct tables tables = {first->rows, first->observables, first->row_count, first->observable_count};
-    if (!made) {
-        return NULL;
+    if (made) {
+        made->next = first->next;
+        first->next = made;
     }
-    made->next = first->next;
-    first->next = made;
-    return take(made, first, &tables, &values[count - 1]) ? made : NULL;
+    return made && join(made, first, &tables) && gm_memory_refusals() == refusals ? made : NULL;
 }
 
 bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence)

@@ -15,6 +15,8 @@ typedef struct gm_system_scene *(*gm_system_maker)(const struct gm_system_scene 
    or with a sentence alone. */
 bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
                      char *sentence);
+/* Says of a system by which value it lacks what others have. False: out of memory. */
+bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value);
 /* Gives a lane the system that its values mean. False with a sentence. */
 bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence);
 

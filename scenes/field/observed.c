@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The local laws of fields on a line: the largest residual, and residuals over space and time. */
-#include "scenes/field/local_laws.h"
+/* What is observed of fields on a line: of local laws the largest residual, and residuals over space and time; and of
+   waves in a potential, u_tt = u_xx - V'(u), energies and momentum. */
+#include "scenes/field/observed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,3 +67,43 @@ void gm_surface_record_shown(const struct gm_view *view, int show,
     }
     free(residual);
 }
+
+/* Between walls half of the ring's, whose other half is the mirror image. */
+static double seen(const struct gm_view *view, double of_ring)
+{
+    return view->problem->line.walls ? of_ring / 2 : of_ring;
+}
+
+double gm_view_energy(const struct gm_view *view)
+{
+    return seen(view, gm_wave_energy(view->problem, view->state));
+}
+
+double gm_view_own_energy(const struct gm_view *view)
+{
+    return seen(view, gm_wave_own_energy(view->problem, view->scheme, view->state, view->memory));
+}
+
+double gm_view_momentum(const struct gm_view *view)
+{
+    return view->problem->line.walls ? NAN : gm_wave_momentum(view->problem, view->state);
+}
+
+double gm_view_amplitude(const struct gm_view *view)
+{
+    double largest = 0;
+    for (size_t i = 0; i < view->problem->line.points; i++) {
+        largest = fmax(largest, fabs(view->state[i]));
+    }
+    return largest;
+}
+
+/* A breather has none, a kink of the sine-Gordon equation that of its mass 8 at its velocity. */
+double gm_unit_momentum(const void *parameters)
+{
+    return (void)parameters, 1;
+}
+
+const char *const gm_wave_schemes[] = {
+    "leapfrog",   "energy-conserving", "box",          "euler-box",        "midpoint-box",
+    "gauss-box3", "lobatto-box2",      "lobatto-box4", "lobatto-nystrom4", NULL};

@@ -4,7 +4,7 @@
 
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(fpu)
 GM_LOOPS_DECLARE(fpu_1)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The data painter: pictures as text that tests compare number by number. Its format is part of the golden
    files, so that it changes only together with them. */
-#include "render/picture/picture.h"
+#include "tests/common/picture_text.h"
 
 static const char *const role_names[] = {"paper", "ink", "secondary", "grid", "initial", "exact"};
 static const char *const dash_names[GM_DASH_COUNT] = {"solid",    "long-dash",  "dots",
@@ -146,7 +146,7 @@ static void write_panel(FILE *stream, const struct gm_panel *panel)
     }
 }
 
-void gm_picture_write(const struct gm_picture *picture, FILE *stream)
+void test_picture_write(const struct gm_picture *picture, FILE *stream)
 {
     fputs("picture", stream);
     write_text(stream, picture->title);

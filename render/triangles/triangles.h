@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_TRIANGLES_BATCH_H
-#define GM_RENDER_TRIANGLES_BATCH_H
+#ifndef GM_RENDER_TRIANGLES_TRIANGLES_H
+#define GM_RENDER_TRIANGLES_TRIANGLES_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
+#include "render/drawing/pen.h"
 #include "render/picture/picture.h"
 
 /* A frame as one stream of vertices and a short list of calls: marks are appended in painting order,
@@ -85,5 +86,43 @@ void gm_batch_end(struct gm_batch *batch, size_t unused);
 
 /* Room for vertices and the triangles among them (numbers count from the first of these vertices). */
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
+
+/* Polylines and discs as triangles whose edges fade over a pixel. */
+
+struct gm_rgba {
+    uint8_t colour[4];
+};
+
+/* The ink, `faint` times as opaque. */
+struct gm_rgba gm_rgba_of(struct gm_ink ink, double faint);
+
+/* Joints where the line turns gently are mitred, so that its strip covers nothing twice. At the others,
+   counted here, it ends and begins again with round ends that overlap. */
+size_t gm_stroke_breaks(const struct gm_polyline *line, float half);
+
+/* A line of half width `half` with round joints and ends. */
+void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_rgba ink);
+
+void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_rgba ink);
+
+/* An upright rectangle with sharp edges. */
+void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
+                   struct gm_rgba ink);
+
+/* The inside of a closed line (even-odd). Convex ones fade at the edge by themselves; the others are painted
+   through the stencil. */
+void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink);
+
+/* The pen that makes a batch of what it draws, with memory that is used again for every frame. */
+struct gm_brush {
+    struct gm_batch batch;
+    struct gm_glyphs *glyphs; /* of the page */
+    struct gm_polyline dash;
+};
+
+void gm_brush_free(struct gm_brush *brush);
+
+/* Its self is a gm_brush. */
+extern const struct gm_pen gm_brush_pen;
 
 #endif

@@ -2,4 +2,4 @@
 /* The chain of Fermi, Pasta & Ulam (fpu.kernel.h) with four stiff springs: the number is a constant of its
    loops. */
 #define GM_SPRINGS 4
-#include "core/ode/problems/oscillators/fpu.kernel.h"
+#include "tests/problems/fpu.kernel.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a file tells of the components of a field on a line, with the values of its parameters: how they start, and their
    exact solution. */
-#ifndef GM_CORE_MODEL_LINE_H
-#define GM_CORE_MODEL_LINE_H
+#ifndef GM_CORE_USER_LINE_H
+#define GM_CORE_USER_LINE_H
 
 #include "core/grid1.h"
 #include "core/model/system.h"

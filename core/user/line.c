@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/model/line.h"
+#include "core/user/line.h"
 
 #include <math.h>
 #include <stdio.h>
