@@ -10,7 +10,7 @@
 enum { GM_INDICATORS = 6, GM_ODE_ASKED = GM_MODIFIED_OBSERVABLES + GM_INDICATORS };
 extern const struct gm_observable gm_ode_asked[GM_ODE_ASKED];
 
-/* Of a scene of Hamiltonian systems that has GM_SHOW_ROW. */
+/* For a scene of Hamiltonian systems that has GM_SHOW_ROW. */
 #define GM_ASKED_OF_HAMILTONIAN                                                                              \
     .asked = gm_ode_asked, .asked_count = GM_ODE_ASKED, .asked_shown = gm_modified_shown,                    \
     .draw_asked = gm_draw_modified

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a system's file cannot say, as code of the program that it names: hook: NAME. */
+/* Code of the program for what the formulas of a system's file cannot say. The file names it: hook: NAME. */
 #ifndef GM_SCENES_ODE_HOOK_H
 #define GM_SCENES_ODE_HOOK_H
 

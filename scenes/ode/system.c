@@ -394,8 +394,7 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
-/* Where a plane is shown there is nothing to go around; a hook places its members; and other words of a choice have values
-   of their own. */
+/* Where a plane is shown there is nothing to go around; and other words of a choice have values of their own. */
 static const char *idle(const void *parameters, const char *key)
 {
     const struct gm_system_lane *lane = parameters;
@@ -404,12 +403,6 @@ static const char *idle(const void *parameters, const char *key)
         if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
             lane->owner->variables[row] == GM_NO_VARIABLE) {
             return lane->owner->lacks;
-        }
-    }
-    for (const struct gm_parameter *row = lane->owner->common;
-         lane->owner->hook && row < lane->owner->common + GM_ROW_SHOW; row++) {
-        if (strcmp(row->key, key) == 0) {
-            return "the file's hook places the members";
         }
     }
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
@@ -498,6 +491,7 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
+    const size_t skipped = gm_system_skipped(system_scene);
     const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
     system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
     system_scene->variables = calloc(most, sizeof *system_scene->variables);
@@ -544,8 +538,8 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
     if (good) {
         system_scene->common = system_scene->rows + row;
         memcpy(system_scene->rows, timing, sizeof timing);
-        memcpy(system_scene->common, common, sizeof common);
-        memcpy(system_scene->common + GM_COMMON_ROWS, camera, sizeof camera);
+        memcpy(system_scene->common, common + skipped, sizeof common - skipped * sizeof *common);
+        memcpy(system_scene->common + GM_COMMON_ROWS - skipped, camera, sizeof camera);
         system_scene->initial->owner = system_scene;
     }
     free(start);
@@ -594,11 +588,12 @@ static bool make_shows(struct gm_system_scene *system_scene)
         shows++;
     }
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
-    system_scene->common[GM_ROW_SHOW].choices = system_scene->shows;
+    struct gm_parameter *show = &system_scene->common[GM_ROW_SHOW - gm_system_skipped(system_scene)];
+    show->choices = system_scene->shows;
     if (system_scene->has_section) {
-        system_scene->common[GM_ROW_SHOW].help = "all, the section, or a plane of two components";
+        show->help = "all, the section, or a plane of two components";
         if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
-            system_scene->common[GM_ROW_SHOW].standard = system_scene->shows[GM_SHOW_SECTION];
+            show->standard = system_scene->shows[GM_SHOW_SECTION];
         }
     }
     return true;
@@ -722,8 +717,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
 {
     struct gm_user_system *system = &system_scene->system;
     gm_refuse(sentence, "not enough memory");
-    if (!gm_user_model_open(&system_scene->model, system) || !make_rows(system_scene, typed) ||
-        !find_hook(system_scene, sentence)) {
+    if (!find_hook(system_scene, sentence) || !gm_user_model_open(&system_scene->model, system) ||
+        !make_rows(system_scene, typed)) {
         return false;
     }
     system_scene->scene = (struct gm_scene){
@@ -739,7 +734,7 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .text = words ? system->source : NULL,
         .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
         .parameters = system_scene->rows,
-        .parameter_count = system_scene->row_count + GM_COMMON_ROWS,
+        .parameter_count = system_scene->row_count + GM_COMMON_ROWS - gm_system_skipped(system_scene),
         .variant = variant,
         .idle = idle,
         .settle = settle,
@@ -753,11 +748,14 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
-    if (members && gm_parameter_set(&system_scene->common[GM_ROW_MEMBERS], system_scene->initial, members) !=
-                       GM_PARSED) {
+    if (members && !system_scene->hook &&
+        gm_parameter_set(&system_scene->common[GM_ROW_MEMBERS], system_scene->initial, members) !=
+            GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
-    system_scene->common[GM_ROW_MEMBERS].standard = members ? members : "1";
+    if (members && !system_scene->hook) {
+        system_scene->common[GM_ROW_MEMBERS].standard = members;
+    }
     if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
         (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
         !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||

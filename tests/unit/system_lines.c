@@ -382,8 +382,8 @@ static void hooks_join(void **unused)
         const struct gm_scene *scene = scene_of(text);
         assert_null(scene->stability);
         assert_non_null(strstr(scene->no_stability, "it ends; "));
-        assert_non_null(gm_scene_idle(scene, scene->initial, "members"));
-        assert_null(gm_scene_idle(scene, scene->initial, "show"));
+        assert_null(gm_scene_parameter(scene, "members"));
+        assert_non_null(gm_scene_parameter(scene, "show"));
         struct gm_lane *lane = running(scene, "", "gauss8", 1);
         assert_float_equal(test_observed(lane, "log_volume"), i == 0 ? 0 : -3, 1e-6);
         assert_true(test_observed(lane, "place") == gm_run_state(lane->run)[0]);

@@ -479,7 +479,7 @@ static bool attracts(const struct own *self, const struct gm_problem *problem)
     return negative;
 }
 
-/* Whether y' = A y in three dimensions with tr A = 0, to round-off; notes A. */
+/* Returns true if the rates are A y in three dimensions with tr A = 0, to round-off; notes A. */
 static bool is_trace_free(struct own *self, const struct gm_problem *problem)
 {
     const double origin[3] = {0}, *a = self->matrix;

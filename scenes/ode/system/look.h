@@ -97,6 +97,12 @@ void gm_system_put_parameters(const struct gm_system_lane *lane, double *variabl
 /* The scene that a view is of. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
 
+/* How many of the common rows a scene is without: those of members, which its hook places. */
+static inline size_t gm_system_skipped(const struct gm_system_scene *system_scene)
+{
+    return system_scene->hook ? GM_ROW_SHOW : 0;
+}
+
 /* The number of the member that is looked at. */
 size_t gm_system_centre(const struct gm_view *view);
 
