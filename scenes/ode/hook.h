@@ -17,7 +17,7 @@ struct gm_hook {
 };
 
 #define GM_HOOK(name) extern const struct gm_hook gm_hook_##name;
-#include "scenes/hooks.def"
+#include "scenes/ode/hooks.def"
 #undef GM_HOOK
 
 #endif

@@ -125,7 +125,8 @@ for scheme in rk4 gauss4; do
     engine native duffing delta=0 "scheme=$scheme"
 done
 engine interpreted lorenz
-engine interpreted figure-eight members=2
+engine native figure-eight members=2
+engine interpreted figure-eight members=17
 # without the friction a file that never had one has the same numbers
 sed '/^parameter: delta/d; /^force/d; /^compile/d' duffing.system >free.system
 status 0 run duffing delta=0 scheme=rk4 steps=50 --json --state --engine interpreted
