@@ -692,7 +692,7 @@ static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
 {
     static const struct gm_hook *const hooks[] = {
 #define GM_HOOK(name) &gm_hook_##name,
-#include "scenes/ode/hooks.def"
+#include "scenes/ode/hooks/hooks.def"
 #undef GM_HOOK
     };
     const char *name = system_scene->system.texts[GM_WORD_HOOK];

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "scenes/common/rows.h"
-#include "scenes/ode/hook.h"
+#include "scenes/ode/hooks/hook.h"
 
 enum { DIMENSION = 3, MEMBERS = 1 + 4 * DIMENSION };
 

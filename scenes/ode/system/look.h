@@ -10,7 +10,7 @@
 #include "scenes/common/camera.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/hook.h"
+#include "scenes/ode/hooks/hook.h"
 
 /* Of a row that is no variable of the system: a choice, or a row of others. */
 #define GM_NO_VARIABLE SIZE_MAX

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Code of the program for what the formulas of a system's file cannot say. The file names it: hook: NAME. */
-#ifndef GM_SCENES_ODE_HOOK_H
-#define GM_SCENES_ODE_HOOK_H
+#ifndef GM_SCENES_ODE_HOOKS_HOOK_H
+#define GM_SCENES_ODE_HOOKS_HOOK_H
 
 #include "core/model/system.h"
 #include "scenes/common/scene.h"
@@ -17,7 +17,7 @@ struct gm_hook {
 };
 
 #define GM_HOOK(name) extern const struct gm_hook gm_hook_##name;
-#include "scenes/ode/hooks.def"
+#include "scenes/ode/hooks/hooks.def"
 #undef GM_HOOK
 
 #endif
