@@ -50,8 +50,7 @@ static bool seek(const char *text, struct gm_span span, size_t count,
                  struct gm_fault *fault)
 {
     char word[GM_CHOICE_SIZE];
-    copy(text, span, word);
-    *found = find(word, count, at, data);
+    *found = copy(text, span, word) ? find(word, count, at, data) : count;
     const char *near = *found < count ? NULL : gm_nearest(word, count, at, data);
     return *found < count ||
            gm_fail(fault, span.begin, "there is no %s \"%s\"%s%s", at == name_at ? "choice" : "word", word,

@@ -214,10 +214,12 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
     }
     size_t ahead = 0;
     for (size_t i = 0; i < count; i++) {
-        if (((const struct gm_system_lane *)lanes[i]->parameters)->owner != lane->owner) {
-            return otherwise; /* another word of a choice has texts of its own */
+        const struct gm_system_scene *owner = ((const struct gm_system_lane *)lanes[i]->parameters)->owner;
+        const struct gm_system_item *own = gm_system_item_of(&owner->system, word, 0);
+        if (!own || strcmp(own->text, item->text) != 0) {
+            return otherwise; /* another word of a choice has a text of its own */
         }
-        values[i] = values_of(picture, lanes, count, i, item);
+        values[i] = values_of(picture, lanes, count, i, own);
         ahead = fabs(lanes[i]->run->t) > fabs(lanes[ahead]->run->t) ? i : ahead;
         if (!values[i].numbers) {
             return otherwise;
