@@ -881,6 +881,7 @@ void gm_system_scene_close(const struct gm_scene *scene)
     gm_system_close(&system_scene->system);
     free(system_scene->sights);
     free(system_scene->shows);
+    free(system_scene->all_shows);
     free(system_scene->observables);
     free(system_scene->formulas);
     free(system_scene->terms);

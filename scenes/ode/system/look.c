@@ -38,16 +38,17 @@ size_t gm_system_bright_from(const struct gm_lane *lane)
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
-    const struct gm_system_scene *system_scene = lane->owner,
-                                 *first = system_scene->first ? system_scene->first : system_scene;
-    const size_t pairs = first->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1,
-                 show = (size_t)lane->show; /* a word of the first system */
-    if (system_scene->has_section && show == GM_SHOW_SECTION) {
+    const struct gm_system_scene *system_scene = lane->owner;
+    const char *name =
+        system_scene->common[GM_ROW_SHOW - gm_system_skipped(system_scene)].choices[lane->show];
+    if (system_scene->has_section && strcmp(name, system_scene->section.name) == 0) {
         return &system_scene->section;
     }
-    return &system_scene->sights[show < pairs || show >= pairs + system_scene->pair_count
-                                     ? 0
-                                     : show - pairs + (system_scene->sight_count - system_scene->pair_count)];
+    size_t i = system_scene->sight_count - system_scene->pair_count;
+    while (i < system_scene->sight_count && strcmp(system_scene->sights[i].name, name) != 0) {
+        i++;
+    }
+    return &system_scene->sights[i < system_scene->sight_count ? i : 0];
 }
 
 /* The exact solution now: as the file says, or as the problem knows it. */

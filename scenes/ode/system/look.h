@@ -59,6 +59,7 @@ struct gm_system_scene {
     struct gm_sight *sights; /* the first is what show=all shows; the last pair_count are planes */
     size_t sight_count, pair_count;
     const char **shows;
+    const char **all_shows; /* of all systems of the file, in the first one; NULL: there is one system */
     struct gm_sight section;
     struct gm_tape where; /* what becomes 0 there, or its period, and what must be positive */
     size_t conditions;

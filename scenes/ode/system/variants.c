@@ -161,6 +161,34 @@ bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *va
     return own->lacks != NULL;
 }
 
+/* Collects what the systems of a file can show: all, the section, planes, and the modified Hamiltonian. False: out of
+   memory. */
+static bool unite_shows(struct gm_system_scene *first)
+{
+    size_t most = 1, count = 0;
+    for (const struct gm_system_scene *other = first; other; other = other->next) {
+        for (size_t k = 0; other->shows[k]; k++) {
+            most++;
+        }
+    }
+    first->all_shows = calloc(most, sizeof *first->all_shows);
+    for (int pass = 0; first->all_shows && pass < 3; pass++) {
+        for (const struct gm_system_scene *other = first; other; other = other->next) {
+            for (size_t k = 0; other->shows[k]; k++) {
+                const char *name = other->shows[k];
+                const bool modified = other->system.kind == GM_CANONICAL && !other->shows[k + 1];
+                const bool section = other->has_section && k == GM_SHOW_SECTION;
+                const int last = modified ? 2 : 1;
+                const int place = k == GM_SHOW_ALL || section ? 0 : last;
+                if (place == pass && find(first->all_shows, sizeof name, count, name) == count) {
+                    first->all_shows[count++] = name;
+                }
+            }
+        }
+    }
+    return first->all_shows != NULL;
+}
+
 bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
                      char *sentence)
 {
@@ -197,6 +225,8 @@ bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct
     if (good) {
         memcpy(tables.rows + tables.row_count, first->common,
                (GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *tables.rows);
+        good = unite_shows(first);
+        tables.rows[tables.row_count + GM_ROW_SHOW - gm_system_skipped(first)].choices = first->all_shows;
     }
     for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
         good = join(other, first, &tables);
