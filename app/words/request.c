@@ -36,9 +36,13 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
         if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             char choices[GM_MESSAGE / 2] = "no, yes";
             size_t used = 0;
-            for (size_t i = 0; row->type == GM_CHOICE && row->choices[i] && used < sizeof choices; i++) {
+            for (size_t i = 0; row->type == GM_CHOICE && row->choices[i]; i++) {
+                const bool fits = used + strlen(row->choices[i]) + sizeof ", , …" <= sizeof choices;
                 used += (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "",
-                                         row->choices[i]);
+                                         fits ? row->choices[i] : "…");
+                if (!fits) {
+                    break;
+                }
             }
             return gm_refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
         }

@@ -7,7 +7,15 @@
 
 #include <stddef.h>
 
-enum gm_file_kind { GM_FILE_SYSTEM, GM_FILE_ROOM, GM_FILE_SCHEME, GM_FILE_TOUR, GM_FILE_MESH, GM_FILE_SUBJECT, GM_FILE_KINDS };
+enum gm_file_kind {
+    GM_FILE_SYSTEM,
+    GM_FILE_ROOM,
+    GM_FILE_SCHEME,
+    GM_FILE_TOUR,
+    GM_FILE_MESH,
+    GM_FILE_SUBJECT,
+    GM_FILE_KINDS
+};
 
 /* How the names of their files end, ".system". */
 extern const char *const gm_file_endings[GM_FILE_KINDS];

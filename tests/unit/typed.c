@@ -11,8 +11,8 @@
 
 #include "app/words/request.h"
 #include "app/words/system.h"
-#include "app/words/typed_file.h"
 #include "app/words/typed.h"
+#include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/run.h"
 
