@@ -126,6 +126,18 @@ double gm_parameter_get(const struct gm_parameter *row, const void *owner)
     return value;
 }
 
+char *gm_parameter_choices(const struct gm_parameter *row, char *text, size_t size)
+{
+    size_t used = 0;
+    bool fits = true;
+    for (size_t i = 0; row->choices[i] && fits; i++) {
+        fits = used + strlen(row->choices[i]) + sizeof ", , …" <= size;
+        used +=
+            (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", fits ? row->choices[i] : "…");
+    }
+    return text;
+}
+
 char *gm_parameter_format(const struct gm_parameter *row, const void *owner, char *text, size_t size)
 {
     double value = gm_parameter_get(row, owner);

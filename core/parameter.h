@@ -55,6 +55,9 @@ double gm_parameter_get(const struct gm_parameter *row, const void *owner);
 /* Stores a number in owner as if it had been typed; owner is unchanged unless GM_PARSED is returned. */
 enum gm_parse gm_parameter_put(const struct gm_parameter *row, void *owner, double value);
 
+/* Writes the words of a choice, separated by commas; an ellipsis ends a list that has no room. Returns text. */
+char *gm_parameter_choices(const struct gm_parameter *row, char *text, size_t size);
+
 /* Writes the value of row in owner as it would be typed. Returns text. */
 char *gm_parameter_format(const struct gm_parameter *row, const void *owner, char *text, size_t size);
 

@@ -35,14 +35,8 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     case GM_NOT_UNDERSTOOD:
         if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             char choices[GM_MESSAGE / 2] = "no, yes";
-            size_t used = 0;
-            for (size_t i = 0; row->type == GM_CHOICE && row->choices[i]; i++) {
-                const bool fits = used + strlen(row->choices[i]) + sizeof ", , …" <= sizeof choices;
-                used += (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "",
-                                         fits ? row->choices[i] : "…");
-                if (!fits) {
-                    break;
-                }
+            if (row->type == GM_CHOICE) {
+                gm_parameter_choices(row, choices, sizeof choices);
             }
             return gm_refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
         }

@@ -16,7 +16,6 @@
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size)
 {
     char low[40], high[40];
-    size_t used = 0;
     switch (row->type) {
     case GM_TEXT:
         snprintf(text, size, "a word");
@@ -25,10 +24,7 @@ char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size
         snprintf(text, size, "no, yes");
         return text;
     case GM_CHOICE:
-        for (size_t i = 0; row->choices[i] && used < size; i++) {
-            used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", row->choices[i]);
-        }
-        return text;
+        return gm_parameter_choices(row, text, size);
     case GM_REAL:
     case GM_INTEGER:
         break;
