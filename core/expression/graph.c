@@ -725,7 +725,7 @@ gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *o
 {
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(other, root, &count);
-    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* set for the parts alone */
+    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* [node], set for parts alone */
     graph->failed |= !parts || !made;
     graph->simplifies = true;
     for (size_t k = 0; k < count && !graph->failed; k++) {

@@ -90,9 +90,9 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
                            const gm_node_id *replacement, size_t variables);
 /* Replaces the nodes, in place, by faster ones. Parts with both signs, c / x and -c / x, are computed once;
    no bit changes. If there are few nodes, x / (y sqrt(y)) becomes x (1/y)^2 sqrt(y) when only sums and
-   products use it: the quotient does not wait for the root. Bits change. Values that are not finite stay so,
-   but for y between 1e-154 and 1e-205 the square is infinite and the quotient was not. Returns false when out
-   of memory. */
+   products use it: the quotient does not wait for the root. This changes bits. Values that are not finite
+   stay so, but for y between 1e-154 and 1e-205 the square is infinite and the quotient was not. Returns false
+   when out of memory. */
 bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count);
 
 /* Copies a node of another graph into this one, with the constant values[i] for each variable i >= inputs.

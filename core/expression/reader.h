@@ -15,7 +15,7 @@ enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 10000000
 
 /* A fault, with places in bytes from the start of the text. */
 struct gm_fault {
-    size_t offset, earlier; /* place of the fault; of an earlier definition, or 0 */
+    size_t offset, earlier; /* offset of the fault, and of an earlier definition; 0: none */
     char sentence[GM_FAULT_SENTENCE];
 };
 /* Writes a fault. Returns false. */

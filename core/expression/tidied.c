@@ -271,7 +271,7 @@ gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const st
     struct tidying tidying = {graph, naming, 0};
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* set for the parts alone */
+    gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* [node], set for parts alone */
     const bool good = parts && tidied;
     for (size_t k = 0; good && k < count && !graph->failed; k++) {
         const gm_node_id part = parts[k];

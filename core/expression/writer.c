@@ -32,7 +32,7 @@ static size_t written_size(const struct gm_formula *graph, gm_node_id node, cons
 {
     size_t count = 0, size = SIZE_MAX;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* set for the parts alone */
+    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* [node], set for parts alone */
     for (size_t k = 0; parts && sizes && k < count; k++) {
         const struct gm_node *here = &graph->nodes[parts[k]];
         size = 1;
