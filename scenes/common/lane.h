@@ -67,8 +67,8 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 /* The divisor of an error in this lane. */
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 
-/* A conserved quantity is lost if its error exceeds the first, or, if the error is divided by the start
-   value, if less than the second part of that is left: a change of sign leaves nothing. */
+/* A conserved quantity is lost if its error exceeds GM_LOST_ABOVE, or if the divisor of the error is the
+   start value and less than GM_LOST_BELOW of that is left: a change of sign leaves nothing. */
 #define GM_LOST_ABOVE 10.
 #define GM_LOST_BELOW 0.1
 /* The observable with the greatest loss in this lane now; -1 without one, or after a failure of the run. */

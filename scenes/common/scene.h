@@ -97,22 +97,17 @@ struct gm_track {
 /* The settings of `geomint work-precision` for a scene; without them it takes the defaults and every scheme
    that fits. */
 struct gm_work {
-    const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
-    const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
-                              state from the exact one, or from a reference run */
-    double coarsest;       /* largest step of the ladder (0: four times the default) */
-    int halvings;          /* number of times that it is halved */
+    const char *arguments;      /* key=value that differ from the defaults, separated by blanks; "" */
+    const char *measure;        /* key of the error at the end; NULL: distance from the exact state */
+    double coarsest;            /* largest step of the ladder (0: four times the default) */
+    int halvings;               /* halvings of the largest step */
     const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
-    const char *reference;     /* scheme of the reference run, if the problem has no exact solution; NULL: the
-                               highest order that fits */
-    const char *is_exact;      /* name of a scheme that is exact if the scene has an exact solution, and is
-                               excluded then; NULL: none */
-    const char *resolution;    /* key of a parameter with `resolution_count` values besides the steps: each
-                               scheme is judged by its best pairs; NULL: none */
-    const double *resolutions; /* from coarse to fine */
+    const char *reference;      /* scheme of the reference run; NULL: the highest order that fits */
+    const char *is_exact;       /* scheme excluded if it solves the scene exactly; NULL: none */
+    const char *resolution;     /* key of a parameter varied with the step; NULL: none */
+    const double *resolutions;  /* [resolution_count], from coarse to fine */
     size_t resolution_count;
-    const char *ratio; /* key of a parameter that couples the step to the resolution (settle); its typed
-                          values replace the ladder; NULL: none */
+    const char *ratio; /* key of a parameter that sets the step and replaces the ladder; NULL */
     /* The distance of a lane's state from that of `finer`, whose resolution is twice the finest, and whose
        step is half the shortest: the error instead of `measure`. NULL: the states of all lanes have one
        size */
@@ -134,8 +129,7 @@ struct gm_stability {
     size_t step_count;
     const char *
         kept; /* key of the observable that is lost below half of its start, gained above twice; NULL: none */
-    int64_t settle; /* number of steps in each of two windows, at the start and at the end, whose maxima are
-                   compared; 0: compares the end with the start */
+    int64_t settle;             /* steps per window at start and end; compares maxima; 0: end to start */
     const char *error;          /* key of the observable that measures accuracy; NULL: none */
     bool throughout;            /* uses the largest error of the run instead of the last */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
@@ -165,9 +159,9 @@ struct gm_scene {
     const void *initial; /* own struct before its parameters are set; NULL: zeros */
     /* Words that define the scene, NULL-terminated, the first instead of a name; NULL: a built-in scene. */
     const char *const *words;
-    const char *source; /* text of the file that defines it; NULL */
-    const char *text;   /* text that defines it, typed or from a file; NULL */
-    const char *room;   /* text of the room's file that defines it; NULL */
+    const char *source; /* text of the file that defines the scene; NULL */
+    const char *text;   /* text that defines the scene, typed or from a file; NULL */
+    const char *room;   /* text of the room's file that defines the scene; NULL */
     const char *mark;   /* name with a checksum of the text; NULL: the name suffices */
     const struct gm_parameter *parameters;
     size_t parameter_count;
@@ -188,7 +182,7 @@ struct gm_scene {
     size_t asked_count;
     /* The number of the first observables on request that the picture shows; NULL: none. */
     size_t (*asked_shown)(const struct gm_scene *scene, const void *parameters);
-    /* The picture that shows them, instead of `draw`. */
+    /* The picture that shows observables on request, instead of `draw`. */
     void (*draw_asked)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     const struct gm_track *tracks;
     size_t track_count;
@@ -196,9 +190,8 @@ struct gm_scene {
     size_t figure_count;
     const struct gm_work *work;
     const struct gm_stability *stability; /* NULL: the scene has no such map */
-    const char *no_stability;             /* reason why, and an alternative; NULL: unknown */
-    int64_t follow; /* greatest number of steps between two observed steps, for observables with `recalls`; 0:
-                   unlimited */
+    const char *no_stability;             /* reason why there is no map, and an alternative; NULL: unknown */
+    int64_t follow; /* most steps between two observed steps, for `recalls`; 0: any number */
 
     /* The time at the start; NULL: 0. */
     double (*t0)(const void *parameters);
