@@ -267,7 +267,7 @@ static enum gm_identity check_casimir(struct gm_user_system *system, gm_node_id 
 
 /* A nonzero rate that should vanish, and its quantity. */
 struct broken {
-    const char *what; /* NULL: none */
+    const char *what; /* kind of quantity; NULL: all rates vanish */
     gm_node_id node;
 };
 

@@ -110,13 +110,13 @@ bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const ch
 /* A range after a value: low .. high; meaning; unit. NaN: no range. */
 struct gm_written_range {
     double low, high;
-    struct gm_span meaning, unit; /* empty: none */
+    struct gm_span meaning, unit; /* empty: not given */
 };
 bool gm_reading_range(struct gm_reading *reading, struct gm_span rest, struct gm_written_range *range);
 
 /* NAME, NAME[low .. high], NAME[index] */
 struct gm_target {
-    struct gm_span name, index; /* empty: none */
+    struct gm_span name, index; /* empty: a name without index */
     struct gm_span value;       /* text after the = */
 };
 /* Takes a target off the front of `rest`. */

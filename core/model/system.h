@@ -41,8 +41,8 @@ struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* value of a parameter; else NaN */
     char *text;           /* text of a parameter's value; else NULL */
-    double low, high;     /* range; NaN: none */
-    char *meaning, *unit; /* "" or NULL: none */
+    double low, high;     /* range of values; NaN: no range */
+    char *meaning, *unit; /* "" or NULL: not given */
     bool fixed;           /* part of an index or a bound: another value is another graph */
     bool angle;           /* periodic */
     bool derived;         /* start follows from parameters and other starts, and is not a key */
@@ -90,7 +90,7 @@ struct gm_system_item {
     bool alone;             /* a section that is the default picture */
     enum gm_identity check; /* invariants, Casimirs and symmetries only */
 };
-/* nodes, by word. section: the function that becomes 0, the two that are shown, and the one that must be
+/* nodes, by word. section: the function that becomes 0, two functions to show, a function that must be
    positive. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
    and the other. surface: three half axes. mass: the formula. dt, until and steps: the number, in parameters.
    require and level: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the
@@ -117,8 +117,8 @@ struct gm_user_system {
     struct gm_sparse mass;   /* Lagrangian: d2L/dv2, of dL/dv number `row` over velocity number `column` */
     gm_node_id *bracket;     /* Poisson system: [n * n] */
     gm_node_id *matrices;    /* K, then L, [n * n] each */
-    size_t *matrix_places;   /* offsets of their entries in the text */
-    enum gm_identity jacobi; /* check of the bracket */
+    size_t *matrix_places;   /* offsets of the entries of `matrices` in the text */
+    enum gm_identity jacobi; /* result of the check of Jacobi's identity */
     size_t bracket_place;    /* offset of the bracket's last line */
     struct gm_system_item *items;
     size_t item_count;
