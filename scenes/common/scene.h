@@ -95,15 +95,18 @@ struct gm_track {
 };
 
 /* The settings of `geomint work-precision` for a scene; without them it takes the defaults and every scheme
-   that fits. */
+   that fits. A reference run replaces a missing exact solution. With `resolution` each scheme is judged by
+   its best pairs of step and resolution. */
 struct gm_work {
     const char *arguments;      /* key=value that differ from the defaults, separated by blanks; "" */
-    const char *measure;        /* key of the error at the end; NULL: distance from the exact state */
+    const char *measure;        /* key of the error at the end; NULL: distance from exact or reference
+                                   state */
     double coarsest;            /* largest step of the ladder (0: four times the default) */
     int halvings;               /* halvings of the largest step */
     const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
     const char *reference;      /* scheme of the reference run; NULL: the highest order that fits */
-    const char *is_exact;       /* scheme excluded if it solves the scene exactly; NULL: none */
+    const char *is_exact;       /* scheme excluded, as exact, if the scene has an exact solution; NULL:
+                                   none */
     const char *resolution;     /* key of a parameter varied with the step; NULL: none */
     const double *resolutions;  /* [resolution_count], from coarse to fine */
     size_t resolution_count;
