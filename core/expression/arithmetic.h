@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What formulas compute and the mathematical library does not, apart from the graph: loops that are built
-   while the program runs need it too. */
+/* Functions of formulas that the mathematical library lacks. Loops compiled at run time need them without the
+   graph. */
 #ifndef GM_CORE_EXPRESSION_ARITHMETIC_H
 #define GM_CORE_EXPRESSION_ARITHMETIC_H
 
 #include <math.h>
 
-/* x^n for whole |n| <= GM_MOST_CHAINED by one chain: x^n = (x^(n/2))^2, times x where n is odd; 1 / x^-n. */
+/* x^n for whole |n| <= GM_MOST_CHAINED by one chain: x^n = (x^(n/2))^2, times x if n is odd; 1 / x^-n if n <
+   0. */
 enum { GM_MOST_CHAINED = 16 };
 static inline double gm_whole_power(double x, double n)
 {

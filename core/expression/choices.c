@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Choices of a text, and the lines that hold for their words. */
+/* The choices of a text, and the lines that hold for their words. */
 #include "core/expression/choices.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ static bool is_same(const char *text, struct gm_span a, struct gm_span b)
     return a.end - a.begin == b.end - b.begin && memcmp(text + a.begin, text + b.begin, a.end - a.begin) == 0;
 }
 
-/* False where the word is empty, too long or not one word. */
+/* False if the word is empty, too long or not one word. */
 static bool copy(const char *text, struct gm_span span, char word[GM_CHOICE_SIZE])
 {
     const size_t length = span.end - span.begin;
@@ -44,7 +44,7 @@ static size_t find(const char *word, size_t count, const char *(*at)(size_t i, c
     return i;
 }
 
-/* Finds a word among others; false with a fault that proposes the nearest. */
+/* Finds a word among others; else false, with a fault that proposes the nearest. */
 static bool seek(const char *text, struct gm_span span, size_t count,
                  const char *(*at)(size_t i, const void *data), const void *data, size_t *found,
                  struct gm_fault *fault)
@@ -119,16 +119,16 @@ bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_
             return false;
         }
     }
-    return true; /* what is no line the reader refuses */
+    return true; /* the reader refuses a faulty line */
 }
 
-/* The blocks of a text, as its lines are passed. */
+/* The blocks of a text, while its lines are read. */
 struct blocks {
     const struct gm_written_choices *choices;
     const char *text;
-    const struct gm_written_choice *open; /* whose block it is; NULL: none is open */
+    const struct gm_written_choice *open; /* the choice whose block is open; NULL: none is open */
     bool holds, empty;
-    size_t place; /* where the block begins */
+    size_t place; /* byte offset where the block begins */
 };
 
 static bool end_block(const struct blocks *blocks, struct gm_fault *fault)
@@ -184,8 +184,8 @@ static bool pass(struct blocks *blocks, const struct gm_text_line *line, struct 
                    "a choice stands outside of blocks: write \"when: always\" above it");
 }
 
-/* The assignments of a line: what stands before its first semicolon, or before the second where it is repeated, as in
-   i = 1 .. 3; x[i] = 0. */
+/* The assignments of a line: the text before its first semicolon, or before the second if the line is
+   repeated, as in i = 1 .. 3; x[i] = 0. */
 static struct gm_span assignments(const char *text, struct gm_span rest)
 {
     struct gm_span piece;
@@ -196,14 +196,14 @@ static struct gm_span assignments(const char *text, struct gm_span rest)
     return piece;
 }
 
-/* What stands before the = of an assignment; empty: there is none. */
+/* The text before the = of an assignment; empty without an =. */
 static struct gm_span name_of(const char *text, struct gm_span piece)
 {
     const size_t equals = gm_span_until(text, piece, "=");
     return gm_span_trimmed(text, (struct gm_span){piece.begin, equals < piece.end ? equals : piece.begin});
 }
 
-/* Whether two lines assign to one name. */
+/* True if two lines assign to one name. */
 static bool share_name(const char *text, struct gm_span a, struct gm_span b)
 {
     struct gm_span one, other;
@@ -218,7 +218,7 @@ static bool share_name(const char *text, struct gm_span a, struct gm_span b)
     return false;
 }
 
-/* Whether a line outside of blocks gives way to one in a block. */
+/* True if a line of a block replaces this line outside of blocks. */
 static bool is_replaced(const struct gm_written_choices *choices, const char *text, size_t length,
                         const struct gm_text_line *outside, bool named)
 {
@@ -240,7 +240,7 @@ bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size
 {
     struct blocks blocks;
     struct gm_text_line line;
-    for (int last = 0; last < 2; last++) { /* what is replaced goes while all blocks stand */
+    for (int last = 0; last < 2; last++) { /* replaced lines go while all blocks still exist */
         blocks = (struct blocks){.choices = choices, .text = text};
         for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
             if (!pass(&blocks, &line, fault)) {

@@ -4,20 +4,20 @@
 
 #include "core/expression/lines.h"
 
-/* Choices of a text, whose words decide which of its lines hold:
+/* Choices of a text, whose words decide which lines hold:
        choice: NAME = WORD of WORD, WORD; meaning
        when: NAME = WORD, WORD           the lines below hold for these words alone
-       when: always                      and those below for all
-   A line in such a block replaces the lines outside of blocks that have its word and, where names tell lines of that
-   word apart, one of its names. */
+       when: always                      the lines below hold for all words
+   A line in such a block replaces the lines outside of blocks that begin with its word and, if lines of
+   that word differ by names, share one of its names. */
 
 enum { GM_MOST_CHOICES = 8, GM_MOST_CHOICE_WORDS = 16, GM_CHOICE_SIZE = 32 };
 
 struct gm_written_choice {
     char name[GM_CHOICE_SIZE], words[GM_MOST_CHOICE_WORDS][GM_CHOICE_SIZE];
-    size_t count, standard, chosen; /* of words */
+    size_t count, standard, chosen; /* number of words; indices of the default and the chosen one */
     struct gm_span meaning;
-    size_t place; /* of the name */
+    size_t place; /* byte offset of the name */
 };
 
 struct gm_written_choices {
@@ -25,19 +25,20 @@ struct gm_written_choices {
     size_t count;
 };
 
-/* Reads the lines choice:, with their standard words chosen. False with a fault. */
+/* Reads the lines choice:, with their default words chosen. Returns false with a fault. */
 bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_t length,
                      struct gm_fault *fault);
-/* The choice of that name; NULL: there is none. */
+/* Returns the choice of that name, or NULL. */
 const struct gm_written_choice *gm_choice_named(const struct gm_written_choices *choices, const char *name);
-/* Chooses a word, where there is such a choice and it has that word; else false. */
+/* Chooses a word. Returns false if there is no such choice or it lacks the word. */
 bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
 
-/* What tells lines of one word apart: nothing, there is one of them; their names; or none replaces another. */
+/* The identity of lines with one word: one such line, lines that differ by names, or lines that are all
+   added. */
 enum gm_line_identity { GM_LINE_ONCE, GM_LINE_NAMED, GM_LINE_ADDED };
 
-/* Makes comments of the lines choice: and when: and of all lines that do not hold; what is left keeps its place. False
-   with a fault. */
+/* Makes comments of the lines choice: and when: and of all lines that do not hold; the others keep their
+   offsets. Returns false with a fault. */
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
                       enum gm_line_identity (*identity)(const char *text, struct gm_span word),
                       struct gm_fault *fault);

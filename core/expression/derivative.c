@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Differentiation of the graph, by the partial derivatives of operations.def: upwards along a vector,
+/* Differentiation of the graph with the partial derivatives of operations.def: upwards along a vector,
    downwards for a gradient. */
 #include "core/expression/derivative.h"
 
@@ -40,7 +40,7 @@ gm_node_id gm_derivative_along(struct gm_formula *graph, gm_node_id root, const 
 {
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, root, &count), slope = GM_NO_NODE;
-    gm_node_id *slopes = malloc((root + (size_t)1) * sizeof *slopes); /* of the parts alone */
+    gm_node_id *slopes = malloc((root + (size_t)1) * sizeof *slopes); /* [node], set for parts alone */
     if (!parts || !slopes) {
         free(parts);
         free(slopes);
@@ -78,7 +78,7 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
 {
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, root, &count);
-    gm_node_id *adjoint = malloc((root + (size_t)1) * sizeof *adjoint); /* of the parts alone */
+    gm_node_id *adjoint = malloc((root + (size_t)1) * sizeof *adjoint); /* [node], set for parts alone */
     bool *active = malloc(root + (size_t)1);
     if (parts && adjoint && active) {
         graph->simplifies = true;

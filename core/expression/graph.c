@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The graph of a formula: every node once, constants folded by the running library, derivatives
+/* The graph of a formula: every node once, constants folded by the C library of this machine, derivatives
    simplified. */
 #include "core/expression/graph.h"
 
@@ -44,7 +44,7 @@ void gm_formula_close(struct gm_formula *graph)
     *graph = (struct gm_formula){0};
 }
 
-/* a + b and b + a are the same bits, and one node */
+/* a + b and b + a have the same bits, and are one node */
 static bool commutes(const struct gm_node *node)
 {
     return node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_MULTIPLY;
@@ -85,8 +85,8 @@ static gm_node_id number_in(uint64_t entry)
     return (gm_node_id)entry - 1;
 }
 
-/* The entry of the table that holds such a node, or the free one where it belongs. Of large graphs most of the time
-   is that of looking at a place in memory: nodes are looked at where all bits of the hash are theirs. */
+/* The entry of the table with an equal node, or the free one for it. In a large graph memory access takes
+   most of the time, so nodes are compared only if all bits of the hash agree. */
 static uint64_t *entry_of(const struct gm_formula *graph, const struct gm_node *node, uint32_t hash)
 {
     size_t slot = hash & (graph->slots - 1);
@@ -97,7 +97,7 @@ static uint64_t *entry_of(const struct gm_formula *graph, const struct gm_node *
     return &graph->table[slot];
 }
 
-/* Such a node; GM_NO_NODE: there is none. */
+/* The equal node, or GM_NO_NODE. */
 static gm_node_id find(const struct gm_formula *graph, struct gm_node node)
 {
     return number_in(*entry_of(graph, &node, hash_of(&node)));
@@ -154,7 +154,7 @@ static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
 
 gm_node_id gm_formula_constant(struct gm_formula *graph, double value)
 {
-    /* all that are no number are one */
+    /* all NaN are one constant */
     return intern(graph, (struct gm_node){.operation = GM_CONSTANT, .value = isnan(value) ? NAN : value});
 }
 
@@ -173,7 +173,7 @@ static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
     return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
 }
 
-/* node = coefficient * rest; false where no coefficient is written */
+/* node = coefficient * rest; false if no coefficient is written */
 static bool scaled(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
 {
     const struct gm_node *product = &graph->nodes[node];
@@ -240,8 +240,8 @@ static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, dou
                             gm_formula_constant(graph, graph->nodes[node.a].value * factor), node.b);
 }
 
-/* A reciprocal times what is not one: it stays a factor, which other products share, and takes constants
-   up. */
+/* A reciprocal times another node: the reciprocal stays a factor, which other products share, and takes up
+   constants. */
 static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotient, gm_node_id other,
                                     gm_node_id *simple)
 {
@@ -301,7 +301,7 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
     return true;
 }
 
-/* node = coefficient * rest; false where nothing is left: it is a constant */
+/* node = coefficient * rest; false if the node is a constant, without a rest */
 static bool divided(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
 {
     scaled(graph, node, coefficient, rest);
@@ -439,11 +439,11 @@ void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const
 
 enum { WORD = 64 };
 
-/* A bit for each node, and one for each word of these that is not 0: the parts of a node are few of a large graph, and
-   no more is cleared than has them. */
+/* A bit for each node, and one for each word of these that is not 0: a node has few parts in a large graph,
+   and only their words are cleared. */
 struct marks {
     uint64_t *bits, *words;
-    size_t word_count; /* of `words` */
+    size_t word_count; /* length of `words` */
 };
 
 static inline void mark(const struct marks *marks, gm_node_id node)
@@ -467,8 +467,8 @@ static inline unsigned lowest(uint64_t word)
     return (unsigned)__builtin_ctzll(word);
 }
 
-/* Marks what the nodes of a word are made of, its highest bit first, for that stands below. Returns how many there
-   are. */
+/* Marks the operands of a word's nodes, from the highest bit down, as operands are below. Returns how many
+   nodes it has. */
 static size_t mark_operands(const struct gm_formula *graph, const struct marks *marks, size_t word)
 {
     size_t count = 0;
@@ -618,8 +618,8 @@ static gm_node_id quicker(struct gm_formula *graph, enum gm_operation operation,
                                           : gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, power);
 }
 
-/* Marks the parts, ascending, of which something else than sums and products is made: there a quotient that
-   is infinite may lead to a finite value, and one that is no number does not. */
+/* Marks the parts, ascending, that enter operations other than sums and products: there an infinite quotient
+   may lead to a finite value, and NaN does not. */
 static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, size_t size, bool *harsh)
 {
     for (size_t k = size; k-- > 0;) {
@@ -634,7 +634,7 @@ static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, 
     }
 }
 
-/* The part that was met and is this one with the other sign, c / x of -c / x; GM_NO_NODE: there is none. */
+/* The part met before that is minus this one, c / x for -c / x; GM_NO_NODE without one. */
 static gm_node_id twin_of(const struct gm_formula *graph, gm_node_id i, const bool *met)
 {
     const struct gm_node *node = &graph->nodes[i];
@@ -651,7 +651,7 @@ static gm_node_id twin_of(const struct gm_formula *graph, gm_node_id i, const bo
     return twin != GM_NO_NODE && met[twin] ? twin : GM_NO_NODE;
 }
 
-/* A node, or what this node is with the other sign. */
+/* A node, or minus that node. */
 struct signed_node {
     gm_node_id node;
     bool negative;
@@ -662,7 +662,7 @@ static gm_node_id with_sign(struct gm_formula *graph, struct signed_node x)
     return x.negative ? negative(graph, x.node) : x.node;
 }
 
-/* An operation that leaves signs to what is made of it, as long as no bit changes, not even of 0. */
+/* An operation that leaves signs to later ones, as long as no bit changes, not even of 0. */
 static struct signed_node apply_signed(struct gm_formula *graph, bool quick, enum gm_operation operation,
                                        struct signed_node a, struct signed_node b)
 {
@@ -686,7 +686,7 @@ static struct signed_node apply_signed(struct gm_formula *graph, bool quick, enu
 
 bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count)
 {
-    enum { MANY = 4096 }; /* parts, of which some can always be computed while others wait */
+    enum { MANY = 4096 }; /* parts; with more of them some can always be computed while others wait */
     size_t size = 0;
     gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
     struct signed_node *others = malloc((graph->count + (size_t)1) * sizeof *others);
@@ -725,7 +725,7 @@ gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *o
 {
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(other, root, &count);
-    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* of the parts alone */
+    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* [node], set for parts alone */
     graph->failed |= !parts || !made;
     graph->simplifies = true;
     for (size_t k = 0; k < count && !graph->failed; k++) {

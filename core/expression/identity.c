@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Identities, by random points in a prime field and, where that says nothing, in doubles. J. T. Schwartz, J.
-   ACM 27 (1980) 701; W. A. Martin, J. Symb. Comp. 18 (1994) 1, for functions other than rational ones. */
+/* Identities, by random points in a prime field and, if these are inconclusive, in doubles. J. T. Schwartz,
+   J. ACM 27 (1980) 701; W. A. Martin, J. Symb. Comp. 18 (1994) 1, for functions other than rational ones. */
 #include "core/expression/identity.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ enum {
     TESTS = 20,
     TRIES = 1000,
     LEAST_TRIES = PROOFS_BY_SIGN,
-    WORK = 1 << 22 /* values of nodes: of a long formula fewer points are tried */
+    WORK = 1 << 22 /* values of nodes: a long formula is tested at fewer points */
 };
 
 /* Steele, Lea, Flood: SplitMix64 */
@@ -61,7 +61,7 @@ static residue inverse(residue a)
     return power(a, PRIME - 2);
 }
 
-/* m 2^e, where 2^61 = 1 */
+/* residue of m 2^e: 2^61 = 1 */
 static residue of_double(double value)
 {
     int exponent = 0;
@@ -76,14 +76,13 @@ static bool is_square(residue a)
     return power(a, (PRIME - 1) / 2) <= 1;
 }
 
-/* A number for f(a, b) of which nothing is known. */
+/* A pseudorandom number for f(a, b), free of relations. */
 static residue unrelated(uint64_t seed, unsigned operation, residue a, residue b)
 {
     return mix(mix(mix(seed ^ operation) ^ a) ^ b) % PRIME;
 }
 
-/* f(-x) is made of f(x): which of the two a is, and a number of |x| for the operation that is its
-   parameter. */
+/* f(-x) follows from f(x): the sign of a, and a number of |a| as the parameter of the operation. */
 static bool is_turned(residue a)
 {
     return a > PRIME / 2;
@@ -100,7 +99,7 @@ static residue exponential(uint64_t seed, residue a)
     return a == 0 ? 1 : is_turned(a) ? inverse(t) : t;
 }
 
-/* A point of the circle: cos, or sin, times 1 + t^2. */
+/* A point of the circle: cos, or sin, times scale = 1 + t^2. */
 static residue on_circle(uint64_t seed, residue a, bool is_sine, residue *scale)
 {
     const residue t = parameter(seed, GM_OPERATION_SIN, a), square = times(t, t);
@@ -111,7 +110,7 @@ static residue on_circle(uint64_t seed, residue a, bool is_sine, residue *scale)
     return a == 0 ? 1 : plus(1, minus(square));
 }
 
-/* sinh or cosh, of the exponential */
+/* sinh or cosh, from the exponential */
 static residue hyperbolic(residue up, bool is_sine)
 {
     const residue down = inverse(up);
@@ -123,7 +122,7 @@ static bool is_below(uint64_t seed, residue a, residue b)
     return a != b && (a < b) == (unrelated(seed, GM_OPERATION_BELOW, a < b ? a : b, a < b ? b : a) & 1);
 }
 
-/* The value of a node; false where there is none at this point. */
+/* The value of a node; false if it has none at this point. */
 static bool value_of(const struct gm_node *node, residue a, residue b, double exponent, uint64_t seed,
                      residue *value)
 {
@@ -196,7 +195,7 @@ static bool value_of(const struct gm_node *node, residue a, residue b, double ex
     return exists;
 }
 
-/* Whether the node is 0 at a random point; false in *exists where it has no value. */
+/* True if the node is 0 at a random point; *exists is false if it has no value there. */
 static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
                           uint64_t seed, residue *values, bool *exists)
 {
@@ -217,7 +216,8 @@ static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *part
     return *exists && values[parts[count - 1]] == 0;
 }
 
-/* Whether a part has one of two values, as a sign or a root, so that a point more is half a proof at most. */
+/* True if a part has one of two values, as a sign or a root, so that a further point is half a proof at
+   most. */
 static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
 {
     bool found = false;
@@ -229,7 +229,7 @@ static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, s
     return found;
 }
 
-/* A value, and the size of all that was added up for it. */
+/* A value, and the sum of the magnitudes of its terms. */
 struct sized {
     double value, size;
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a formula is 0 whatever its variables are. */
+/* A test whether a formula is identically 0. */
 #ifndef GM_CORE_EXPRESSION_IDENTITY_H
 #define GM_CORE_EXPRESSION_IDENTITY_H
 
@@ -7,17 +7,16 @@
 
 enum gm_identity {
     GM_NOT_ZERO,
-    GM_ZERO_PROVED, /* for every value of variables and parameters */
-    GM_ZERO_TESTED, /* at random points, to rounding */
-    GM_UNTESTED     /* finite at none of the points that were tried, or no memory */
+    GM_ZERO_PROVED, /* proved for all values of variables and parameters */
+    GM_ZERO_TESTED, /* tested at random points, to rounding */
+    GM_UNTESTED     /* not finite at any tested point, or out of memory */
 };
 
-/* Proved by values in the field of the 2^61 - 1 residues, where + - * / and whole powers are exact, roots are
-   roots, and sin and cos, exp, sinh and cosh are points of the curves that they run along: what is 0 at
-   random points there is 0 (the odds of being wrong are below 1e-15 times the degree; of signs and roots, of
-   which there are two, as many points are asked). Where that fails,
-   doubles at 20 random points: 0 to 1e-12 of what was added up. Variables have random values, but in the
-   latter those for which `fixed` holds a number; they are `variables`. */
+/* The proof uses the field of the 2^61 - 1 residues: + - * / and whole powers are exact, roots are roots, and
+   sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
+   0; the probability of an error is below 1e-15 times the degree. Signs and roots have two values and take
+   more points. If the proof fails, doubles at 20 random points must be 0 to 1e-12 of the sum of magnitudes.
+   Variables are random; in the second test variable i < variables is fixed[i], unless that is NaN. */
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
 

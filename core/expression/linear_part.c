@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The linear part of a formula: sums, and products with what is constant, from below. */
+/* The linear part of a formula, from the leaves upwards: sums, and products with constants. */
 #include "core/expression/linear_part.h"
 
 #include <stdlib.h>
@@ -50,7 +50,7 @@ bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *field
     struct parts *of = calloc(known, sizeof *of);
     bool *moves = gm_formula_dependent(graph, varying, variables);
     for (size_t i = 0; moves && i < known; i++) {
-        moves[i] = !moves[i]; /* now: it is constant */
+        moves[i] = !moves[i]; /* it now marks constants */
     }
     const bool good = parts && of && moves;
     for (size_t i = 0; good && i < count && !graph->failed; i++) {

@@ -4,10 +4,10 @@
 
 #include "core/expression/graph.h"
 
-/* Splits a node into line + rest, node for node of its sums: the line is linear in the variables that are marked
-   in `fields`, and its coefficients hold none of those that are marked in `varying`, which are these and others;
-   so nothing of it cancels with the rest. What stands in a product with another field is of the rest, whole.
-   False: out of memory. */
+/* Splits a node into line + rest, term by term of its sums. The line is linear in the variables marked in
+   `fields`; its coefficients depend on no variable marked in `varying`, which includes the fields, so nothing
+   of it cancels with the rest. A product with another field belongs to the rest. Returns false when out of
+   memory. */
 bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *fields, const bool *varying,
                     size_t variables, gm_node_id *line, gm_node_id *rest);
 

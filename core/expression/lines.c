@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts of words and values, taken apart. */
+/* Texts of words and values, split into lines. */
 #include "core/expression/lines.h"
 
 #include <stdio.h>
@@ -69,7 +69,7 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
     while (*at < length) {
         const size_t begin = *at;
         size_t end = begin;
-        /* a line, and those behind it that begin with a blank */
+        /* a line, and the following lines that begin with a blank */
         do {
             const char *newline = memchr(text + end, '\n', length - end);
             end = newline ? (size_t)(newline - text) + 1 : length;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was probably meant by a word that is none. */
+/* The known word nearest to an unknown one. */
 #include "core/expression/nearest.h"
 
 #include <stdbool.h>
@@ -39,7 +39,7 @@ static size_t distance(const char *a, const char *b)
     return above[n];
 }
 
-/* Whether the word begins as the name does and its letters stand in the name in their order: "ecty". */
+/* True if the word begins like the name and its letters occur in the name in this order: "ecty". */
 static bool abbreviates(const char *word, const char *name)
 {
     const char *letter = word;
@@ -58,7 +58,7 @@ const char *gm_nearest(const char *word, size_t count, const char *(*candidate)(
     for (size_t i = 0; length > 0 && i < count; i++) {
         const char *name = candidate(i, data);
         const size_t away = distance(word, name);
-        if (strcasecmp(name, word) == 0) { /* letters of another case */
+        if (strcasecmp(name, word) == 0) { /* equal but for case */
             same = name;
         }
         if (!begun && strncmp(name, word, length) == 0) {

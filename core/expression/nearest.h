@@ -4,10 +4,9 @@
 
 #include <stddef.h>
 
-/* What was probably meant by word: the first candidate that begins with it, else the shortest that it
-   abbreviates, else the one with the smallest edit distance, up to one slip of the fingers for three letters.
-   NULL if there is none: a guess from farther away would mislead. candidate(i, data) gives name i of
-   count. */
+/* The candidate that `word` probably means: the first that begins with it, else the shortest that it
+   abbreviates, else the one with the smallest edit distance, at most one slip for three letters. NULL if all
+   are farther away: such a guess would mislead. candidate(i, data) is name i of count. */
 const char *gm_nearest(const char *word, size_t count, const char *(*candidate)(size_t i, const void *data),
                        const void *data);
 

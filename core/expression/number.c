@@ -45,11 +45,11 @@ static void format_decimal(double value, char *text, size_t size)
 
 char *gm_number_format(double value, char *text, size_t size)
 {
-    if (fabs(value) < 1e6 && value == floor(value)) { /* none of these is what is sought next */
+    if (fabs(value) < 1e6 && value == floor(value)) { /* these are never multiples of pi */
         snprintf(text, size, "%.0f", value);
         return text;
     }
-    /* numerator * pi / denominator is worth saying only where it is short and exact to the bit */
+    /* numerator * pi / denominator is printed only if it is short and exact to the bit */
     for (int denominator = 1; denominator <= 1000; denominator++) {
         const double multiple = value * denominator / M_PI;
         if (!(fabs(multiple) < 1e6 + 0.5)) {

@@ -12,13 +12,13 @@
 #include "core/expression/nearest.h"
 
 enum {
-    DEEPEST = 200,           /* parentheses in parentheses */
-    MOST_OPERANDS = 1 << 23, /* that are read, each as often as a loop comes by */
-    OF_AN_INDEX = 4,         /* so many operands of brackets and bounds count as one */
-    UNARY = 12               /* the priority of minus before an operand */
+    DEEPEST = 200,           /* nested parentheses */
+    MOST_OPERANDS = 1 << 23, /* operands read; a loop counts its operands in every round */
+    OF_AN_INDEX = 4,         /* operands of brackets and bounds that count as one */
+    UNARY = 12               /* priority of minus before an operand */
 };
 
-/* Of binary operators: how they bind to what is left and right of them; ^ binds to the right. */
+/* Priorities of binary operators to the left and to the right; ^ binds to the right. */
 static const struct {
     char sign;
     unsigned char left, right;
@@ -31,13 +31,13 @@ static const struct {
 
 struct reader {
     struct gm_formula *graph;
-    struct gm_scope scope; /* with the indices of loops */
+    struct gm_scope scope; /* scope, with the indices of loops */
     const char *text;
     size_t at, end;
-    int depth, fixed; /* of parentheses; of brackets and bounds */
-    int64_t operands; /* times OF_AN_INDEX */
-    int bounds;       /* of loops, in which one reads */
-    unsigned varying; /* bit k: index k stands in a bound, so that the rounds of its loop are not equal */
+    int depth, fixed; /* depth in parentheses; in brackets and bounds */
+    int64_t operands; /* counted in units of 1 / OF_AN_INDEX */
+    int bounds;       /* depth in bounds of loops */
+    unsigned varying; /* bit k: a bound uses index k, so the rounds of its loop differ */
     bool failed;
     struct gm_fault *fault;
 };
@@ -119,7 +119,7 @@ bool gm_word_ends(const char *word, const char *ending)
     return length > wanted && strcmp(word + length - wanted, ending) == 0;
 }
 
-/* The next character behind blanks; '\0' at the end. */
+/* The next character after blanks; '\0' at the end. */
 static char peek(struct reader *reader)
 {
     while (reader->at < reader->end) {
@@ -148,7 +148,7 @@ static bool is_range(const struct reader *reader, size_t at)
     return at + 1 < reader->end && reader->text[at] == '.' && reader->text[at + 1] == '.';
 }
 
-/* What stands here is not what was expected. */
+/* Fails: `what` was expected at this place. */
 static gm_node_id expected(struct reader *reader, const char *what)
 {
     if (peek(reader) == '\0') {
@@ -182,7 +182,7 @@ static const char *candidate(size_t i, const void *data)
     return i < 3 ? words[i] : reader->scope.known ? reader->scope.known(i - 3, reader->scope.data) : NULL;
 }
 
-/* What is called otherwise elsewhere; NULL: nothing. */
+/* The name of a function that has another one elsewhere, or NULL. */
 static const char *other_name(const char *word)
 {
     static const char *const names[][2] = {{"ln", "log"},
@@ -300,7 +300,7 @@ static gm_node_id read_number(struct reader *reader)
                           : gm_formula_constant(reader->graph, value);
 }
 
-/* A whole number that is known while reading: an index, a bound of a loop. */
+/* Reads a whole number that is known while reading: an index, a bound of a loop. */
 static long read_whole(struct reader *reader, const char *what)
 {
     peek(reader);
@@ -328,7 +328,7 @@ static long read_whole(struct reader *reader, const char *what)
     return (long)value;
 }
 
-/* Behind the closing parenthesis of a loop that is never entered. */
+/* Moves to the closing parenthesis of a loop without rounds. */
 static void skip_loop(struct reader *reader)
 {
     int depth = 1;
@@ -350,7 +350,7 @@ static const struct gm_index *index_of(const struct reader *reader, const char *
     return NULL;
 }
 
-/* Whether what follows is the head of a loop, NAME =. */
+/* True if the head of a loop, NAME =, follows. */
 static bool is_head(struct reader *reader)
 {
     peek(reader);
@@ -363,7 +363,7 @@ static bool is_head(struct reader *reader)
 
 struct loop {
     enum gm_operation operation;
-    bool any; /* there was a term */
+    bool any; /* a term was read */
     gm_node_id value;
     size_t begin;
 };
@@ -385,8 +385,8 @@ static long read_bound(struct reader *reader)
     return bound;
 }
 
-/* i = low .. high, and what follows: another head, or the term. Afterwards `at` is at the parenthesis that
-   closes the loop. The terms are joined from left to right, beginning with the first. */
+/* Reads i = low .. high, then another head, or the term. Afterwards `at` is at the parenthesis that closes
+   the loop. The terms are joined from left to right. */
 static void read_loop(struct reader *reader, struct loop *loop)
 {
     struct gm_scope *scope = &reader->scope;
@@ -429,7 +429,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
         reader->at = body;
         read_loop(reader, loop);
         scope->index_count--;
-        if (value == low && !(reader->varying & own)) { /* all rounds are as long as the first */
+        if (value == low && !(reader->varying & own)) { /* all rounds have the length of the first */
             has_room_for(reader, begin,
                          reader->operands + ((int64_t)high - low) * (reader->operands - before));
         }
@@ -472,7 +472,7 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
 
-/* Whether the parenthesis that comes next begins with the time, and goes on. */
+/* True if the next parenthesis begins with the time t and has more. */
 static bool is_at_time(const struct reader *reader)
 {
     size_t at = reader->at + 1;
@@ -487,7 +487,7 @@ static bool is_at_time(const struct reader *reader)
 
 static gm_node_id read_name(struct reader *reader, bool exact);
 
-/* exact(NAME), behind its name */
+/* Reads (NAME) of exact(NAME). */
 static gm_node_id read_exact(struct reader *reader)
 {
     take(reader, '(');
@@ -591,7 +591,7 @@ static gm_node_id read_operand(struct reader *reader)
     return expected(reader, "a number, a name or (");
 }
 
-/* An operand with what binds to it more strongly than `limit`. */
+/* Reads an operand with all operators of a priority above `limit`. */
 static gm_node_id read_expression(struct reader *reader, int limit)
 {
     const char first = peek(reader);

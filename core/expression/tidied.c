@@ -11,10 +11,10 @@ enum { MOST = 32, MOST_VISITED = 4 * MOST, MOST_POWER = 64 };
 struct tidying {
     struct gm_formula *graph;
     const struct gm_naming *naming;
-    int visited; /* nodes of the present product or sum: one that is too long stays as it is */
+    int visited; /* nodes visited in the current product or sum; one that is too long stays as it is */
 };
 
-/* above / below times the factors, each to its power in halves */
+/* above / below times the factors, each raised to halves / 2 */
 struct product {
     double above, below;
     struct {
@@ -51,7 +51,7 @@ static gm_node_id apply(const struct tidying *tidying, enum gm_operation operati
 
 /* ---- products ---- */
 
-/* In the order in which they were first written, so that equal products are one node. False: too many. */
+/* Adds a factor, in the order of numbers, so that equal products are one node. False: too many. */
 static bool add_factor(struct product *product, gm_node_id base, long halves)
 {
     size_t i = 0;
@@ -72,7 +72,7 @@ static bool add_factor(struct product *product, gm_node_id base, long halves)
     return true;
 }
 
-/* Multiplies by the power of a node that is tidy. False: it is too long. */
+/* Multiplies by the power halves / 2 of a tidy node. False: too long. */
 static bool multiply(struct tidying *tidying, struct product *product, gm_node_id node, long halves)
 {
     const struct gm_node here = tidying->graph->nodes[node];
@@ -118,7 +118,7 @@ static gm_node_id times_power(const struct tidying *tidying, gm_node_id product,
     return product == GM_NO_NODE ? power : apply(tidying, GM_OPERATION_MULTIPLY, product, power);
 }
 
-/* Divides two numbers by what they have in common; 0.5 is 1 above 2. */
+/* Divides two numbers by their common divisor; 0.5 becomes 1 above 2. */
 static void reduce(double *above, double *below)
 {
     enum { PARTS = 1024 };
@@ -135,7 +135,7 @@ static void reduce(double *above, double *below)
     *below *= PARTS / a;
 }
 
-/* GM_NO_NODE: its numbers are none. */
+/* The node; GM_NO_NODE if its numbers are not finite. */
 static gm_node_id written_product(const struct tidying *tidying, struct product *product)
 {
     if (!isfinite(product->above) || !isfinite(product->below) || product->below == 0) {
@@ -172,7 +172,7 @@ static gm_node_id written_product(const struct tidying *tidying, struct product 
 
 /* ---- sums ---- */
 
-/* Adds the terms of a node, of which one and the same with the other sign are nothing. False: it is too long. */
+/* Adds the terms of a node; a term cancels an equal one with the other sign. False: too long. */
 static bool add(struct tidying *tidying, struct sum *sum, gm_node_id node, bool minus)
 {
     const struct gm_node here = tidying->graph->nodes[node];
@@ -200,7 +200,7 @@ static bool add(struct tidying *tidying, struct sum *sum, gm_node_id node, bool 
     return true;
 }
 
-/* It begins with a term that is added, where there is one. */
+/* The node; it begins with a positive term, if there is one. */
 static gm_node_id written_sum(const struct tidying *tidying, const struct sum *sum)
 {
     size_t first = 0;
@@ -221,8 +221,8 @@ static gm_node_id written_sum(const struct tidying *tidying, const struct sum *s
 
 /* ---- both ---- */
 
-/* A product. A factor that is a sum which was derived is multiplied out: differentiation puts terms in parentheses
-   that nobody has typed. GM_NO_NODE: it is too long. */
+/* The node of a product. A derived sum among the factors is multiplied out: differentiation adds parentheses
+   that were not typed. GM_NO_NODE: too long. */
 static gm_node_id expanded(struct tidying *tidying, struct product *product)
 {
     size_t at = 0;
@@ -249,7 +249,7 @@ static gm_node_id expanded(struct tidying *tidying, struct product *product)
     return good ? written_sum(tidying, &all) : GM_NO_NODE;
 }
 
-/* A node whose operands are tidy. */
+/* Tidies a node whose operands are tidy. */
 static gm_node_id tidy(struct tidying *tidying, gm_node_id node)
 {
     const struct gm_node here = tidying->graph->nodes[node];
@@ -271,7 +271,7 @@ gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const st
     struct tidying tidying = {graph, naming, 0};
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* of the parts alone */
+    gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* [node], set for parts alone */
     const bool good = parts && tidied;
     for (size_t k = 0; good && k < count && !graph->failed; k++) {
         const gm_node_id part = parts[k];

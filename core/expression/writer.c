@@ -10,7 +10,7 @@
 #include "core/expression/number.h"
 #include "core/expression/reader.h"
 
-/* How strongly a node holds its parts together: as in the reader's table. */
+/* The priorities of nodes, as in the reader's table. */
 enum { SUM = 10, PRODUCT = 11, SIGN = 12, RAISED = 14, WHOLE = 20 };
 
 struct writer {
@@ -26,13 +26,13 @@ static const char *name_of(const struct gm_naming *naming, gm_node_id node, gm_n
     return node != root && naming->part ? naming->part(node, naming->data) : NULL;
 }
 
-/* How many operations and operands are written out for a node, at most SIZE_MAX; a part with a name is one,
-   but not the node itself. */
+/* The number of operations and operands written for a node, at most SIZE_MAX; a named part below it counts as
+   one. */
 static size_t written_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
 {
     size_t count = 0, size = SIZE_MAX;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* of the parts alone */
+    size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes); /* [node], set for parts alone */
     for (size_t k = 0; parts && sizes && k < count; k++) {
         const struct gm_node *here = &graph->nodes[parts[k]];
         size = 1;
@@ -74,7 +74,7 @@ static int priority_of(const struct writer *writer, gm_node_id node)
     }
 }
 
-/* Whether what is written begins with a minus. */
+/* True if the text begins with a minus. */
 static bool leads_with_minus(const struct writer *writer, gm_node_id node)
 {
     int priority = priority_of(writer, node);
@@ -126,7 +126,7 @@ static void write_power(const struct writer *writer, const struct gm_node *here)
     fputs(writer->latex ? "}" : "", writer->out);
 }
 
-/* Iverson's bracket, as of the derivative of |x|: 1 where it is true, else 0. */
+/* Iverson's bracket, in the derivative of |x|: 1 if true, else 0. */
 static void write_bracket(const struct writer *writer, const struct gm_node *here)
 {
     fputs("\\left[", writer->out);
@@ -174,7 +174,7 @@ static void write_constant(const struct writer *writer, double value)
         const int before = (int)(pi - text);
         fprintf(writer->out, "%.*s\\pi{}%s", before > 0 && pi[-1] == '*' ? before - 1 : before, text, pi + 2);
     } else {
-        /* what is divided by a multiple of pi would be divided by pi alone */
+        /* x / (2*pi) is not x / 2*pi */
         fprintf(writer->out, !writer->latex && strpbrk(text, "*/") ? "(%s)" : "%s", text);
     }
 }
@@ -256,7 +256,7 @@ char *gm_formula_latex(const struct gm_formula *graph, gm_node_id node, const st
     return text_of(graph, node, naming, true);
 }
 
-/* A word of a name: a letter, a Greek one, one letter repeated as derivatives have it, or upright. */
+/* Writes a word of a name: a letter, a Greek one, one letter repeated as in derivatives, or upright. */
 static void write_word(FILE *out, const char *word, size_t length)
 {
     static const char greek[] =

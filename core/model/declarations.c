@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a system declares: its kind, its parameters, the names of its state, its lets. */
+/* The declarations of a system: its kind, its parameters, the names of its state, its lets. */
 #include "core/model/declarations.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "core/expression/number.h"
 
-/* A variable of which nothing is told yet. */
+/* A variable without any values. */
 static const struct gm_system_variable unsaid = {.value = NAN,
                                                  .low = NAN,
                                                  .high = NAN,
@@ -39,7 +39,7 @@ static struct gm_system_variable *add_variable(struct gm_reading *reading, const
     return variable;
 }
 
-/* A name, or all elements of a list, in a role; they are numbered on from *count. */
+/* Adds a name, or all elements of a list, in a role, numbered from *count. */
 static bool add_names(struct gm_reading *reading, const struct gm_target *target, enum gm_entry_role role,
                       size_t *count)
 {
@@ -64,7 +64,7 @@ static bool add_names(struct gm_reading *reading, const struct gm_target *target
     return !reading->fault.failed;
 }
 
-/* Names that are separated by blanks or commas. */
+/* Adds names separated by blanks or commas. */
 static bool add_all_names(struct gm_reading *reading, struct gm_span rest, enum gm_entry_role role,
                           size_t *count)
 {
@@ -80,7 +80,7 @@ static bool add_all_names(struct gm_reading *reading, struct gm_span rest, enum 
     return !reading->fault.failed;
 }
 
-/* p_NAME or v_NAME for every coordinate, or NAME_t of a field */
+/* Adds p_NAME or v_NAME for every coordinate, or NAME_t of a field. */
 static bool add_derived(struct gm_reading *reading, const char *before, const char *behind,
                         enum gm_entry_role role, size_t *count, size_t n)
 {
@@ -152,7 +152,7 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
     return !reading->fault.failed;
 }
 
-/* Values that were given take the place of those in the file. */
+/* Replaces values of the file by the given ones. */
 static void give(struct gm_reading *reading)
 {
     for (size_t i = reading->system->choices.count; i < reading->entry_count && !reading->fault.failed; i++) {
@@ -173,7 +173,7 @@ static void give(struct gm_reading *reading)
     }
 }
 
-/* Lists after the numbers that say how long they are; then all formulas, which may hold both. */
+/* Lists follow the numbers that give their lengths; then all formulas are read, which may hold both. */
 bool gm_declared_parameters(struct gm_reading *reading)
 {
     const struct gm_written_choices *choices = &reading->system->choices;
@@ -269,7 +269,7 @@ bool gm_declared_kind(struct gm_reading *reading)
     return true;
 }
 
-/* The components that stand on the left side of a rate or a bracket and are new. */
+/* Adds the new components on the left side of a rate or a bracket. */
 static bool add_components_of(struct gm_reading *reading, struct gm_span piece)
 {
     struct gm_span rest = {piece.begin, gm_span_until(reading->text, piece, "=")};
@@ -291,7 +291,7 @@ static bool add_components_of(struct gm_reading *reading, struct gm_span piece)
     return !reading->fault.failed;
 }
 
-/* Components in the order in which rates and brackets name them. */
+/* Adds components in the order of rates and brackets. */
 static bool add_components_in_order(struct gm_reading *reading, enum gm_system_word word)
 {
     for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
@@ -304,8 +304,8 @@ static bool add_components_in_order(struct gm_reading *reading, enum gm_system_w
     return !reading->fault.failed;
 }
 
-/* variables: parameters, components, velocities as they were met become components, t, parameters,
-   velocities, components at the start, components of the exact solution */
+/* Reorders variables: parameters, components, velocities become components, t, parameters, velocities,
+   components at the start, components of the exact solution. */
 static bool arrange(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -321,7 +321,7 @@ static bool arrange(struct gm_reading *reading)
     }
     all[n] = unsaid;
     all[n].name = t;
-    /* a text that declares nothing has met nothing, and its sentence comes later */
+    /* a text without declarations has no variables; its fault comes later */
     if (met) {
         memcpy(all, met + p, n * sizeof *all);
         memcpy(all + n + 1, met, p * sizeof *all);
@@ -347,7 +347,7 @@ static bool arrange(struct gm_reading *reading)
     return true;
 }
 
-/* The place x, which is none of the components; that line says them. */
+/* Adds the place x, which is not a component, with the offset of that line. */
 static bool add_place(struct gm_reading *reading, const struct gm_system_line *line)
 {
     char x[] = "x";
@@ -359,7 +359,7 @@ static bool add_place(struct gm_reading *reading, const struct gm_system_line *l
     return gm_reading_add(reading, place) && add_variable(reading, &place);
 }
 
-/* Fields, x, and their derivatives over it */
+/* Adds fields, x, and their derivatives over x. */
 static bool add_fields(struct gm_reading *reading, const struct gm_system_line *field)
 {
     static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
@@ -382,7 +382,7 @@ static bool add_fields(struct gm_reading *reading, const struct gm_system_line *
     return true;
 }
 
-/* The components of a system of matrices, and x */
+/* Adds the components of a system of matrices, and x. */
 static bool add_components(struct gm_reading *reading, const struct gm_system_line *components)
 {
     if (!add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
@@ -396,7 +396,7 @@ static bool add_components(struct gm_reading *reading, const struct gm_system_li
     return add_place(reading, components);
 }
 
-/* u and u_t, and what densities may hold beside them: x and u_x */
+/* Adds u and u_t, and the variables of densities: x and u_x. */
 static bool add_field(struct gm_reading *reading, const struct gm_system_line *field)
 {
     if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
@@ -481,7 +481,7 @@ bool gm_declared_lets(struct gm_reading *reading)
         struct gm_span value = reading->lines[i].value;
         value.end = observed ? gm_span_until(reading->text, value, ";") : value.end;
         if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
-            (observed && gm_span_until(reading->text, value, "..") < value.end) || /* it is counted */
+            (observed && gm_span_until(reading->text, value, "..") < value.end) || /* a line with a counter */
             !gm_reading_assignment(reading, value, &target) ||
             (observed && target.index.begin < target.index.end)) {
             continue;

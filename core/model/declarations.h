@@ -4,16 +4,17 @@
 
 #include "core/model/scope.h"
 
-/* What a system declares, in this order: each needs what came before. */
+/* The declarations of a system, read in this order: each needs the earlier ones. */
 
-/* What kind of a system the lines make, and that every line is one of it. */
+/* Finds the kind of the system, and checks that every line belongs to it. */
 bool gm_declared_kind(struct gm_reading *reading);
 bool gm_declared_parameters(struct gm_reading *reading);
-/* Components, velocities and the time; the variables then stand as struct gm_system_variable says. */
+/* Declares components, velocities and the time; the variables then have the order of struct
+   gm_system_variable. */
 bool gm_declared_state(struct gm_reading *reading);
-/* How parameters follow from others, now that these have their numbers. */
+/* Reads the formulas of parameters in other parameters, after all have their numbers. */
 bool gm_declared_relations(struct gm_reading *reading);
-/* And observables, but for those of a list. */
+/* Declares lets and observables, except elements of a list. */
 bool gm_declared_lets(struct gm_reading *reading);
 
 #endif

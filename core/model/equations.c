@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations of motion by exact derivatives, and the checks of what a file says of them. */
+/* Equations of motion by exact derivatives, and the checks of a file's claims. */
 #include "core/model/equations.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_n
     return force == GM_NO_NODE ? rate : gm_simplified(&system->graph, GM_OPERATION_ADD, rate, force);
 }
 
-/* the gradient of a node over all variables; malloc'ed */
+/* gradient of a node over all variables, freed by the caller */
 static gm_node_id *gradient_of(struct gm_user_system *system, gm_node_id node)
 {
     bool *all = malloc(system->variable_count);
@@ -123,7 +123,7 @@ static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm
     return gm_derivative_along(&system->graph, node, direction, system->n + 1);
 }
 
-/* whether a node holds a velocity of a Lagrangian */
+/* true if a node depends on a velocity of a Lagrangian */
 static bool holds_velocities(struct gm_user_system *system, gm_node_id node)
 {
     size_t count = 0;
@@ -152,8 +152,8 @@ bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes
     return !system->graph.failed;
 }
 
-/* dI/dq v + dI/dp (dL/dq + F), with dL/dv in place of p: of coordinates and velocities. How these change
-   takes the inverse of the mass matrix, so that of what holds them nothing is known. */
+/* The rate dI/dq v + dI/dp (dL/dq + F), with dL/dv instead of p, in coordinates and velocities. Rates of
+   velocities need the inverse of the mass matrix, so nodes with velocities have no known rate. */
 static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id node, gm_node_id *direction)
 {
     const size_t half = system->n / 2;
@@ -199,7 +199,7 @@ static bool varies(const struct gm_user_system *system, size_t i, size_t k)
     return system->graph.nodes[system->bracket[i * system->n + k]].operation != GM_CONSTANT;
 }
 
-/* sum over l of {i, l} d{j, k}/dl and cyclic */
+/* the sum over l of {i, l} d{j, k}/dl and cyclic */
 static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[3], gm_node_id *direction)
 {
     const size_t n = system->n;
@@ -216,7 +216,7 @@ static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[
     return sum;
 }
 
-/* Of triples with a bracket that varies, each once: of the others the sum has no terms. */
+/* Checks each triple with a varying bracket once: for other triples the sum has no terms. */
 static bool check_jacobi(struct gm_user_system *system, struct gm_fault *fault)
 {
     const size_t n = system->n;
@@ -226,7 +226,7 @@ static bool check_jacobi(struct gm_user_system *system, struct gm_fault *fault)
     for (size_t j = 0; j < n; j++) {
         for (size_t k = j + 1; k < n; k++) {
             for (size_t i = 0; varies(system, j, k) && i < n && !system->graph.failed; i++) {
-                /* a triple is looked at by the first of its pairs that varies */
+                /* a triple is checked at the first of its varying pairs */
                 const bool elsewhere = (i < j && (varies(system, i, j) || varies(system, i, k))) ||
                                        (i > j && i < k && varies(system, j, i));
                 if (i == j || i == k || elsewhere) {
@@ -265,13 +265,13 @@ static enum gm_identity check_casimir(struct gm_user_system *system, gm_node_id 
     return direction ? all : GM_UNTESTED;
 }
 
-/* What is not 0 that had to be, and of what it is the rate. */
+/* A nonzero rate that should vanish, and its quantity. */
 struct broken {
-    const char *what; /* NULL: nothing is */
+    const char *what; /* kind of quantity; NULL: all rates vanish */
     gm_node_id node;
 };
 
-/* Whether the constraints do not change along the generator. */
+/* True if the constraints are constant along the generator. */
 static bool keeps_constraints(struct gm_user_system *system, const struct gm_system_item *symmetry,
                               struct broken *broken)
 {
@@ -292,7 +292,7 @@ static bool keeps_constraints(struct gm_user_system *system, const struct gm_sys
     return kept;
 }
 
-/* Whether the forces do no work along the generator: then the momentum map is kept beside them too. */
+/* Tests if the forces do no work along the generator: then the momentum map is conserved with them too. */
 static enum gm_identity check_work(struct gm_user_system *system, const struct gm_system_item *symmetry)
 {
     gm_node_id work = gm_formula_constant(&system->graph, 0);
@@ -307,8 +307,8 @@ static enum gm_identity check_work(struct gm_user_system *system, const struct g
     return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
 }
 
-/* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
-   components: generator and field commute. The momentum map is appended. */
+/* With coordinates: the energy is constant along the generator, lifted to momenta or velocities. With
+   components: generator and field commute. Appends the momentum map. */
 static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_system_item *item,
                                        struct broken *broken)
 {
@@ -342,7 +342,7 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
             gm_simplified(&system->graph, GM_OPERATION_ADD, change,
                           gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[i], item->nodes[i]));
     }
-    /* of H by the lift to momenta, -p dX/dq; of L by that to velocities, dX/dq v */
+    /* H: lift to momenta, -p dX/dq; L: lift to velocities, dX/dq v */
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
         gm_node_id *slopes = gradient_of(system, system->kind == GM_CANONICAL ? map : item->nodes[i]);
         for (size_t k = 0; k < half && !system->graph.failed; k++) {
@@ -377,8 +377,8 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
     return gm_equations_vanishes(system, change);
 }
 
-/* Refuses a symmetry, with how fast it changes what it should not at one of three points, whose coordinates are
-   1/2, 1 and 3/2 in turn. */
+/* Refuses a symmetry, with the rate of the broken quantity at one of three points, whose coordinates are 1/2,
+   1 and 3/2 in turn. */
 static bool refuse_symmetry(struct gm_user_system *system, const struct gm_system_item *item,
                             struct broken broken, struct gm_fault *fault)
 {
@@ -415,7 +415,7 @@ static bool refuse_symmetry(struct gm_user_system *system, const struct gm_syste
     return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s%s", broken.what, rate, point);
 }
 
-/* Whether a node is made of parameters and the first so many components alone. */
+/* True if a node depends only on parameters and the first `components` components. */
 static bool is_of_components(struct gm_user_system *system, gm_node_id node, size_t components)
 {
     size_t count = 0;
@@ -431,8 +431,7 @@ static bool is_of_components(struct gm_user_system *system, gm_node_id node, siz
     return good;
 }
 
-/* A surface stands still: of what the motion changes it is not made, but of parameters, and of what is
-   kept. */
+/* A surface is fixed: its size depends only on parameters and conserved quantities. */
 static bool check_surface(struct gm_user_system *system, const struct gm_system_item *item,
                           struct gm_fault *fault)
 {
@@ -487,14 +486,14 @@ static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
                 return refuse_symmetry(system, item, broken, fault);
             }
             if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
-                item->check = GM_NOT_ZERO; /* a symmetry all the same, whose law a force breaks */
+                item->check = GM_NOT_ZERO; /* still a symmetry, but a force breaks its law */
             }
         }
     }
     return true;
 }
 
-/* values of all nodes; malloc'ed */
+/* values of all nodes, freed by the caller */
 static double *values_for(const struct gm_user_system *system, const double *variables)
 {
     double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
@@ -507,14 +506,14 @@ static double *values_for(const struct gm_user_system *system, const double *var
 /* A Lagrangian at some coordinates. */
 struct transform {
     const struct gm_user_system *system;
-    double *variables, *values; /* of the graph */
-    const gm_node_id *parts;    /* nodes that are evaluated: part_count; NULL: the first so many */
+    double *variables, *values; /* values of variables; values of nodes of the graph */
+    const gm_node_id *parts;    /* [part_count] nodes to evaluate; NULL: the first part_count */
     size_t part_count;
-    const bool *given;    /* velocities that need not be found; NULL: none is */
-    const double *wanted; /* the momenta, or such velocities */
+    const bool *given;    /* given velocities; NULL: none */
+    const double *wanted; /* momenta, or given velocities */
 };
 
-/* p - dL/dv and the mass matrix, of a velocity that is given what it still differs by; gm_linear_equations */
+/* p - dL/dv and the mass matrix; for a given velocity, its difference; gm_linear_equations */
 static bool momenta_at(void *data, const double *v, double *residual, double *matrix, double *scale)
 {
     const struct transform *transform = data;
@@ -539,7 +538,7 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
     return true;
 }
 
-/* Velocities that were not given follow from the momenta that were. False: out of memory. */
+/* Computes velocities that were not given from the momenta. False: out of memory. */
 static bool find_velocities(struct transform transform)
 {
     const struct gm_user_system *system = transform.system;
@@ -576,13 +575,13 @@ static bool find_velocities(struct transform transform)
     return opened;
 }
 
-/* Whether a variable has a value at the start by itself: the file's, or one that was given. */
+/* True if a variable has its own start, from the file or given. */
 static bool is_told(const struct gm_user_system *system, const double *given, size_t number)
 {
     return system->variables[number].start != GM_NO_NODE || (given && !isnan(given[number]));
 }
 
-/* All that a start is computed from: formulas, and momenta with what they take; malloc'ed. */
+/* All nodes that the start depends on: formulas, and momenta with the mass matrix; freed by the caller. */
 static gm_node_id *parts_of_start(const struct gm_user_system *system, size_t *count)
 {
     const size_t half = system->momenta ? system->n / 2 : 0;
@@ -621,7 +620,7 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
         variables[i] = i == system->n ? 0 : follows ? NAN : system->variables[i].value;
         variables[i] = given && !isnan(given[i]) ? given[i] : variables[i];
     }
-    /* a start may hold others: what is found in one round serves the next */
+    /* a start may depend on others: each round uses the values of the last one */
     size_t found = 0, before = 0;
     for (bool first = true; good && (first || found > before); first = false) {
         before = found;
@@ -672,8 +671,8 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
     return variables;
 }
 
-/* Whether momenta determine velocities: no pivot of the mass matrix (half * half, after `half` numbers of room) is small
-   beside its largest entry. */
+/* True if momenta determine velocities: no pivot of the mass matrix (half * half, after `half` numbers of
+   scratch) is small against its largest entry. */
 static bool is_regular(double *scratch, size_t half)
 {
     double *mass = scratch + half, largest = 0;
@@ -720,7 +719,7 @@ bool gm_equations_check_legendre(const struct gm_user_system *system, double *st
         where);
 }
 
-/* Where the first part of a node was written that is not finite; 0: none of them was written. */
+/* The offset of the first written part of a node that is not finite; 0: no such part. */
 static size_t first_not_finite(struct gm_user_system *system, gm_node_id node, const double *values)
 {
     size_t place = 0, count = 0;
@@ -734,7 +733,7 @@ static size_t first_not_finite(struct gm_user_system *system, gm_node_id node, c
     return place;
 }
 
-/* The rank of a matrix (rows * columns), which is destroyed, by elimination with complete pivoting. */
+/* The rank of a matrix (rows * columns), which is overwritten, by elimination with complete pivoting. */
 static size_t rank_of(double *a, size_t rows, size_t columns)
 {
     const double least = 1e-10;
@@ -773,8 +772,7 @@ static size_t rank_of(double *a, size_t rows, size_t columns)
     return rows < columns ? rows : columns;
 }
 
-/* What the motion begins with has to keep the constraints, and their rates 0; and they are to be
-   independent. */
+/* The start must satisfy the constraints, with rates 0; and constraints must be independent. */
 static bool check_constraints(struct gm_user_system *system, const double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
@@ -840,7 +838,7 @@ static bool check_constraints(struct gm_user_system *system, const double *start
     return good;
 }
 
-/* A density of steps is a positive number that the state alone decides. */
+/* A density of steps must be positive and depend on the state alone. */
 static bool check_monitor(struct gm_user_system *system, const double *values, struct gm_fault *fault)
 {
     bool good = true;
@@ -861,7 +859,7 @@ static bool check_monitor(struct gm_user_system *system, const double *values, s
     return good;
 }
 
-/* Half axes are lengths. */
+/* Half axes must be positive. */
 static bool check_sizes(struct gm_user_system *system, const double *values, struct gm_fault *fault)
 {
     for (size_t i = 0; i < system->item_count; i++) {
@@ -877,7 +875,7 @@ static bool check_sizes(struct gm_user_system *system, const double *values, str
     return true;
 }
 
-/* The first variable without a value at the start that a formula holds; variable_count: there is none. */
+/* The first variable in a formula without a start value; variable_count: no such variable. */
 static size_t unknown_at_start(struct gm_user_system *system, gm_node_id node, const double *start)
 {
     size_t count = 0, unknown = system->variable_count;
@@ -891,7 +889,8 @@ static size_t unknown_at_start(struct gm_user_system *system, gm_node_id node, c
     return unknown;
 }
 
-/* Blamed is a start that is not finite by itself; where every one waits for another, they stand in a circle. */
+/* Reports a start that is not finite, whose variables all are; if every start waits for another, they form a
+   circle. */
 static bool check_values(struct gm_user_system *system, const double *start, const double *values,
                          struct gm_fault *fault)
 {
@@ -919,7 +918,7 @@ static bool check_values(struct gm_user_system *system, const double *start, con
                    system->variables[waits_for].name);
 }
 
-/* What is looked at for a change of sign, or held against its start, has a value there. */
+/* Stops and conserved quantities must be finite at the start. */
 static bool check_looked_at(struct gm_user_system *system, const double *values, struct gm_fault *fault)
 {
     bool good = true;
@@ -946,13 +945,14 @@ static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
         if (system->rates[i] == GM_NO_NODE || isfinite(values[system->rates[i]])) {
             continue;
         }
-        /* of the rate, or of what it is derived from */
+        /* place of the rate, or of its origin */
         size_t place = first_not_finite(system, system->rates[i], values);
         if (place == 0 && system->kind != GM_RATES) {
             place = first_not_finite(system, system->energy, values);
         }
         if (place == 0 && system->kind != GM_RATES && system->graph.places[system->energy] != GM_NO_PLACE) {
-            place = system->graph.places[system->energy]; /* a derivative is too large, nothing written is */
+            place = system->graph.places[system->energy]; /* a derivative is too large, although all written
+                                                             parts are finite */
         }
         good =
             gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
@@ -970,7 +970,7 @@ static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
     return good;
 }
 
-/* Whether a formula of a field holds no component, time or place but those of some numbers. */
+/* True if a field's formula has no other component, time or place than these numbers. */
 static bool holds_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
                        const char *what, struct gm_fault *fault)
 {
@@ -996,7 +996,7 @@ static bool holds_only(struct gm_user_system *system, gm_node_id node, const siz
     return good;
 }
 
-/* V and S may have corners in parameters, which are constant. */
+/* V and S may have corners in parameters only, which are constant. */
 static bool is_smooth(struct gm_user_system *system, const char *what, struct gm_fault *fault)
 {
     bool *marked = malloc(system->n * sizeof *marked);
@@ -1013,7 +1013,7 @@ static bool is_smooth(struct gm_user_system *system, const char *what, struct gm
                                           gm_operation_rows[system->graph.nodes[kink].operation].name));
 }
 
-/* What the starts, exact solutions and densities of a field hold. */
+/* Checks the variables in starts, exact solutions and densities of a field. */
 static bool check_line(struct gm_user_system *system, size_t densities, struct gm_fault *fault)
 {
     const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
@@ -1166,7 +1166,7 @@ static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault
     return true;
 }
 
-/* The number of a component that a singular matrix, which is overwritten, leaves free; n: it is regular. */
+/* The number of a component that a singular matrix leaves free; n: it is regular. Overwrites the matrix. */
 static size_t free_component(double *matrix, size_t n)
 {
     double largest = 0;
@@ -1195,7 +1195,7 @@ static size_t free_component(double *matrix, size_t n)
     return n;
 }
 
-/* Whether a K + b L - S'' is regular for some a and b somewhere: else a component has no equation of its own. */
+/* True if a K + b L - S'' is regular for some a and b at some point: else a component lacks an equation. */
 static bool is_determined(struct gm_user_system *system, struct gm_fault *fault)
 {
     enum { TRIALS = 4 };

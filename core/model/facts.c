@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Structure is a matter of derivatives that vanish: H separates where d2H / dp dq does. What stands in the
-   way is the first term of the sum whose own derivative does not vanish. The parts of a facet are terms of
-   the sum, too. */
+/* Structure follows from derivatives that vanish: H separates if d2H / dp dq does. The reason against it
+   is the first term of the sum whose own derivative does not vanish. Parts of a facet are terms of the
+   sum, too. */
 #include "core/model/facts.h"
 
 #include <math.h>
@@ -12,8 +12,7 @@
 #include "core/expression/derivative.h"
 #include "core/model/equations.h"
 
-/* What a sum is taken apart into; what of it is tried one by one, and nodes that are looked at for it, and
-   that may come of it. */
+/* Limits of the search: terms of a sum, terms tried one by one, nodes visited and nodes added for it. */
 enum { MOST_TERMS = 4096, MOST_TRIED = 64, MOST_LOOKED_AT = 1 << 20, MOST_GROWN = 1 << 18 };
 
 static const struct {
@@ -41,14 +40,14 @@ const char *gm_fact_word(enum gm_fact fact)
     return rows[fact].word;
 }
 
-/* what is marked among the variables that a node holds */
+/* true if a node depends on a marked variable */
 static bool depends(struct gm_user_system *system, gm_node_id node, const bool *marked)
 {
     return gm_formula_holds(&system->graph, node, marked, system->variable_count);
 }
 
-/* Whether the node holds a kink, or a root that may be one, that depends on each of the sets: there derivatives
-   vanish on both sides, and say nothing. */
+/* True if the node has a kink, or a root that may be one, that depends on each of the sets: derivatives
+   vanish on both sides of it, and prove nothing. */
 static bool has_kink(struct gm_user_system *system, gm_node_id node, const bool *const *sets, size_t depth)
 {
     size_t count = 0;
@@ -67,7 +66,7 @@ static bool has_kink(struct gm_user_system *system, gm_node_id node, const bool 
     return found;
 }
 
-/* Whether all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
+/* Tests if all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
 static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node, const bool *const *sets,
                                  size_t depth)
 {
@@ -93,12 +92,12 @@ static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node,
     return all != GM_NOT_ZERO && has_kink(system, node, sets, depth) ? GM_NOT_ZERO : all;
 }
 
-/* A term of a sum: coefficient * node, where the coefficient holds no component. */
+/* A term of a sum: coefficient * node; the coefficient is free of components. */
 struct term {
     gm_node_id node, coefficient;
 };
 
-/* The terms that a node is the sum of, at most MOST_TERMS. malloc'ed; NULL where memory was refused. */
+/* The terms of a node as a sum, at most MOST_TERMS. The caller frees; NULL when out of memory. */
 static struct term *terms_of(struct gm_user_system *system, gm_node_id root, const bool *components,
                              size_t *count)
 {
@@ -157,7 +156,7 @@ static struct term *terms_of(struct gm_user_system *system, gm_node_id root, con
     return terms;
 }
 
-/* The first term whose derivatives do not vanish; the node itself where no term alone is to blame. */
+/* The first term whose derivatives do not vanish; the node itself if no single term is the reason. */
 static gm_node_id culprit(struct gm_user_system *system, gm_node_id node, const bool *components,
                           const bool *const *sets, size_t depth)
 {
@@ -187,8 +186,8 @@ static void deny(struct gm_finding *finding, gm_node_id term, const char *why)
     finding->why = why;
 }
 
-/* Of the energy; of a Lagrangian L, with velocities for momenta: where L = T(v) - V(q), H separates as well,
-   and the transform of a quadratic T is quadratic. */
+/* Tests the energy, or L with velocities for momenta: if L = T(v) - V(q), H separates as well, and the
+   transform of a quadratic T is quadratic. */
 static void find_split(struct gm_user_system *system, struct gm_finding *findings, const bool *q,
                        const bool *p, const bool *all)
 {
@@ -209,7 +208,7 @@ static void find_split(struct gm_user_system *system, struct gm_finding *finding
     }
 }
 
-/* the derivative over variable i, which alone is marked; any node where memory was refused */
+/* derivative over variable i, the only marked one; any node when out of memory */
 static gm_node_id slope_of(struct gm_user_system *system, gm_node_id node, const bool *own, size_t i)
 {
     gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient), slope = 0;
@@ -230,8 +229,8 @@ static bool is_held(const struct gm_user_system *system)
     return held;
 }
 
-/* Whether the system is mechanical with unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and nothing
-   acts beside. Else the finding says why not. */
+/* True if the system has unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and no forces. Else the
+   finding has the reason. */
 static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_finding *findings,
                             struct gm_finding *finding, const bool *all, bool *own)
 {
@@ -280,7 +279,7 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
     return finding->holds && !system->graph.failed;
 }
 
-/* a node where `count` variables, from one on, are 0 */
+/* a node with `count` variables from `first` on set to 0 */
 static gm_node_id at_zero(struct gm_user_system *system, gm_node_id node, size_t first, size_t count)
 {
     gm_node_id *replacement = malloc(system->variable_count * sizeof *replacement);
@@ -303,7 +302,7 @@ static gm_node_id potential_of(struct gm_user_system *system)
                : at_zero(system, system->energy, system->n / 2, system->n / 2);
 }
 
-/* values of all nodes at the start; malloc'ed */
+/* values of all nodes at the start, freed by the caller */
 static double *values_at_start(struct gm_user_system *system)
 {
     double *start = gm_equations_start(system, NULL);
@@ -332,11 +331,11 @@ static void forces_of(struct gm_user_system *system, gm_node_id node, const bool
 
 /* A term of the potential that depends on one coordinate alone, and its second derivative. */
 struct well {
-    size_t coordinate; /* SIZE_MAX: it depends on none, or on several */
+    size_t coordinate; /* SIZE_MAX: the term depends on no coordinate, or on several */
     gm_node_id slope, stiffness;
 };
 
-/* Wells of all terms; malloc'ed. Those of a stiffness that depends on the state are none. */
+/* The wells of all terms, freed by the caller. A stiffness that depends on the state makes none. */
 static struct well *wells_of(struct gm_user_system *system, const struct term *terms, size_t count,
                              const bool *q, const bool *all, bool *own)
 {
@@ -371,7 +370,7 @@ static struct well *wells_of(struct gm_user_system *system, const struct term *t
     return wells;
 }
 
-/* Each coordinate's own quadratic terms make its frequency; what is left of them, and the others, U. */
+/* The quadratic terms of each coordinate give its frequency; the rest of them, and all others, are U. */
 static void find_fast_linear(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
                              gm_node_id *nodes, const bool *q, const bool *all, bool *own)
 {
@@ -422,7 +421,7 @@ static void find_fast_linear(struct gm_user_system *system, struct gm_finding *f
     free(squares);
 }
 
-/* One term is -1/|q|; the others are the perturbation. */
+/* Finds the term -1/|q|; the others are the perturbation. */
 static void find_kepler_split(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
                               gm_node_id *nodes, const bool *q, const bool *all)
 {
@@ -477,7 +476,7 @@ static void find_one_degree(struct gm_user_system *system, struct gm_finding *fi
     finding->nodes = nodes;
 }
 
-/* Every force is -c p: c from the first one, by the derivatives of force and momentum. */
+/* Finds c with -c p for every force, from the first one, by the derivatives of force and momentum. */
 static void find_conformal(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
                            const bool *all, bool *own)
 {
@@ -523,7 +522,7 @@ static void find_conformal(struct gm_user_system *system, struct gm_finding *fin
     finding->nodes = finding->holds ? nodes : NULL;
 }
 
-/* The facets of H = |p|^2/2 + V(q), and of its Lagrangian. */
+/* Finds the facets of H = |p|^2/2 + V(q), and of its Lagrangian. */
 static void find_mechanical(struct gm_user_system *system, struct gm_finding *findings, gm_node_id *nodes,
                             const bool *q, const bool *all, bool *own)
 {
@@ -582,7 +581,7 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
             }
         }
         own[i] = true;
-        if (!depends(system, rate, own)) { /* of most rates, and what follows takes longer */
+        if (!depends(system, rate, own)) { /* excludes most rates before a longer test */
             own[i] = false;
             continue;
         }
@@ -602,7 +601,7 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
-/* Whether equations hold the time, or an operation that is not smooth: one look at all of them. */
+/* True if equations depend on the time, or have an operation that is not smooth: one pass for all. */
 static bool has_remarkable(struct gm_user_system *system)
 {
     gm_node_id *roots = malloc((system->n + 1) * sizeof *roots);
@@ -628,8 +627,7 @@ static bool has_remarkable(struct gm_user_system *system)
     return found;
 }
 
-/* Of all that the equations are made of, the first node of a kind; one that was written before one that was
-   derived. */
+/* Finds the first node of each kind in all equations; written nodes precede derived ones. */
 static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
 {
     struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
@@ -686,14 +684,15 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
         find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
         find_mechanical(system, findings, nodes + 1, q, all, own);
     }
-    if (system->kind != GM_LAGRANGIAN && !is_held(system)) { /* else the rates are not all of the motion */
+    if (system->kind != GM_LAGRANGIAN && !is_held(system)) { /* else the rates are only a part of the
+                                                                motion */
         find_of_rates(system, findings, components, own);
     }
     free(marks);
     return !system->graph.failed;
 }
 
-/* Where a term was written, or, of an equation that was derived, what it came from; "" where nobody knows. */
+/* Writes the place of a term, or of the origin of a derived equation; "" if unknown. */
 static void write_place(const struct gm_user_system *system, gm_node_id term, bool derived, char *text,
                         size_t size)
 {
@@ -725,7 +724,7 @@ char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, con
         made = asprintf(&reason, "%s%s%s", why, where, component);
     } else {
         struct gm_naming naming = gm_system_naming(system);
-        naming.part = NULL; /* written out: it is what is in it that matters */
+        naming.part = NULL; /* written out, without names, to show its contents */
         text = gm_formula_text(&system->graph, finding->term, &naming);
         char place[80];
         write_place(system, finding->term, in_rate && system->kind != GM_RATES, place, sizeof place);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The structure that a system has, found in its formulas. */
+/* The structure of a system, found in its formulas. */
 #ifndef GM_CORE_MODEL_FACTS_H
 #define GM_CORE_MODEL_FACTS_H
 
@@ -7,9 +7,9 @@
 
 enum gm_fact {
     GM_FACT_SEPARABLE,       /* H = T(p) + V(q) */
-    GM_FACT_NYSTROM,         /* and T is quadratic */
-    GM_FACT_LINEAR,          /* the rates are polynomials of degree 1, */
-    GM_FACT_QUADRATIC,       /* or of degree 2 */
+    GM_FACT_NYSTROM,         /* separable, and T is quadratic */
+    GM_FACT_LINEAR,          /* the rates are polynomials of degree 1 */
+    GM_FACT_QUADRATIC,       /* the rates are polynomials of degree 2 */
     GM_FACT_VOLUME,          /* no rate contains its own variable: exact flows without divergence */
     GM_FACT_DIVERGENCE_FREE, /* the sum of d rate / d component is 0 */
     GM_FACT_SMOOTH,          /* no min, max, abs, mod */
@@ -24,21 +24,21 @@ enum gm_fact {
 };
 
 struct gm_finding {
-    bool asked; /* the kind of system has such a structure, or not */
+    bool asked; /* applies to this kind of system */
     bool holds;
-    enum gm_identity how; /* proved, or tested at random points, with the parameters as they are */
-    gm_node_id term;      /* what stands in its way; GM_NO_NODE */
-    size_t component;     /* in the rate of this component; n: in H or L */
-    const char *why;      /* it does; NULL: as usual */
-    const gm_node_id
-        *nodes; /* that make the facet of core/ode/ode.h, where it holds; they are the system's */
+    enum gm_identity how;    /* proved, or tested at random points for the system's parameters */
+    gm_node_id term;         /* the reason against it; GM_NO_NODE */
+    size_t component;        /* component whose rate has the term; n: H or L */
+    const char *why;         /* reason in words; NULL: the usual words */
+    const gm_node_id *nodes; /* nodes of the facet of core/ode/ode.h, if it holds; owned by the system */
 };
 
-/* "separable" */
+/* The word of a fact: "separable". */
 const char *gm_fact_word(enum gm_fact fact);
-/* Finds all. False where memory was refused. */
+/* Finds all facts. False when out of memory. */
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS]);
-/* The reason in words: what was found how, or the term with its place. malloc'ed; NULL: no memory. */
+/* The reason in words: the method of the proof, or the term with its place. The caller frees; NULL when out
+   of memory. */
 char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact,
                      const struct gm_finding *finding);
 

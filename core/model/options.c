@@ -10,7 +10,7 @@
 
 #include "core/expression/nearest.h"
 
-/* The lines that an option may stand on: a bit for each word. */
+/* The bit of a word, in the set of lines that may have an option. */
 #define LINE(word) (UINT64_C(1) << GM_WORD_##word)
 
 static const struct row {
@@ -25,10 +25,10 @@ static const struct row {
 
 static const char *row_word(size_t i, const void *lines)
 {
-    return rows[i].lines & *(const uint64_t *)lines ? rows[i].word : ""; /* no proposal */
+    return rows[i].lines & *(const uint64_t *)lines ? rows[i].word : ""; /* excluded from proposals */
 }
 
-/* The row of a line's option whose word has these letters; GM_OPTIONS: there is none. */
+/* The row of a line's option with this word; GM_OPTIONS without one. */
 static size_t find_row(uint64_t lines, const char *word, size_t letters)
 {
     size_t row = 0;
@@ -59,7 +59,7 @@ static bool add_numbers(struct gm_reading *reading, struct gm_system_option *opt
     return !reading->fault.failed;
 }
 
-/* The word that stands for the list that a system without such a line has. */
+/* True for the word that stands for the default list. */
 static bool is_usual(const struct gm_reading *reading, struct gm_span value)
 {
     return value.end - value.begin == 5 && memcmp(reading->text + value.begin, "usual", 5) == 0;
@@ -127,10 +127,10 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
     size_t row = find_row(lines, text, letters);
     const bool is_range = row == GM_OPTIONS && gm_span_until(reading->text, piece, "..") < piece.end;
     if (row == GM_OPTION_WHILE && gm_system_is_field(reading->system)) {
-        row = GM_OPTIONS; /* an integral holds always */
+        row = GM_OPTIONS; /* an integral applies always */
     }
     row = is_range ? find_row(lines, "range", 5) : row;
-    if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY and its values */
+    if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY with its values */
         free(item->name);
         item->name = gm_reading_text(reading, (struct gm_span){piece.begin, piece.begin + letters});
         row = GM_OPTION_VALUES;

@@ -4,11 +4,11 @@
 
 #include "core/model/scope.h"
 
-/* Reads options, which semicolons separate, into the item of their line. */
+/* Reads options, separated by semicolons, into the item of their line. */
 bool gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
 
-/* Reads a text with {FORMULA}, {FORMULA:pi} and the like into an item: the formulas become its nodes, in their order,
-   GM_NO_NODE for a key of the scene that is no name of the system ({dt}, {schemes}). */
+/* Reads a text with {FORMULA}, {FORMULA:pi} and the like into an item. The formulas become its nodes, in
+   order; GM_NO_NODE stands for a key of the scene that the system does not define ({dt}, {schemes}). */
 bool gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span);
 
 #endif

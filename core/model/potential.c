@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from the formulas of a wave equation, u_tt = u_xx - V'(u): the derivatives of V, and the field at the
-   start with its own. */
+/* Derived formulas of a wave equation, u_tt = u_xx - V'(u): the derivatives of V, and derivatives of the
+   field at the start. */
 #include "core/model/potential.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The degree of a formula as a polynomial in variable 0; INFINITY where it is not written as one, or there is no
-   memory to tell. */
+/* The degree of a formula as a polynomial in variable 0; INFINITY if it is not written as one, or when out of
+   memory. */
 static double degree_of(const struct gm_formula *graph, gm_node_id formula)
 {
     double *degrees = malloc((formula + (size_t)1) * sizeof *degrees), degree = INFINITY;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves in a potential that somebody wrote, on whatever nodes. */
+/* Waves in a user-defined potential, on any nodes. */
 #ifndef GM_CORE_MODEL_POTENTIAL_H
 #define GM_CORE_MODEL_POTENTIAL_H
 
 #include "core/model/system.h"
 
-/* u and its derivatives over t at the start, as far as levels are made of them; derivatives of V */
+/* u and its time derivatives at the start, as levels need them; derivatives of V */
 enum { GM_TYPED_START = 5, GM_TYPED_DERIVATIVES = 3 };
 
-/* A field's formulas, of its system's graph. */
+/* The formulas of a field, in its system's graph. */
 struct gm_user_wave {
     const struct gm_user_system *system;
     gm_node_id by_u[GM_TYPED_DERIVATIVES]; /* V', V'', V''' */
-    double degree;                         /* of V' in u; INFINITY: it is written as no polynomial */
-    /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
+    double degree;                         /* degree of V' in u; INFINITY: not written as a polynomial */
+    /* formulas in x as variable 0; the exact solution has t as variable 1; GM_NO_NODE: not given */
     gm_node_id start[GM_TYPED_START], start_slope /* u_x */, exact;
 };
 
-/* Derives them; false where memory was refused. The graph grows. */
+/* Derives the formulas and adds them to the graph. False when out of memory. */
 bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *system);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads systems: lines, then what they declare, then what they say of it. */
+/* Reads systems: lines, then declarations, then their formulas. */
 #include "core/model/reader.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ static bool add_formula(struct gm_reading *reading, struct gm_system_item *item,
     return gm_reading_formula(reading, span, &node) && add_node(reading, item, node);
 }
 
-/* formulas that are separated by commas */
+/* adds formulas separated by commas */
 static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
 {
     struct gm_span piece;
@@ -53,14 +53,14 @@ static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item
     return !reading->fault.failed;
 }
 
-/* What a line assigns, and the range and meaning behind it, or that starts are derived. */
+/* The word of an assignment, its range and meaning, or the mark of derived starts. */
 struct assignment {
     enum gm_system_word word;
     struct gm_written_range range;
     bool derived;
 };
 
-/* where a component keeps what a line assigns to it */
+/* stores the assigned node in its component */
 static bool assign(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
                    gm_node_id node, void *data)
 {
@@ -221,7 +221,7 @@ static bool read_symmetry(struct gm_reading *reading, const struct gm_system_lin
     return !reading->fault.failed;
 }
 
-/* An index of a name becomes its last digits: length[2] is length2. */
+/* Appends the index of a name as its last digits: length[2] is length2. */
 static bool number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
 {
     char *name;
@@ -420,7 +420,7 @@ static bool read_section(struct gm_reading *reading, const struct gm_system_line
     return !reading->fault.failed;
 }
 
-/* one body, or both ends of a rod, in two or three dimensions */
+/* Reads one body, or both ends of a rod, in two or three dimensions. */
 static bool read_view(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
@@ -478,7 +478,7 @@ static bool read_surface(struct gm_reading *reading, const struct gm_system_line
     return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
 }
 
-/* What is seen in space has a camera, whose keys are no names of the system's own; and surfaces are. */
+/* A system in space has the keys of a camera, which are reserved; surfaces need space. */
 static bool check_space(struct gm_reading *reading)
 {
     static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
@@ -542,7 +542,7 @@ static bool read_angles(struct gm_reading *reading, const struct gm_system_line 
     return !reading->fault.failed;
 }
 
-/* A number of a ring: half its length, the points of its grid, by how much the field differs at its ends. */
+/* Reads a number of a ring: half its length, the points of its grid, the jump of the field at its ends. */
 static bool read_ring(struct gm_reading *reading, const struct gm_system_line *line)
 {
     static const struct {
@@ -566,7 +566,7 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
     return item && add_formula(reading, item, line->value);
 }
 
-/* Rows with | between them, and commas between their entries. */
+/* Reads rows separated by |, with commas between entries. */
 static bool read_matrix(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_user_system *system = reading->system;
@@ -595,7 +595,7 @@ static bool read_matrix(struct gm_reading *reading, const struct gm_system_line 
                                       "%s has %zu rows for %zu components", word, rows, n);
 }
 
-/* One of two words. */
+/* Reads one of two words. */
 static bool read_choice(struct gm_reading *reading, const struct gm_system_line *line, const char *one,
                         const char *other)
 {
@@ -605,8 +605,8 @@ static bool read_choice(struct gm_reading *reading, const struct gm_system_line 
                                   gm_system_words[line->word].word, one, other, text));
 }
 
-/* A graph of which the build writes kernels: `yes`, that of the file; N = 3 .. 5, where the parameter is in an index; or
-   KEY = VALUE, with the value in the parameter's place. */
+/* Reads a graph for compiled kernels: `yes`, the graph of the file; N = 3 .. 5, for a parameter in an index;
+   or KEY = VALUE, with that value of the parameter. */
 static bool read_compiled(struct gm_reading *reading, const struct gm_system_line *line, struct gm_span piece)
 {
     struct gm_user_system *system = reading->system;
@@ -657,7 +657,7 @@ static bool read_compile(struct gm_reading *reading, const struct gm_system_line
     return good;
 }
 
-/* F; scale: the least that its error is relative to */
+/* F; scale: the least divisor of its error */
 static bool read_energy(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_span rest = line->value, energy;
@@ -793,12 +793,12 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_MASS:
         item = add_item(reading, line, (struct gm_span){0, 0});
         return item && add_formula(reading, item, line->value);
-    default: /* names, which were read before */
+    default: /* names were read before */
         return true;
     }
 }
 
-/* i = low .. high; what is said for each i, in turn. A line without a counter is said once. */
+/* Reads i = low .. high; line, for each i in turn. A line without a counter is read once. */
 static bool read_counted(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_span rest = line->value, head;
@@ -831,7 +831,7 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
     return !reading->fault.failed;
 }
 
-/* Lets give their names to nodes that have none. */
+/* Gives the names of lets to nodes without a name. */
 static bool name_parts(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -859,7 +859,7 @@ static bool name_parts(struct gm_reading *reading)
     return (system->parts && !reading->fault.failed) || gm_fail_memory(&reading->fault);
 }
 
-enum { MOST_OF_BRACKET = 2000 }; /* a matrix of nodes is made of it */
+enum { MOST_OF_BRACKET = 2000 }; /* limits the size of the matrix of nodes */
 
 static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t count)
 {

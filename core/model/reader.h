@@ -4,8 +4,8 @@
 
 #include "core/model/system.h"
 
-/* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault,
-   whose sentence is empty where memory was refused. To be closed in both cases. */
+/* Reads a system, without derived equations (gm_equations_open). False with a fault, whose sentence is empty
+   when out of memory. The caller closes the system in both cases. */
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 

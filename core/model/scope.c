@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lines of a system, the names in them, and formulas that hold such names. */
+/* The lines of a system, their names, and formulas with such names. */
 #include "core/model/scope.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ static enum gm_line_identity identity_of(const char *text, struct gm_span span)
     return word < GM_WORDS ? gm_system_words[word].identity : GM_LINE_ADDED;
 }
 
-/* Takes the lines for the words that are chosen in the place of the text. */
+/* Replaces the text by the lines of the chosen words. */
 static bool choose_lines(struct gm_reading *reading)
 {
     struct gm_written_choices *choices = &reading->system->choices;
@@ -177,7 +177,7 @@ struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *
     return number ? &reading->entries[number - 1] : NULL;
 }
 
-/* Any element of a list of that name. */
+/* Finds an element of a list of that name, and the bounds of the list. */
 static const struct gm_entry *list_of(const struct gm_reading *reading, const char *name, size_t length,
                                       long *low, long *high)
 {
@@ -209,7 +209,7 @@ bool gm_reading_reserves(const char *name, size_t length)
     return gm_formula_reserves(name, length);
 }
 
-/* keys of a ring */
+/* true for keys of a ring */
 static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
 {
     static const char *const keys[] = {"half_length", "points", "space", "boundary"};
@@ -221,7 +221,7 @@ static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *
     return false;
 }
 
-/* The place in a field, where it is not the program's own */
+/* True for the place of a field, unless the reader has added it. */
 static bool is_place(const struct gm_reading *reading, const struct gm_entry *entry)
 {
     return gm_system_is_field(reading->system) && entry->role != GM_ENTRY_VELOCITY && entry->length == 1 &&
@@ -351,7 +351,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
-/* One attempt; false without a fault where another name has to be read first. */
+/* Makes one attempt; false without a fault if another name must be read first. */
 static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
                     long element, gm_node_id *node, bool *postponed)
 {
@@ -472,7 +472,7 @@ bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *
     return good;
 }
 
-/* A whole number, on which the graph is built. */
+/* Reads a whole number on which the graph depends. */
 static bool read_whole(struct gm_reading *reading, struct gm_span span, double *number)
 {
     reading->structural = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a system holds, and how its names are found again. */
+/* The contents of a system, found by their names. */
 #include "core/model/system.h"
 
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Space as it is seen: projection by parallel light, depth, and what ellipsoids hide. */
+/* The view of space: projection by parallel light, depth, and points hidden by ellipsoids. */
 #include "scenes/common/camera.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Room around what is shown, for names. */
+/* The box is shown with this factor of room for names. */
 static const double around = 1.1;
 
 bool gm_camera_has(const char *key)
@@ -69,8 +69,8 @@ double gm_space_nearness(const struct gm_space *space, double depth)
     return part >= 0 && part <= 1 ? part : part > 1 ? 1 : 0;
 }
 
-/* From the point P the eye is seen along P + s d, s > 0, and the ellipsoid is x.x = 1 where each axis is
-   measured by its half axis: s is a root of d.d s^2 + 2 P.d s + P.P - 1. */
+/* The eye is seen from the point P along P + s d, s > 0, and the ellipsoid is x.x = 1 in units of its half
+   axes: s is a root of d.d s^2 + 2 P.d s + P.P - 1. */
 bool gm_space_hides(const struct gm_space *space, const double point[3], const struct gm_ellipsoid *on)
 {
     for (size_t i = 0; i < space->surface_count; i++) {

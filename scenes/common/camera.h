@@ -5,15 +5,15 @@
 #include "render/picture/picture.h"
 #include "scenes/common/rows.h"
 
-/* Space as it is seen from far away, by parallel light: where a point stands on the screen, how deep behind it,
-   and whether a surface stands before it. */
+/* A view of space from far away, by parallel light: the place of a point on the screen, its depth, and the
+   surfaces that hide it. */
 
-/* From where. The eye stands in the direction (cos e cos a, cos e sin a, sin e) from what it looks at, with
+/* The direction of view. The eye is in the direction (cos e cos a, cos e sin a, sin e) from the centre, with
    azimuth a and elevation e in degrees; z points up. */
 struct gm_camera {
     double azimuth, elevation;
-    double zoom; /* how many times as large as what fits */
-    double turn; /* by which the azimuth grows, in degrees for each unit of time */
+    double zoom; /* size, 1: the box just fits */
+    double turn; /* growth of the azimuth, in degrees per unit of time */
 };
 
 /* The rows of a scene's table for `member`, a camera in its struct `own`. */
@@ -28,35 +28,35 @@ enum { GM_CAMERA_KEYS = 4 };
         GM_REAL_ROW(own, member.turn, "turn", "0", -1e6, 1e6,                                                \
                     "by which the azimuth grows, in degrees for each unit of time", .live = true,            \
                     .looks = true)
-/* Whether that is the key of one of these. */
+/* True if a parameter of the camera has that key. */
 bool gm_camera_has(const char *key);
 
-/* An ellipsoid around the origin, with these half axes along x, y, z. */
+/* An ellipsoid around the origin, with half axes along x, y, z. */
 struct gm_ellipsoid {
     double axes[3];
 };
 
 struct gm_space {
-    double right[3], up[3], towards[3]; /* the directions of the screen, and to the eye */
-    double low[3], high[3];             /* the box of what is shown */
-    double back, front;                 /* how deep that box reaches, from whatever azimuth */
+    double right[3], up[3], towards[3]; /* unit vectors of the screen, and to the eye */
+    double low[3], high[3];             /* the box of all that is shown */
+    double back, front;                 /* range of depths of that box, for every azimuth */
     const struct gm_ellipsoid *surfaces;
     size_t surface_count;
 };
 
-/* The directions, at a time after the start. */
+/* Sets the directions, at a time after the start. */
 void gm_space_turn(struct gm_space *space, const struct gm_camera *camera, double t);
-/* Depths and the panel's axes for the box, or with `reach` > 0 for all that is so near to the origin: a scale
-   that does not change while the camera goes round. */
+/* Sets depths and the panel's axes for the box, or with `reach` > 0 for that distance around the origin: a
+   scale that does not change while the camera turns. */
 void gm_space_fit(struct gm_space *space, const struct gm_camera *camera, double reach,
                   struct gm_panel *panel);
 
-/* Where a point is on the screen. Returns its depth: the nearer to the eye, the greater. */
+/* Computes the place of a point on the screen. Returns its depth: the nearer to the eye, the greater. */
 double gm_space_place(const struct gm_space *space, const double point[3], double place[2]);
-/* How near a depth is, 0 at the back of the box to 1 in front. */
+/* Returns the nearness of a depth, from 0 at the back of the box to 1 in front. */
 double gm_space_nearness(const struct gm_space *space, double depth);
-/* Whether a surface stands before a point. They are of glass: within one its farther half is hidden; but to
-   lines on a surface, `on`, the others are solid. */
+/* Returns true if a surface hides a point. Surfaces are of glass: a point within one is hidden behind its
+   farther half only. For lines on the surface `on` the others are solid. */
 bool gm_space_hides(const struct gm_space *space, const double point[3], const struct gm_ellipsoid *on);
 
 #endif

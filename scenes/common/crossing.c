@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The zero of a value along a step that is made again with other lengths: T. R. Chandrupatla, Adv. Eng.
-   Software 28 (1997) 145, inverse quadratic interpolation where it is safe, else bisection. */
+/* The zero of a value along a step that is repeated with other lengths: T. R. Chandrupatla, Adv. Eng.
+   Software 28 (1997) 145, inverse quadratic interpolation if it is safe, else bisection. */
 #include "scenes/common/crossing.h"
 
 #include <math.h>
@@ -9,16 +9,16 @@
 
 #include "core/run.h"
 
-/* A fraction of the step, and the value there. */
+/* A fraction of the step, and its value. */
 struct place {
     double s, value;
 };
 
 struct step {
-    struct gm_view view; /* at the place that was looked at last */
+    struct gm_view view; /* view of the last place evaluated */
     double (*value)(const struct gm_view *view);
     double begin, h;
-    double *storage; /* gm_run_part's */
+    double *storage; /* storage of gm_run_part */
     bool failed;
 };
 
@@ -36,7 +36,8 @@ static struct place place_at(struct step *step, double s)
     return (struct place){s, value};
 }
 
-/* How far between the last two places the next one is, from the newest on; `third` is the one before. */
+/* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
+   before. */
 static double share(struct place newest, struct place other, struct place third)
 {
     const double xi = (newest.s - other.s) / (third.s - other.s),
@@ -64,7 +65,7 @@ double gm_crossing_find(const struct gm_view *view, double (*value)(const struct
     }
     step.view.state = step.storage;
     struct place other = place_at(&step, 0), newest = place_at(&step, 1), third = other;
-    const bool below = newest.value < 0; /* beyond */
+    const bool below = newest.value < 0; /* sign at the end of the step */
     step.failed |= (other.value < 0) == below;
     double t = 0.5;
     for (int i = 0; i < MOST && !step.failed && fabs(newest.s - other.s) > 2 * tolerance; i++) {

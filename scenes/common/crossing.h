@@ -4,10 +4,10 @@
 
 #include "scenes/common/scene.h"
 
-/* Where in the last step of a view's run `value` passed 0, as the fraction of the step that ends there, just
-   beyond: the step is made again by its scheme, shorter, so that the place is as good as the scheme is.
-   `state` (n * m) is where that leads. NaN where the step cannot be made again (gm_run_repeats), `value` is
-   of one sign, or memory is short. The step that was made has to begin where the caller was last. */
+/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
+   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
+   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
+   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
 double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
                         double *state);
 

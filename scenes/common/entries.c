@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When an entry is due, what of a full record goes, and where between two steps a section was passed. */
+/* The times of entries, the thinning of a full record, and the crossings of a section between two steps. */
 #include "scenes/common/entries.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ size_t gm_active_count(const struct gm_problem *problem)
 bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem)
 {
     if (!behind->state) {
-        /* the state before, slopes at both ends, a state between */
+        /* the last state, slopes at both ends, an intermediate state */
         behind->state = calloc(4 * gm_active_count(problem), sizeof *behind->state);
     }
     return behind->state != NULL;
@@ -32,7 +32,7 @@ bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *v
                0;
 }
 
-/* What the step before was is not known; it is again after the next one. */
+/* The values before the step are unknown until the next step. */
 static void forget_before(struct gm_entries *entries)
 {
     for (size_t i = 0; i < entries->sections; i++) {
@@ -83,7 +83,7 @@ static void thin(struct gm_entries *entries)
     entries->every *= 2;
 }
 
-/* Forgets the older half. */
+/* Drops the older half. */
 static void forget(struct gm_entries *entries)
 {
     const size_t kept = entries->count / 2, gone = entries->count - kept;
@@ -101,13 +101,13 @@ static void add_entry(struct gm_entries *entries, const struct gm_track *track, 
     entries->kept = ++entries->count;
 }
 
-/* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
+/* The number of whole intervals between t0 and t; one missed by round-off counts. */
 static double intervals(const struct gm_view *view, double interval, double t)
 {
     return floor(fabs(t - view->t0) / interval * (1 + 1e-12) + 1e-9);
 }
 
-/* The slopes at both ends of the step that ended in `view`. */
+/* Computes the slopes at both ends of the step that ended in `view`. */
 static void find_slopes(const struct gm_view *view, const struct gm_behind *behind)
 {
     const size_t active = gm_active_count(view->problem);
@@ -117,8 +117,8 @@ static void find_slopes(const struct gm_view *view, const struct gm_behind *behi
     loops->field(view->problem, view->state, slopes + active, view->problem->m);
 }
 
-/* Where a section, of the member that `there` says if members have their own, was passed in a step: the cubic
-   is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+/* Finds the crossing of a section in a step, of member there->member if members have their own. It uses the
+   cubic with the field's slopes at both ends; its error is of order 4 in the step. */
 static void find_crossing(const struct gm_track *track, const struct gm_view *view,
                           const struct gm_behind *behind, double before, double after, struct gm_view *there)
 {
@@ -128,7 +128,7 @@ static void find_crossing(const struct gm_track *track, const struct gm_view *vi
     const double h = view->t - behind->t, sign = after >= 0 ? 1 : -1;
     double low = 0, high = 1, below = sign * before, above = sign * after;
     there->state = between;
-    /* regula falsi with bisection in between, so that neither end stands still */
+    /* regula falsi, with bisection so that both ends move */
     for (int i = 0; i < 60 && high - low > 1e-15; i++) {
         const double secant = low - below * (high - low) / (above - below);
         const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
@@ -151,18 +151,18 @@ static void find_crossing(const struct gm_track *track, const struct gm_view *vi
     }
 }
 
-/* Makes an entry for every section that was passed in the step that ended in `view`. */
+/* Makes an entry for every section crossed in the step that ended in `view`. */
 static void record_crossings(struct gm_entries *entries, const struct gm_track *track,
                              const struct gm_view *view, const struct gm_behind *behind)
 {
-    bool known = false; /* the slopes */
-    /* an ensemble would make the steps of all its members again for each of them */
+    bool known = false; /* slopes are computed */
+    /* an ensemble would repeat the steps of all its members for each of them */
     const bool again = track->again && view->problem->m == 1;
     for (size_t member = 0; member < entries->sections; member++) {
         struct gm_view there = *view;
         there.member = member;
         const double after = track->section(&there), before = entries->before[member];
-        /* what begins on the section has not passed it, whichever way it goes */
+        /* a start on the section does not cross it, in either direction */
         entries->before[member] = isnan(before) && after == 0 ? NAN : after;
         const bool upwards = before < 0 && after >= 0, downwards = track->admits && before >= 0 && after < 0;
         if (!(upwards || downwards) || behind->t == view->t) {
@@ -198,8 +198,7 @@ static void record_crossings(struct gm_entries *entries, const struct gm_track *
     }
 }
 
-/* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
-   start. */
+/* While time runs backwards, a record of the whole past drops its entries later than t, except the start. */
 static void unwind(struct gm_entries *entries, double t)
 {
     while (entries->count > 1 && entries->times[entries->count - 1] > t) {
@@ -226,7 +225,7 @@ void gm_entries_record(struct gm_entries *entries, const struct gm_track *track,
         unwind(entries, view->t);
         return;
     }
-    entries->kept = entries->count; /* the run goes on from here */
+    entries->kept = entries->count; /* the run continues from here */
     if (track->section) {
         record_crossings(entries, track, view, behind);
         return;

@@ -4,48 +4,47 @@
 
 #include "scenes/common/scene.h"
 
-/* What a track has recorded of a run. */
+/* The entries that a track has recorded during a run. */
 
 struct gm_entries { /* the record of one track */
     size_t width, count;
-    size_t kept;     /* entries in memory; count is less while an earlier step is looked at */
-    int64_t every;   /* of the intervals, this many make one entry (doubled by thinning) */
-    double *times;   /* count */
-    int64_t *steps;  /* count: after how many steps each was made */
-    double *values;  /* count * width */
-    int64_t skipped; /* of a section: so many crossings more go unrecorded (after thinning) */
-    /* of a section: its value after the step before, for each of so many members that have their own; NAN: not
-       known */
+    size_t kept;     /* entries in memory; count is less while an earlier step is shown */
+    int64_t every;   /* intervals per entry; thinning doubles it */
+    double *times;   /* [count], model time */
+    int64_t *steps;  /* [count], number of steps */
+    double *values;  /* [count * width] */
+    int64_t skipped; /* crossings still to be left out, after thinning */
+    /* values of the section after the last step, one per section; NAN: unknown */
     double *before;
     size_t sections;
 };
 
-/* Where a run was a step before: what tells that a section was passed. */
+/* The state before a step: it shows that a section was crossed. */
 struct gm_behind {
-    double
-        *state; /* the active components, and room for what is made of them; NULL: no sections, and no stop */
+    double *state; /* active components, then room for 3 times as many; NULL: no sections, no stop */
     double t;
 };
 bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem);
-/* Whether the last step of a view's run began there. */
+/* True if the last step of a view's run began in this state. */
 bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view);
 
-/* False if memory is short; gm_entries_close releases what is there. `behind` gets its memory with the first
-   section. */
+/* Returns false when out of memory; the caller still calls gm_entries_close. `behind` gets its memory with
+   the first section. */
 bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                      struct gm_behind *behind);
 void gm_entries_close(struct gm_entries *entries);
 
-/* How many numbers of a problem's state are active: all but the passive block. */
+/* Returns the number of active components of a state, n * m without the passive block. */
 size_t gm_active_count(const struct gm_problem *problem);
 
-/* Makes the entry that is due now, if one is. */
+/* Makes an entry if one is due now. */
 void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                        const struct gm_behind *behind);
-/* After all tracks: the present state is the one behind. */
+/* Copies the current state to `behind`, after all tracks. */
 void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
 
-/* Shows what was recorded up to a step of the run; later entries stay in memory until the next is made. */
+/* Shows the record up to the current step of the run; later entries stay in memory until the next one is
+   made. */
 void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the pictures of all scenes have in common: clocks, names of lanes, trails, graphs of observables. */
+/* Parts of the pictures of all scenes: clocks, names of lanes, trails, graphs of observables. */
 #include "scenes/common/graph.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Time is told in fractions of pi where the step is a simple one. */
+/* True if the step is a simple fraction of pi: then times are written so. */
 static bool counts_in_pi(double dt)
 {
     for (int denominator = 1; denominator <= 24; denominator++) {
@@ -18,7 +18,7 @@ static bool counts_in_pi(double dt)
     return false;
 }
 
-/* "3π/4"; NULL where t is no such fraction, or none is expected of steps like dt */
+/* "3π/4"; NULL if t is not such a fraction, or dt is not */
 static const char *in_pi(struct gm_picture *picture, double t, double dt)
 {
     for (int denominator = 1; counts_in_pi(dt) && denominator <= 24; denominator++) {
@@ -49,16 +49,16 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt)
     if (fraction) {
         return fraction;
     }
-    /* as many decimals as the step moves, so that digits stand still while time runs */
+    /* decimals that show a step, so that digits stay while time runs */
     int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
     decimals = decimals < 1 ? 1 : decimals > 6 ? 6 : decimals;
-    const bool below = t < -0.5 * pow(10, -decimals); /* what rounds to zero has no sign */
+    const bool below = t < -0.5 * pow(10, -decimals); /* a value that rounds to zero has no sign */
     return gm_picture_text(picture, "%s%.*f", below ? "−" : "", decimals, fabs(t));
 }
 
 void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    /* the lane that has come farthest; one that has failed stands still */
+    /* the lane that is farthest; running lanes before failed ones */
     const struct gm_lane *ahead = lanes[0];
     for (size_t i = 1; i < count; i++) {
         const bool goes = lanes[i]->run->status == GM_OK, went = ahead->run->status == GM_OK;
@@ -73,7 +73,7 @@ const char *gm_lane_title(const struct gm_lane *lane)
     return lane->shown.panel_name[0] ? lane->shown.panel_name : lane->first_scheme->title;
 }
 
-/* What tells a lane from the others of its panel. */
+/* The name that distinguishes a lane within its panel. */
 static const char *lane_name(const struct gm_lane *lane)
 {
     return lane->shown.colour_name[0] ? lane->shown.colour_name : gm_lane_title(lane);
@@ -113,8 +113,8 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
                              : gm_picture_text(picture, "%s / %.3g", front, scale);
 }
 
-/* Where several lanes share panel `p`: names each under its title, in its own colour and dash, in place of
-   the note on one of them. */
+/* If several lanes share panel `p`: names each under its title, in its own colour and dash, instead of a note
+   on one of them. */
 static void name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
                        size_t count, size_t p)
 {
@@ -173,7 +173,7 @@ const char *gm_power_text(struct gm_picture *picture, double value)
                            digits[size % 10]);
 }
 
-/* The lane's first scheme, or the one that took over as number s. */
+/* The lane's first scheme, or the scheme of its switch number s - 1. */
 static const struct gm_scheme *scheme_of(const struct gm_lane *lane, size_t s)
 {
     return s == 0 ? lane->first_scheme : lane->switches[s - 1].scheme;
@@ -253,7 +253,7 @@ bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
     return one;
 }
 
-/* What lies below a graph's floor is a gap. */
+/* Makes a gap of all values below a graph's floor. */
 static void cut(double *points, size_t count, double floor)
 {
     for (size_t i = 0; i < count; i++) {
@@ -261,7 +261,8 @@ static void cut(double *points, size_t count, double floor)
     }
 }
 
-/* The history of one observable as points: one per bin while a bin is a step, then its low and high. */
+/* Writes the history of an observable as points: one per bin while a bin is a step, then its low and high.
+   Returns their number. */
 static size_t history_points(const struct gm_lane *lane, size_t series, double divisor,
                              const struct gm_graph *graph, double *points)
 {
@@ -293,7 +294,7 @@ static size_t history_points(const struct gm_lane *lane, size_t series, double d
             count++;
             continue;
         }
-        /* alternate, so that the line does not run back */
+        /* alternates, so that the line does not run back */
         double low = bin->low, high = bin->high;
         if (magnitude) {
             high = fmax(fabs(bin->low), fabs(bin->high));
@@ -323,7 +324,7 @@ void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size
     const double until = timing->until;
     if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until + fabs(lanes[0]->run->dt) &&
         until > lanes[0]->t0) {
-        high = fmax(high, until); /* the last step may end a little later */
+        high = fmax(high, until); /* the last step may end later */
     } else {
         gm_range_round(&low, &high, axis->scale);
     }
@@ -364,7 +365,7 @@ static double divisor_of(const struct gm_lane *lane, size_t series, bool relativ
     return gm_observe(observable, &view);
 }
 
-/* The only lane of its panel: nothing to be told from. */
+/* True if the lane has its panel alone. */
 static bool is_alone(const struct gm_lane *const *lanes, size_t count, size_t lane)
 {
     for (size_t i = 0; i < count; i++) {
@@ -375,7 +376,7 @@ static bool is_alone(const struct gm_lane *const *lanes, size_t count, size_t la
     return true;
 }
 
-/* The time of the last value that is a number, of any lane; NAN if there is none. */
+/* The time of the last finite value of any lane; NAN without one. */
 static double last_value(const struct gm_lane *const *lanes, size_t count, size_t series)
 {
     double last = NAN;
@@ -389,7 +390,7 @@ static double last_value(const struct gm_lane *const *lanes, size_t count, size_
     return last;
 }
 
-/* The panel's time axis; where it ends before the run does the title says so. */
+/* Sets the panel's time axis; the title reports an axis that ends before the run. */
 static void set_time_axis(struct gm_picture *picture, struct gm_panel *panel,
                           const struct gm_lane *const *lanes, size_t count, size_t series,
                           const struct gm_graph *graph)
@@ -412,7 +413,7 @@ static void set_time_axis(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
-/* Where lanes of several panels share colours, their dashes tell the panels apart: names the dashes. */
+/* If lanes of several panels share colours, dashes distinguish the panels: names the dashes. */
 static void name_dashes(struct gm_picture *picture, struct gm_panel *panel,
                         const struct gm_lane *const *lanes, size_t count)
 {
@@ -429,12 +430,12 @@ static void name_dashes(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
-/* A line where round-off is, if the panel's range comes near it. */
+/* Draws a line at round-off, if the panel's range comes near it. */
 static void mark_roundoff(struct gm_picture *picture, struct gm_panel *panel)
 {
     const double roundoff = 2.220446049250313e-16, high = panel->y.high;
     if (panel->y.scale == GM_LOG && panel->y.low < roundoff && high > roundoff) {
-        /* the word stands under the line, where no errors are */
+        /* the label is under the line, away from the errors */
         const double low = fmin(panel->y.low, roundoff * pow(high / roundoff, -0.16));
         panel->y.low = low;
         const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
@@ -444,8 +445,8 @@ static void mark_roundoff(struct gm_picture *picture, struct gm_panel *panel)
     }
 }
 
-/* The end of a curve's range: of what has blown up so much that one sees that it has, and all of a curve that
-   would not be seen at all. */
+/* The end of a curve's range: the usual one, which shows that a curve has blown up, or the end of a curve
+   that lies above it throughout. */
 static double most_shown(const double *points, size_t made, double usual)
 {
     double least = INFINITY, highest = usual;
@@ -458,7 +459,7 @@ static double most_shown(const double *points, size_t made, double usual)
     return least > usual && isfinite(highest) ? highest : usual;
 }
 
-/* The points of a lane's curve, t and value, as many as are returned. */
+/* Writes the points of a lane's curve, t and value. Returns their number. */
 static size_t curve_of(const struct gm_lane *lane, size_t series, const struct gm_graph *graph,
                        double *points)
 {
@@ -470,8 +471,7 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
     return made;
 }
 
-/* Gives the panel the range of all curves. True if they are 0 all along: kept to the last bit, which has no
-   logarithm. */
+/* Gives the panel the range of all curves. Returns true if all are exactly 0, which has no logarithm. */
 static bool set_value_axis(struct gm_panel *panel, const struct gm_lane *const *lanes, size_t count,
                            size_t series, const struct gm_graph *graph, double *points)
 {
@@ -556,7 +556,7 @@ void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lan
     }
 }
 
-/* The greatest values of an error, where there are too many to tell apart. */
+/* A graph of an error by its greatest values, if there are too many to distinguish. */
 static const struct gm_graph greatest = {.highest = true, .scale = GM_LOG};
 
 static void draw_lane_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bins of a history: filled, merged in pairs when they are full, looked at as they were. */
+/* Bins of a history: filled, merged in pairs when full, shown as they were. */
 #include "scenes/common/history.h"
 
 #include <stdlib.h>
@@ -73,6 +73,6 @@ void gm_history_show(struct gm_history *history, int64_t step)
     while (history->count > 0 && history->bins[(history->count - 1) * history->series].step > step) {
         history->count--;
     }
-    /* a bin is full by construction, unless it is the last one */
+    /* every bin but the last one is full */
     history->in_last = history->count == history->kept ? history->in_kept : history->per_bin;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes: opened, advanced, looked at, switched and copied, with the bounded records of their past. */
+/* Lanes: opened, advanced, observed, switched and copied, with the bounded records of their past. */
 #include "scenes/common/lane.h"
 
 #include <math.h>
@@ -39,21 +39,21 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
     };
 }
 
-/* ---- what is observed ---- */
+/* ---- observables ---- */
 
 static double initial_of(const struct gm_observable *observable, const struct gm_view *view)
 {
     return view->initials[observable - view->scene->observables];
 }
 
-/* What an error is divided by. */
+/* The divisor of an error. */
 static double divisor_of(const struct gm_observable *observable, const struct gm_view *view)
 {
     const double divisor = fmax(fabs(initial_of(observable, view)), gm_observable_scale(observable, view));
     return divisor > 0 ? divisor : 1;
 }
 
-/* A lane stands still where there was no memory to look at it. */
+/* Stops a lane if there was no memory to observe it. */
 static void settle(struct gm_lane *lane, unsigned long refusals)
 {
     if (gm_memory_refusals() != refusals) {
@@ -61,8 +61,8 @@ static void settle(struct gm_lane *lane, unsigned long refusals)
     }
 }
 
-/* What errors are errors from, once for every scheme that goes on with the lane: it may see space in its own way. Some
-   start as a difference of large terms: round-off, or little more. */
+/* Computes the start values of errors, again for each scheme that continues the lane, as it may use another
+   discretisation. Some starts are a difference of large terms: round-off, or little more. */
 static void look_at_start(struct gm_lane *lane)
 {
     const double most = 1e-8;
@@ -87,7 +87,7 @@ static void look_at_start(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
-/* `near`: where an angle was when it was last looked at */
+/* `near`: the last value of an angle */
 static double observe(const struct gm_observable *observable, const struct gm_view *view, double near)
 {
     const double value = gm_observe(observable, view);
@@ -100,7 +100,7 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
     return fabs(value - initial_of(observable, view)) / divisor_of(observable, view);
 }
 
-/* Those that are asked for are no angles. */
+/* Observables computed on request are never angles. */
 static double near_of(const struct gm_lane *lane, size_t observable)
 {
     return observable < lane->scene->observable_count ? lane->angles[observable] : 0;
@@ -128,8 +128,9 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
     return divisor_of(&lane->scene->observables[observable], &view);
 }
 
-/* The error from which on what is kept is lost: of what a symplectic scheme loses by turns a smaller one, and one more
-   where it is symplectic on two copies of phase space together, which keep nothing of either once they part. */
+/* The error above which a conserved quantity is lost. A symplectic scheme has only bounded errors, so its
+   threshold is smaller; smaller still if it is symplectic on two copies of phase space, which preserve
+   neither once they separate. */
 static double lost_above(const struct gm_scheme *scheme)
 {
     return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : GM_LOST_ABOVE;
@@ -148,7 +149,7 @@ long gm_lane_lost(const struct gm_lane *lane)
         const double initial = initial_of(observable, &view), divisor = divisor_of(observable, &view),
                      value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
-        /* against a scale above it, what was small at the start may be smaller and no less right */
+        /* a quantity that starts below its scale may become smaller without a loss */
         const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
         if ((error > lost_above(lane->scheme) || decayed) && error > most) {
             most = error;
@@ -193,7 +194,7 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
     gm_behind_note(&lane->behind, view);
 }
 
-/* An angle is unwrapped from where it was, so it has to be followed. */
+/* Follows angles: they are unwrapped from their last value. */
 static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
 {
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
@@ -216,11 +217,11 @@ bool gm_lane_stopped(const struct gm_lane *lane)
     return gm_view_stopped(&view);
 }
 
-/* Whether it has stopped: then the last step ends where that was. */
+/* Returns true if the lane has stopped, and shortens the last step to end there. */
 static bool land(struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
-    const double least = 1e-6; /* of the first step: it began on the surface, but for round-off */
+    const double least = 1e-6; /* fraction of the first step: a start on the surface, up to round-off */
     const bool stopped = gm_lane_stopped(lane);
     if (lane->scene->stop && lane->side == 0) {
         lane->side = side_of(lane->scene->stop(&view));
@@ -239,8 +240,8 @@ static bool land(struct gm_lane *lane)
     return stopped;
 }
 
-/* Takes the present state into tracks only, and follows angles: after every scene->follow steps that are not
-   recorded. Whether the lane has stopped. */
+/* Takes the current state into tracks only, and follows angles: after every scene->follow steps that are not
+   recorded. Returns true if the lane has stopped. */
 static bool follow(struct gm_lane *lane)
 {
     const unsigned long refusals = gm_memory_refusals();
@@ -253,12 +254,11 @@ static bool follow(struct gm_lane *lane)
     return stopped;
 }
 
-/* Whether steps that are not looked at may be followed many at once: nothing but the stop asks for them, and
-   they can be made again. */
+/* Returns true if many steps may be followed at once: only the stop needs them, and they can be repeated. */
 static bool follows_together(const struct gm_lane *lane)
 {
     const struct gm_family *family = lane->scheme->family;
-    if (!lane->scene->stops) { /* asked at every step that is looked at */
+    if (!lane->scene->stops) { /* the stop is tested at every recorded step */
         return false;
     }
     bool alone = lane->side != 0 && !family->adaptive && !family->memory && !family->workspace_reset;
@@ -271,8 +271,8 @@ static bool follows_together(const struct gm_lane *lane)
     return alone;
 }
 
-/* Makes so many steps; false where the lane is stopped by one of them, or one fails. There is room for the
-   states, and as many times and values. */
+/* Makes `count` steps; false if the lane stops in one of them, or a step fails. `states` has room for the
+   states, and `count` times and values. */
 static bool make_together(struct gm_lane *lane, size_t count, double *states)
 {
     struct gm_run *run = lane->run;
@@ -297,8 +297,8 @@ static bool make_together(struct gm_lane *lane, size_t count, double *states)
     return !stopped;
 }
 
-/* Makes steps as far as the lane is not stopped by the next ones, which are followed one by one then: to look
-   at each takes longer than a short step. */
+/* Makes blocks of steps until a block contains the stop, whose steps are then followed one by one: to test
+   each step takes longer than a short step. */
 static void follow_together(struct gm_lane *lane, int64_t steps)
 {
     enum { TOGETHER = 64 };
@@ -311,7 +311,7 @@ static void follow_together(struct gm_lane *lane, int64_t steps)
         gm_run_save(run, before);
         goes_on = make_together(lane, TOGETHER, states);
         if (!goes_on) {
-            gm_run_load(run, before); /* which is of this run */
+            gm_run_load(run, before); /* cannot fail: a snapshot of this run */
         }
     }
     free(states);
@@ -324,10 +324,10 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     if (lane->scene->follow == 0 || lane->unfollowed) {
         return gm_run_to(lane->run, steps, until);
     }
-    /* steps that the scheme chooses may each be as long as many */
+    /* one adaptive step may be as long as many others */
     const int64_t most = lane->scheme->family->adaptive ? 1 : lane->scene->follow;
     bool stopped = gm_lane_stopped(lane);
-    if (lane->followed > lane->run->steps) { /* it was set back */
+    if (lane->followed > lane->run->steps) { /* the lane was set back */
         lane->followed = lane->run->steps;
     }
     if (!stopped && follows_together(lane)) {
@@ -343,7 +343,7 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     return lane->run->status;
 }
 
-/* How many of the observables that are asked for its picture shows. */
+/* The number of observables on request that the picture shows. */
 static size_t asked_shown(const struct gm_lane *lane)
 {
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
@@ -406,10 +406,10 @@ void gm_lane_record(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
-/* ---- how it is called, also after schemes were switched in flight ---- */
+/* ---- names of a lane, also after switches of its scheme ---- */
 
-/* Of a name "RK4, Δt = 0.1": the part that begins so, and ends with it or, for a parameter, before the next
-   comma; NULL if it has none. */
+/* The part of a name "RK4, Δt = 0.1" that equals `front`, or for a parameter begins with it and ends before
+   the next comma; NULL without one. */
 static const char *part_of(const char *name, const char *front, bool parameter, size_t *length)
 {
     const size_t known = strlen(front);
@@ -440,7 +440,7 @@ void gm_shown_rename(struct gm_shown *shown, const char *before, const char *aft
     }
 }
 
-/* "name, then Verlet, then RK4"; of many switches the last two. */
+/* "name, then Verlet, then RK4"; the last two of many switches. */
 static void add_switches(const struct gm_lane *lane, char *name, size_t size)
 {
     size_t used = strlen(name);
@@ -451,7 +451,7 @@ static void add_switches(const struct gm_lane *lane, char *name, size_t size)
     }
 }
 
-/* The names as they are to be shown now. */
+/* Composes the names that are shown now. */
 static void compose(struct gm_lane *lane)
 {
     struct gm_shown *shown = &lane->shown;
@@ -489,7 +489,7 @@ static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
         lane->switch_count--;
     }
     const size_t count = lane->switch_count;
-    if (step == 0) { /* nothing was made by the one before */
+    if (step == 0) { /* the scheme before has made no step */
         gm_shown_rename(&lane->named, lane->first_scheme->title, scheme->title, false);
         lane->first_scheme = scheme;
     } else if (scheme != (count > 0 ? longer[count - 1].scheme : lane->first_scheme)) {
@@ -595,7 +595,7 @@ static void *copy_of(const void *source, size_t size)
     return copy;
 }
 
-/* A lane up to its run, from a start (t0, y), or from the scene's own start where y is NULL. */
+/* Opens a lane up to its run, at the start of its scene. */
 static bool prepare(struct gm_lane *lane, char *sentence)
 {
     const struct gm_scene *scene = lane->scene;
@@ -666,7 +666,7 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
         gm_lane_record(lane);
     }
     if (gm_memory_refusals() != refusals) {
-        /* whatever was made of it: a start or an observable cannot say so, a search for a mesh found none */
+        /* some failures go unreported: a start, an observable, or a search for a mesh */
         good = gm_refuse(sentence, "not enough memory");
     }
     if (!good) {
@@ -703,7 +703,7 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
     if (!forwards) {
         return NULL;
     }
-    forwards->dt = fabs(forwards->dt); /* the start is one of a run that goes forwards */
+    forwards->dt = fabs(forwards->dt); /* a start belongs to a forward run */
     struct gm_lane *other = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
     free(forwards);
     if (!other || !copy_switches(other, lane)) {
@@ -734,7 +734,7 @@ void gm_lane_save(const struct gm_lane *lane, void *snapshot)
 
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
 {
-    /* a snapshot from before a switch: its scheme's memory has another shape */
+    /* the memory of another scheme has another shape */
     const struct gm_run *then = snapshot;
     if (then->scheme != lane->run->scheme) {
         struct gm_run *run = gm_run_switch(lane->run, then->scheme);

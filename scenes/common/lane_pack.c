@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A lane as bytes, for checkpoints and copies. What comes from a file is believed only if a lane can be
-   so. */
+/* A lane as bytes, for checkpoints and copies. Bytes of a file are accepted only if a lane can have them. */
 #include "scenes/common/lane_pack.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
-   agree. */
+/* One walk over the changing state of a lane measures, packs and unpacks it, so that all three agree. */
 
 enum direction { MEASURE, PACK, UNPACK };
 
@@ -35,7 +33,7 @@ static void pass(struct walk *walk, void *data, size_t size)
     walk->used += size;
 }
 
-/* A count that says how much follows; `bound` is the room for it. */
+/* Passes the number of elements that follow; `bound` is the room for them. */
 static void pass_count(struct walk *walk, size_t *count, size_t bound)
 {
     size_t value = *count;
@@ -66,7 +64,7 @@ static void pass_run(struct walk *walk, struct gm_run *run)
     walk->used += size;
 }
 
-/* Steps of a record, in order, none after the run's; `stride` lies between one and the next. */
+/* True if the steps of a record ascend and none exceeds `last`; `stride` is in bytes. */
 static bool are_steps(const int64_t *steps, size_t count, size_t stride, int64_t last)
 {
     int64_t before = 0;
@@ -80,7 +78,7 @@ static bool are_steps(const int64_t *steps, size_t count, size_t stride, int64_t
     return true;
 }
 
-/* Numbers that are doubled, or counted on, and must not overflow. */
+/* True if a number can be doubled or counted up without overflow. */
 static bool can_grow(int64_t number)
 {
     return number >= 0 && number <= INT64_MAX / 4;
@@ -140,7 +138,7 @@ static void walk_lane(struct walk *walk, struct gm_lane *lane)
 size_t gm_lane_pack_size(const struct gm_lane *lane)
 {
     struct walk walk = {.direction = MEASURE};
-    walk_lane(&walk, (struct gm_lane *)lane); /* only looked at */
+    walk_lane(&walk, (struct gm_lane *)lane); /* measuring does not change it */
     return walk.used;
 }
 

@@ -4,19 +4,19 @@
 
 #include "scenes/common/lane.h"
 
-/* All that a lane becomes in time, as a block of bytes: the run's state, history and tracks. The parameters
-   and the scheme are not among it; whoever unpacks has opened a lane with the same. */
+/* The changing state of a lane as a block of bytes: the run's state, history and tracks. Parameters and
+   scheme are not included: it is unpacked into a lane opened with the same. */
 
 size_t gm_lane_pack_size(const struct gm_lane *lane);
 
-/* Into gm_lane_pack_size bytes, which the same build of the program understands. */
+/* Writes gm_lane_pack_size bytes, in a format of this build of the program. */
 void gm_lane_pack(const struct gm_lane *lane, void *bytes);
 
-/* Into a lane of the same scene, parameters, settings and scheme, from at most *size bytes, of which *size is
-   then what it took. False if they are not of such a lane, which is then no good any more. */
+/* Reads a lane of the same scene, parameters, settings and scheme from at most *size bytes; sets *size to the
+   bytes read. Returns false if they are not from such a lane, which must then be closed. */
 bool gm_lane_unpack(struct gm_lane *lane, const void *bytes, size_t *size);
 
-/* A copy with its own past: a fork. NULL if memory is short. */
+/* Returns a copy with its own past, a fork; NULL when out of memory. */
 struct gm_lane *gm_lane_copy(const struct gm_lane *lane);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the documents say of their figures, as numbers. Bounds are the document's own where it gives a number.
-   Where it gives a word, the word means the same throughout, and its bound is a part of a size with a name: a
-   number "grows" whose largest value in the second half of the time is at least a tenth larger than in the
-   first, and is "bounded" where it is not; "round-off" is at most 1e-13; "close", "the same" and "very similar"
-   are within 5 % of the solution's own size, or of the number compared with; "much smaller" is at most a tenth;
-   what is at most 1 % is not seen; "about" is up to twice as much. */
+/* Statements of documents on their figures, as numbers. Bounds are the document's own if it gives a number. A
+   word means the same throughout, and its bound is a part of a named size: a number "grows" if its largest
+   value in the second half of the time is at least a tenth above that in the first, else it is "bounded";
+   "round-off" is at most 1e-13; "close", "the same" and "very similar" are within 5 % of the solution's size,
+   or of the number compared with; "much smaller" is at most a tenth; at most 1 % is not seen; "about" is up
+   to twice as much. */
 #include "scenes/common/published.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 #define BOUNDED .measure = GM_GROWTH, AT_MOST(1.1)
 #define ROUND_OFF .measure = GM_MAXIMUM, AT_MOST(1e-13)
 #define BELOW_MACHINE_PRECISION .measure = GM_MAXIMUM, AT_MOST(0x1p-52)
-/* Parts of a size. */
+/* Parts of a size */
 #define CLOSE 0.05
 #define SEEN 0.01
 #define MUCH_SMALLER AT_MOST(0.1)
@@ -39,7 +39,7 @@ static const struct gm_figure_scale shock = {"the solution's size", .observable 
 static const struct gm_figure_scale temperatures = {"the range of θ", .size = 20};
 static const struct gm_figure_scale amplitude = {"the amplitude", .size = 1};
 
-/* What is said of Figure 24, */
+/* Statements on Figure 24 */
 #define OSCILLATES .observable = "overshoot", .measure = GM_MAXIMUM, .scale = &front, BETWEEN(SEEN, 1)
 #define MOVING_FRAME                                                                                         \
     {"FTCS blows up when λ = 1, before t = 1", .lanes = "scheme=ftcs lambda=1", .measure = GM_LASTS,         \
@@ -51,7 +51,7 @@ static const struct gm_figure_scale amplitude = {"the amplitude", .size = 1};
             .lanes = "scheme=crank-nicolson lambda=1", .against = "scheme=crank-nicolson lambda=0.5",        \
             .observable = "sup_error", .measure = GM_AT_END, AT_LEAST(1)                                     \
     }
-/* and of Figure 25 */
+/* Statements on Figure 25 */
 #define IS_CALM .observable = "overshoot", .measure = GM_MAXIMUM, .scale = &front, AT_MOST(SEEN)
 #define IS_INVARIANT                                                                                         \
     .observable = "galilean_defect", .measure = GM_MAXIMUM, .open = "offset", .scale = &front, AT_MOST(CLOSE)

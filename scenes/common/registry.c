@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is looked up in a scene by its key. */
+/* The items of a scene, by their keys. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,7 +60,7 @@ void *gm_scene_defaults(const struct gm_scene *scene)
         }
         gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
     }
-    if (gm_memory_refusals() != refusals) { /* a default that could not be read is another number */
+    if (gm_memory_refusals() != refusals) { /* an unreadable default is another number */
         free(parameters);
         return NULL;
     }

@@ -6,10 +6,10 @@
 #include "core/parameter.h"
 
 /* The rows of a scene's tables. A row ends with a text (the help of a parameter, the title of an observable),
-   behind which further fields of its struct may be set: GM_REAL_ROW(struct disc, radius, "radius", "0.2",
-   1e-6, 100, "radius of the disc", .logarithmic = true). */
+   and further fields of its struct may follow: GM_REAL_ROW(struct disc, radius, "radius", "0.2", 1e-6, 100,
+   "radius of the disc", .logarithmic = true). */
 
-/* Parameters: `member` of the scene's own struct `own`, of the type that enum gm_type tells. */
+/* Parameters: `member` of the scene's own struct `own`, of a type of enum gm_type. */
 #define GM_ROW(own, member, key_, type_, standard_, ...)                                                     \
     .key = key_, .unit = "", .type = type_, .offset = offsetof(own, member), .standard = standard_,          \
     .help = __VA_ARGS__
@@ -34,7 +34,7 @@
         GM_ROW(own, member, key, GM_TEXT, standard, __VA_ARGS__)                                             \
     }
 
-/* The two that every scene has. */
+/* The two parameters of every scene. */
 #define GM_DT(standard, low, high)                                                                           \
     GM_REAL_ROW(struct gm_timing, dt, "dt", standard, low, high, "time step", .logarithmic = true,           \
                 .live = true)
@@ -42,8 +42,8 @@
     GM_REAL_ROW(struct gm_timing, until, "until", standard, 0, GM_NEVER,                                     \
                 "time at which run and render stop", .logarithmic = true, .live = true)
 
-/* Observables: what `evaluate` tells; the same on a log axis; the error of what the exact motion keeps, which
-   formulas call `symbol`. */
+/* Observables: the value of `evaluate`; the same on a log axis; the error of a conserved quantity, whose
+   symbol in formulas is `symbol`. */
 #define GM_OBSERVABLE(key_, evaluate_, ...)                                                                  \
     {                                                                                                        \
         .key = key_, .unit = "", .evaluate = evaluate_, .title = __VA_ARGS__                                 \

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stands in space, as marks of a plane: lines that are cut where they go behind a surface or further away,
-   discs by their depth, ellipsoids with their circles, a box or axes that tell where one looks from. */
+/* Objects in space as marks of a plane: lines cut where they pass behind a surface or change depth, discs by
+   their depth, ellipsoids with their circles, a box or axes that show the direction of view. */
 #include "scenes/common/space.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A line is cut into so many kinds of depth and age. */
+/* Numbers of classes of depth and age of a line, of pieces of a segment, of pieces of a circle. */
 enum { DEPTHS = 6, AGES = 16, PIECES = 32, CIRCLE = 96 };
 
-/* What is left of the strength of a line behind a surface; and of a body, which has to be found. */
+/* Factors of the opacity behind a surface, of a line and of a body, which must stay visible. */
 static const double behind = 0.4, veiled = 0.75;
 
-/* What is farthest has this part of the strength and of the width of what is nearest. */
+/* Factors of the opacity and of the width at the back of the box. */
 static const double palest = 0.45, thinnest = 0.6;
 
-/* A body is as strong as it is, unless it is hidden; that it is far away its size tells. */
+/* A body keeps its opacity unless it is hidden; only its size shows the distance. */
 static struct gm_style at_depth(struct gm_style style, double nearness, bool hidden, bool body)
 {
     style.alpha *= body ? (hidden ? veiled : 1) : (palest + (1 - palest) * nearness) * (hidden ? behind : 1);
@@ -24,7 +24,7 @@ static struct gm_style at_depth(struct gm_style style, double nearness, bool hid
     return style;
 }
 
-/* What a piece between two points looks like: pieces of one kind are one line. */
+/* The class of a piece between two points: adjacent pieces of one class are one line. */
 static int kind_of(const struct gm_space *space, const double *points, size_t i, const bool *hidden,
                    size_t count, bool fades)
 {
@@ -104,7 +104,7 @@ void gm_space_points(struct gm_picture *picture, struct gm_panel *panel, const s
     if (shown > 0) {
         qsort(discs, shown, sizeof *discs, by_depth);
     }
-    for (size_t first = 0, last; first < shown; first = last) { /* those that look alike are one mark */
+    for (size_t first = 0, last; first < shown; first = last) { /* equal discs are one mark */
         struct gm_style kind = {0};
         for (last = first; last < shown; last++) {
             const double nearness =
@@ -123,7 +123,7 @@ void gm_space_points(struct gm_picture *picture, struct gm_panel *panel, const s
 
 /* ---- surfaces ---- */
 
-/* A circle of the unit sphere, of that latitude about an axis, as it is on the ellipsoid. */
+/* Draws a circle of the unit sphere, at a latitude about an axis, mapped to the ellipsoid. */
 static void draw_circle(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                         struct gm_stroke_in_space stroke, const double across[3], const double along[3],
                         const double centre[3])
@@ -138,8 +138,8 @@ static void draw_circle(struct gm_picture *picture, struct gm_panel *panel, cons
     gm_space_line(picture, panel, space, stroke, points, CIRCLE + 1);
 }
 
-/* The outline of an ellipsoid: where the line of sight only touches it, x.d = 0 in units of the half axes. Its
-   points stand a little before it, so that it does not hide them. */
+/* Draws the outline of an ellipsoid, on which the line of sight is tangent: x.d = 0 in units of the half
+   axes. Its points are slightly in front, so that the ellipsoid does not hide them. */
 static void draw_outline(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                          const struct gm_ellipsoid *surface, struct gm_style style)
 {
@@ -170,7 +170,7 @@ static void draw_outline(struct gm_picture *picture, struct gm_panel *panel, con
                   CIRCLE + 1);
 }
 
-/* Every 30 degrees of latitude and longitude. */
+/* Draws circles every 30 degrees of latitude and longitude. */
 static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                       const struct gm_ellipsoid *surface, struct gm_style style)
 {
@@ -188,9 +188,9 @@ static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-/* Where two ellipsoids meet the squares u = (x^2, y^2, z^2) solve u.f = 1 and u.g = 1, f and g the squares of
-   1 / half axes: a line u = p + s q, q = f x g, as far as all squares are positive. In each octant it is a piece
-   of the curve, whose ends the cosine of an angle finds evenly. */
+/* Draws the intersection of two ellipsoids. The squares u = (x^2, y^2, z^2) solve u.f = 1 and u.g = 1, f and
+   g the squares of 1 / half axes: a line u = p + s q, q = f x g, while all squares are positive. Each octant
+   has a piece of the curve; the cosine of an angle spaces its points evenly at the ends. */
 static void draw_meeting(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                          struct gm_style style)
 {
@@ -207,7 +207,7 @@ static void draw_meeting(struct gm_picture *picture, struct gm_panel *panel, con
         main = fabs(q[k]) > fabs(q[main]) ? k : main;
     }
     if (!(fabs(q[main]) > 1e-9 * f[0] * g[0])) {
-        return; /* they are alike: everywhere or nowhere */
+        return; /* similar ellipsoids meet everywhere or nowhere */
     }
     const size_t i = (main + 1) % 3, j = (main + 2) % 3;
     p[i] = (g[j] - f[j]) / q[main];
@@ -243,7 +243,7 @@ void gm_space_draw_surfaces(struct gm_picture *picture, struct gm_panel *panel, 
     }
 }
 
-/* ---- where one looks from ---- */
+/* ---- axes and box ---- */
 
 static const struct gm_style frame_style = {GM_SECONDARY, 0.7, 1.1, GM_SOLID};
 
@@ -276,7 +276,7 @@ void gm_space_draw_axes(struct gm_picture *picture, struct gm_panel *panel, cons
     }
 }
 
-/* A corner of the box: bit k of `which` says whether its coordinate k is high. */
+/* A corner of the box: bit k of `which` is set if its coordinate k is high. */
 static void corner(const struct gm_space *space, int which, double point[3])
 {
     for (size_t k = 0; k < 3; k++) {
@@ -284,7 +284,7 @@ static void corner(const struct gm_space *space, int which, double point[3])
     }
 }
 
-/* Of the two edges along k of the box's outline the lower, of upright ones the left: where its name stands. */
+/* The edge along k with the name: the lower of two outline edges, the left one if they are upright. */
 static int named_edge(const struct gm_space *space, int nearest, size_t k)
 {
     int chosen = -1;
@@ -302,7 +302,7 @@ static int named_edge(const struct gm_space *space, int nearest, size_t k)
     return chosen;
 }
 
-/* Names and ends of an edge stand outside of the box, at the side where it is seen. */
+/* Writes the name or the ends of an edge, outside of the box. */
 static void name_edge(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                       int which, size_t k, const char *name, bool numbers)
 {
@@ -349,7 +349,7 @@ void gm_space_draw_box(struct gm_picture *picture, struct gm_panel *panel, const
             }
         }
     }
-    for (int numbers = 0; numbers < 2; numbers++) { /* names come first where there is little room */
+    for (int numbers = 0; numbers < 2; numbers++) { /* names have priority if there is little room */
         for (size_t k = 0; k < 3; k++) {
             const int edge = space->high[k] > space->low[k] ? named_edge(space, nearest, k) : -1;
             if (edge >= 0) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Names as pictures write them (symbol.h). */
+/* Names as written in pictures (symbol.h). */
 #include "scenes/common/symbol.h"
 
 #include <string.h>

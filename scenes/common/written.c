@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What scenes that are made of somebody's own text have in common. */
+/* Common parts of scenes made from a user's text. */
 #include "scenes/common/written.h"
 
 #include <math.h>
@@ -32,7 +32,7 @@ const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char
 struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_system_variable *variable,
                                    double value, const char *usual, size_t offset)
 {
-    const double most = 1e300; /* sliders find their usual size themselves */
+    const double most = 1e300; /* sliders find a range of their own */
     const bool ranged = !isnan(variable->low);
     return (struct gm_parameter){
         .key = variable->name,
