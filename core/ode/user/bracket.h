@@ -13,15 +13,15 @@ struct gm_user_piece {
     struct gm_sparse slopes; /* d rates[row] / d y of the others; of what rests alone */
 };
 
-/* What follows from it once. */
+/* The formulas of a bracket, derived once for all values of the parameters. */
 struct gm_user_bracket_model {
     const struct gm_user_system *system;
-    gm_node_id *gradient; /* dH/dy, n; NULL: it is no Poisson system, or holds the time */
-    double turning;       /* and so on as in struct gm_poisson */
+    gm_node_id *gradient; /* dH/dy, n; NULL: not a Poisson system, or H holds the time */
+    double turning;       /* turning, spins and axes are the fields of struct gm_poisson */
     size_t spins;
     bool axes;
     struct gm_user_piece *pieces;
-    size_t piece_count; /* 0: the energy does not fall into such pieces */
+    size_t piece_count; /* 0: the energy does not split into such pieces */
 };
 /* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
    below. */

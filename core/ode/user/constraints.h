@@ -6,13 +6,13 @@
 #include "core/model/system.h"
 #include "core/tape.h"
 
-/* What follows from them once. */
+/* The formulas of the constraints, derived once for all values of the parameters. */
 struct gm_user_constraints_model {
     const struct gm_formula *graph;
     size_t half, count;
     gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
     struct gm_sparse slopes; /* dg[row] / dq */
-    struct gm_sparse second; /* of the slopes: row is one of their entries */
+    struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
 };
 /* The graph of the system grows; without constraints `count` is 0. What it is made of lies in the arena, whose body is
    left where memory is short; so it is below. */

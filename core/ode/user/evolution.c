@@ -21,10 +21,10 @@
 
 enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };
 
-/* What a call works in. */
+/* The scratch of one call. */
 struct room {
     struct gm_modes modes;
-    double *inputs;                 /* of the tapes, [input * points + node] */
+    double *inputs;                 /* the tapes' inputs, [input * points + node] */
     double *state, *rates;          /* fields * points: of one member */
     double complex *waves, *slopes; /* likewise */
 };
@@ -40,7 +40,7 @@ struct own {
     size_t fields, inputs;
     const char *names; /* "u[] v[]" */
     bool massive;
-    /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
+    /* the sign of each field's mirror image between walls: 1 or -1; all 0: the rates are not symmetric */
     double mirrored[GM_MOST_FIELDS];
     bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
     struct gm_tape rates, rests, *densities;
@@ -217,7 +217,7 @@ static void give_back(struct own *self, struct room *room)
 
 /* ---- derivatives ---- */
 
-/* What the derivative of that order multiplies the wave by. */
+/* Returns the factor of a wave under a derivative of this order. */
 static double complex factor_of(const struct own *self, size_t order, size_t mode)
 {
     const double points = (double)self->line.points, dx = self->line.dx,
@@ -391,7 +391,7 @@ static void make_symbols(struct own *self, const double *values)
     }
 }
 
-/* Whether a mirrored field, of those signs, has the mirrored rate, at places that are as good as any. */
+/* Returns true if a mirrored field, with those signs, has the mirrored rate, at 5 generic states. */
 static bool is_mirrored(const struct own *self, const double *signs)
 {
     enum { TRIALS = 5 };
@@ -419,7 +419,7 @@ static bool is_mirrored(const struct own *self, const double *signs)
     return true;
 }
 
-/* Of each field the sign of its mirror image: 1 of the first where it can be, then of the second .. */
+/* Finds the sign of each field's mirror image; the first fields are 1 if they can be. */
 static void find_mirror(struct own *self)
 {
     for (size_t odd = 0; odd < (size_t)1 << self->fields; odd++) {
@@ -434,7 +434,7 @@ static void find_mirror(struct own *self)
     }
 }
 
-/* Which derivatives the rates and densities hold. */
+/* Marks the derivatives that the rates and densities hold. */
 static void find_needed(struct own *self)
 {
     const struct gm_user_evolution *evolution = self->evolution;

@@ -11,8 +11,8 @@
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 
-/* Its formulas, of its system's graph. Their variables are anew: field i's derivative k of n fields is number
-   k n + i, then come x and t, then the parameters. */
+/* The formulas of the rates, in the graph of the system. They have new variables: derivative k of field i of
+   n fields is number k n + i, then come x and t, then the parameters. */
 struct gm_user_evolution {
     const struct gm_user_system *system;
     gm_node_id rates[GM_MOST_FIELDS]; /* R = line + rest, */
@@ -21,11 +21,10 @@ struct gm_user_evolution {
     gm_node_id linear[GM_MOST_FIELDS]; /* the lines, in the system's own variables */
     gm_node_id masses[GM_MOST_FIELDS]; /* M u */
     struct gm_line_formulas formulas;
-    gm_node_id *densities; /* of the items that are invariants or observed, in their order */
+    gm_node_id *densities; /* one of each invariant or observed item, in their order */
     size_t density_count;
-    gm_node_id
-        kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
-    size_t kinked; /* in which */
+    gm_node_id kink; /* the term of a rate, in fields and derivatives, that is not smooth; GM_NO_NODE: none */
+    size_t kinked;   /* the number of that rate */
     struct gm_arena *arena;
 };
 
@@ -39,9 +38,9 @@ bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evo
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space);
 void gm_user_evolution_shut(struct gm_problem *problem);
 
-/* Whether there are a start that is finite and closes on the ring, as fields of core/field/user/potential.h
-   do, or rates that are the same in the mirror where there are walls, each field or its negative, and rates that
-   are finite there, and masses that vanish for no wave. A sentence if not. */
+/* Returns true if the start is finite and closes (as fields of core/field/user/potential.h do), the rates are
+   finite there, and no wave's mass vanishes; with walls each field or its negative must have the mirrored
+   rate. Otherwise fills the sentence. */
 bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
 /* The state at t = 0. */

@@ -28,7 +28,7 @@ static const struct {
     [GM_KERNEL_POTENTIAL] = {"K(potential)", "const double *y, double *f", false, true},
 };
 
-/* Of an operation: what stands before, between and behind its operands. */
+/* Writes the text before, between and after an operation's operands. */
 static bool spell(enum gm_operation operation, const char *words[3])
 {
     static const char *const others[GM_OPERATIONS] = {
@@ -127,7 +127,7 @@ static bool put_statement(struct writing *writing, uint32_t operation, uint32_t 
     return true;
 }
 
-/* Operations that are repeated stand one by one. */
+/* Writes repeated operations one by one. */
 static bool put_code(struct writing *writing)
 {
     struct gm_tape_place at = {0};
@@ -150,7 +150,7 @@ static size_t statements_of(const struct gm_tape *tape)
     return count;
 }
 
-/* What a function's constants and parameters are called. */
+/* Names a function's constants and parameters. */
 static void put_constants(FILE *out, const struct gm_kernel_source *source, enum gm_kernel_function which)
 {
     const struct gm_tape *tape = source->tapes[which];
@@ -203,7 +203,7 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
     return good;
 }
 
-/* What loops and the program hand each other is laid out alike, or it does not compile. */
+/* Compilation fails if structs that loops and program share differ in layout. */
 static void put_layout(FILE *out)
 {
 #define GM_LAID_OUT(type)                                                                                    \
@@ -225,7 +225,7 @@ static void put_layout(FILE *out)
     }
 }
 
-/* Whether code reads one of the inputs [first, last). */
+/* Returns true if the tape reads one of the inputs [first, last). */
 static bool reads(const struct gm_tape *tape, size_t first, size_t last)
 {
     struct gm_tape_place at = {0};

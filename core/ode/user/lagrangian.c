@@ -144,8 +144,8 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
     return true;
 }
 
-/* The velocities of member l of m; transform->at is that state with them. They begin at 0, so that every
-   state has one field. Not finite: there are none. */
+/* Solves for the velocities of member l of m; transform->at is that state with them. They start at 0, so that
+   every state has one field, and are not finite if the solver fails. */
 static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
 {
     const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
@@ -169,8 +169,8 @@ static void find_velocities(struct transform *transform, const double *y, size_t
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
 }
 
-/* The m states with velocities in place of the momenta, or with 0; malloc'ed. NULL where memory is short: then the
-   `count` numbers that were to come of them are none. */
+/* Returns a copy of the m states whose momenta are replaced by velocities, or by 0 if `found` is false. The
+   caller frees it; NULL when out of memory, and the `count` numbers are then NaN. */
 static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
                              bool found, double *numbers, size_t count)
 {

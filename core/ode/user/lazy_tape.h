@@ -8,7 +8,8 @@
 
 #include "core/tape.h"
 
-/* Of `count` nodes, as gm_tape_open takes them; graph, nodes and values outlive it, and do not change. */
+/* A tape of `count` nodes, the arguments of gm_tape_open; graph, nodes and values outlive it, and do not
+   change. */
 struct gm_late_tape {
     const struct gm_formula *graph;
     const gm_node_id *nodes;
@@ -19,7 +20,7 @@ struct gm_late_tape {
 
 /* The tape, made by whichever thread asks first. NULL: out of memory. */
 const struct gm_tape *gm_late_tape(struct gm_late_tape *late);
-/* As gm_tape_values and gm_tape_block; NaN where memory is short. */
+/* The counterparts of gm_tape_values and gm_tape_block; NaN when out of memory. */
 void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m);
 void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t inputs_apart, double *outputs,
                         size_t outputs_apart, size_t m);
