@@ -5,13 +5,13 @@
        GM_STEP      name of its step, which returns the lanes that were solved:
                         mask step(const GM_ROW *, struct block *, double h, const void *parameters,
                                   bool compensated, bool stiff, struct counts *)
-       GM_ABREAST   so many blocks make their steps side by side: their chains of operations do not wait for
-                    each other
-       GM_PRIME     where there is one, what a block is told before its first step:
+       GM_ABREAST   number of blocks that make their steps side by side, so that their chains of operations
+                    do not wait for each other
+       GM_PRIME     optional: the preparation of a block before its first step:
                         void prime(struct block *, const void *parameters, struct counts *)
-       GM_QUICK     defined where a step is short: few steps of an ensemble have a way of their own
-   Each block makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the
-   burst is made again step by step, so the step that failed is found exactly, whoever called how often. */
+       GM_QUICK     defined if a step is short: few steps of an ensemble then have their own function
+   Each block makes all steps in registers. Failures are tested every GM_BURST steps only; then the burst is
+   repeated step by step, so the step that failed is found exactly, however the calls divide the run. */
 
 #ifndef GM_PRIME
 #define GM_PRIME(block, parameters, counts)

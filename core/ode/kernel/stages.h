@@ -18,8 +18,8 @@ struct gm_stages {
     double h;
     const double *y;
     const double (*a)[GM_TABLEAU_STAGES], *b;
-    const double (*c)[GM_TABLEAU_STAGES], *d; /* of components from n / 2 on, in place of a and b */
-    /* f at the state of stage j, and its Jacobian by rows unless that is NULL; false where there is none */
+    const double (*c)[GM_TABLEAU_STAGES], *d; /* c and d replace a and b for components from n / 2 on */
+    /* writes f at the state of stage j, and its Jacobian by rows unless that is NULL; false: not defined */
     bool (*slope)(void *data, size_t j, const double *state, double *f, double *jacobian);
     void *data;
     double *f, *state, *jacobian; /* scratch: count * n, n and n * n */
@@ -117,7 +117,8 @@ static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLE
     return gm_eliminate(stages, matrix, weights) && gm_sum_of(weights, stages) < 0x1p10;
 }
 
-/* increment := h sum b_i f_i, where it can be made of z, which Newton's method has found; NULL: of f alone. */
+/* increment := h sum b_i f_i; if z, from Newton's method, is not NULL, it is made of z when the weights
+   allow. */
 static inline void gm_stages_increment(const struct gm_stages *stages, const double *z, double *increment)
 {
     const size_t n = stages->n;
