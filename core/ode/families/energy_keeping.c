@@ -8,7 +8,7 @@
    D.I. McLaren, J. Phys. A 41 (2008) 045206; O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
    The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15. Both are solved for d
-   to round-off by fixed-point iteration, and where that does not contract by Newton's method with the
+   to round-off by fixed-point iteration, and if that does not contract by Newton's method with the
    Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
 #include <math.h>
 #include <stdlib.h>

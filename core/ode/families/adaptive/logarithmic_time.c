@@ -2,14 +2,14 @@
 /* The logarithmic Hamiltonian, for attractions: H = T(p) + V(q), V < 0, B = -H at the start. In the phase
    space extended by t and its momentum B the motion of
        ln(T(p) + B) - ln(-V(q)),
-   where it is 0, is that of H in a fictitious time s, dt = ds / (-V): the deeper the potential, the shorter the
-   steps. Both its parts have exact flows,
+   where its value is 0, is that of H in a fictitious time s, dt = ds / (-V): the deeper the potential, the
+   shorter the steps. Both its parts have exact flows,
        drift   d = ds / (T(p) + B),   q += d dT/dp,   t += d
        kick    p += ds F(q) / (-V(q)),   F = -grad V
    so that half a drift, a kick and half a drift are explicit, symmetric and, in the extended phase space,
    symplectic; and so are their compositions with themselves, for which the s are the times. In Kepler's
-   problem every point lies on the exact orbit, and only the time errs. The run's dt is ds; the memory is B and
-   what the sum of times carries over.
+   problem every point lies on the exact orbit, and only the time has an error. The run's dt is ds; the memory
+   is B and the compensation of the sum of times.
 
    S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
    (1999) 2532. */
@@ -110,7 +110,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static enum gm_status start(const struct gm_task *task)
 {
-    /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
+    /* a reversed run has its B, and so comes back; a new run's B is still zero */
     double *binding = &task->memory_out[BINDING];
     *binding = *binding != 0 ? *binding : -gm_energy(task->problem, task->y);
     const struct gm_members *members = task->workspace;

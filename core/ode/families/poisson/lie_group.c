@@ -22,7 +22,7 @@
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
 
-enum { STAGES = 5, VECTORS = 7 /* of scratch */ };
+enum { STAGES = 5, VECTORS = 7 /* vectors of scratch */ };
 
 struct crouch_grossman {
     int stages; /* 0: Munthe-Kaas */

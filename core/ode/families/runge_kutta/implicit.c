@@ -2,10 +2,10 @@
 /* Implicit Runge-Kutta methods, for the increments z_i of the stages:
        z_i = h sum_j a_ij f(y0 + z_j)
        y1  = y0 + h sum_i b_i f(y0 + z_i)
-   solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
-   Newton's method; of fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method is
-   symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration
-   (2006), sections II.1, VI.4, VIII.6. */
+   solved to round-off by fixed-point iteration, and if that does not contract, or the problem is stiff, by
+   Newton's method; for fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method
+   is symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical
+   Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/runge_kutta/implicit.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ struct stage_scratch {
     double *going, *solved; /* members: 1 or 0; solved is 2 by Newton's method */
 };
 
-enum { OVER_MEMBERS = 9 }; /* of these arrays */
+enum { OVER_MEMBERS = 9 }; /* number of arrays of the length `members` */
 
 static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, size_t members)
 {
@@ -101,8 +101,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-/* Components [from, to) of the increments, z := h a f, of the members that go on, and the sum of the changes:
-   a sum, because it hands a NaN on where a maximum may lose it. */
+/* Updates components [from, to) of the increments, z := h a f, of the members that still iterate, and the sum
+   of the changes: a sum passes a NaN on, a maximum may lose it. */
 GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, size_t members, size_t from,
                        size_t to, const struct stage_scratch *s, double *change)
 {
@@ -124,7 +124,7 @@ GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, si
     }
 }
 
-/* Components [from, to) of the slope of stage i, of the members that go on. */
+/* Copies components [from, to) of the slope of stage i, of the members that still iterate. */
 GM_OF_TILE void take(const struct stage_scratch *s, size_t n, size_t members, size_t i, size_t from,
                      size_t to)
 {
@@ -274,7 +274,7 @@ static void block_slopes(const struct gm_problem *problem, const double *states,
     }
 }
 
-/* Where the active components are at the stages. */
+/* The states of the active components at the stages. */
 struct carriers {
     const struct gm_problem *problem;
     const double *states;
@@ -325,8 +325,8 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
     return solved;
 }
 
-/* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.
-   Those without a solution get NaN for slopes. */
+/* Solves for the particles of a block. Each freezes once it is solved, so that its bits do not depend on its
+   neighbours. Particles without a solution get NaN for slopes. */
 static void solve_block(const struct gm_problem *problem, const double *states,
                         const struct gm_implicit_row *row, double h, struct block *block)
 {
@@ -385,7 +385,7 @@ static void carry_along(const struct gm_problem *problem, double h, const double
     const struct gm_implicit_row *row = tile->row;
     const size_t active = gm_tile_components(problem), passive = problem->passive;
     for (size_t first = 0; first < passive; first += BLOCK) {
-        struct block block; /* of it as much is filled as there are stages and particles */
+        struct block block; /* filled up to the number of stages and particles */
         block.count = passive - first < BLOCK ? passive - first : BLOCK;
         const size_t at[2] = {active + first, active + passive + first};
         for (int side = 0; side < 2; side++) {

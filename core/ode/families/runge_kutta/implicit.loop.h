@@ -206,7 +206,7 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
             memset(f, 0, (size_t)stages * sizeof f[0]);
         }
         const mask rest = K(other)(solved);
-        if (K(somewhere)(rest)) { /* what these add is in z[0] then */
+        if (K(somewhere)(rest)) { /* Newton's method leaves its increment in z[0] */
             solved |= K(implicit_by_newton)(row, rest, block->y, h, parameters, z[0], counts);
         }
         good &= solved;

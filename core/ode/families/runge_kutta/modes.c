@@ -22,7 +22,7 @@ struct work {
     size_t stages, n;
     double *z, *next, *at, *rest;               /* increments h sum_j a_ij K_j of the stages, twice; n; n */
     double complex *state, *slopes, *increment; /* waves: of y; K, stages * n; n */
-    double complex *matrix;                     /* of a mode */
+    double complex *matrix;                     /* the equations of one mode */
 };
 
 void gm_implicit_modes_close(void *workspace)
@@ -111,7 +111,7 @@ struct substep {
     const struct gm_task *task;
     struct work *work;
     const double *y;
-    double h, norm; /* of y */
+    double h, norm; /* the norm of y */
     struct gm_progress *progress;
 };
 

@@ -11,13 +11,13 @@
    Verlet's scheme, and Gauss points are those of collocation where r = s; here r = s + 1.
 
    With constraints g(q) = 0, at control points that are those of Lobatto's quadrature, G = dg/dq:
-       R_j + b_j G(Q_j)' mu_j in place of R_j,   g(Q_j) = 0  (0 < j <= s)
+       R_j + b_j G(Q_j)' mu_j instead of R_j,   g(Q_j) = 0  (0 < j <= s)
        p1 with the multiplier that makes G v = 0 there
-   which, where the mass matrix is constant, is RATTLE for s = 1, and for s = 2, 3 the Lobatto IIIA-IIIB pairs
+   which, if the mass matrix is constant, is RATTLE for s = 1, and for s = 2, 3 the Lobatto IIIA-IIIB pairs
    of L. Jay, SIAM J. Numer. Anal. 33 (1996) 368, of order 2 s. SHAKE takes the momenta with the last
    multiplier, and puts them into the tangent when the next step begins.
 
-   With a friction F = -c p the step without it stands between two halves of the friction's exact flow,
+   With a friction F = -c p the step without it is between two halves of the friction's exact flow,
        p := exp(-c h / 2) p
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
 #include "core/ode/families/variational/discrete_lagrangian.h"
@@ -38,12 +38,12 @@ struct step {
     const struct gm_task *task;
     struct gm_manifold manifold;
     size_t half, constraints, unknowns;
-    double friction, t;      /* of the state, where the equations hold it */
+    double friction, t;      /* t: the state's time, if the equations hold it */
     double *values, *slopes; /* l_j(c_i), l_j'(c_i): points * (degree + 1) */
     double *q, *p;           /* at the start */
     double *solution;        /* Q_j - q0, then mu_j, of the unknowns */
     double *scratch, *residual, *matrix;
-    double *impulse; /* what the momenta gain, but for the last multiplier */
+    double *impulse; /* the momenta's gain, without the last multiplier */
     struct gm_progress *progress;
 };
 
@@ -110,7 +110,7 @@ void *gm_variational_workspace(const struct gm_problem *problem, const struct gm
     return members;
 }
 
-/* without the friction, F + c p, where it is solved apart */
+/* leaves out the friction, F + c p, if it is solved apart */
 static void leave_friction(const struct step *step)
 {
     const struct gm_motion *motion = &step->manifold.action.motion;
