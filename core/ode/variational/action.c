@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A Lagrangian's momenta and forces with their derivatives: those that the problem gives, or those of a
-   Hamiltonian with quadratic kinetic energy. */
+/* A Lagrangian's momenta and forces with their derivatives, from the problem or from a Hamiltonian with
+   quadratic kinetic energy. */
 #include "core/ode/variational/action.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scra
     };
     if (!is_given(problem)) {
         action.known = own;
-        action.mass = own + 1; /* and as much to invert it in */
+        action.mass = own + 1; /* the matrix and the scratch of its inversion */
         action.drift = action.mass + 2 * square;
         action.state = action.drift + half;
         action.field = action.state + n;
