@@ -37,7 +37,7 @@ static double factor_of(const struct gm_problem *problem)
     return *(const double *)problem->parameters / (2 * M_PI);
 }
 
-/* What the vortices from j on, eight of them, give to one at (x_i, y_i), and it to them with the opposite sign. */
+/* Adds the effects between vortex i at (x_i, y_i) and the eight vortices from j on, with opposite signs. */
 static inline void give(double x_i, double y_i, const double *x, const double *y, size_t j, lanes *mine_x,
                         lanes *mine_y, double *sum_x, double *sum_y)
 {
