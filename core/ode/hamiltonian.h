@@ -4,9 +4,9 @@
 
 #include "core/ode/ode.h"
 
-/* Reads the formula of a Hamiltonian in the problem's components, as they are called in struct gm_ode: lists,
-   "x[]", by their number from 1. What struct gm_hamiltonian wants of a problem whose energy is computed by
-   hand. */
+/* Reads the formula of a Hamiltonian in the problem's components, with the names of struct gm_ode; lists,
+   "x[]", by their number from 1. It is gm_hamiltonian.formula of a problem whose energy is computed by hand.
+   */
 bool gm_hamiltonian_read(const struct gm_problem *problem, const char *text, struct gm_formula *graph,
                          gm_node_id *energy);
 

@@ -188,7 +188,7 @@ const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
 #endif
 
 #if defined(GM_ALONE) && defined(GM_LOOPS_X86)
-/* where the program looks for those of other instruction sets */
+/* aliases under the names of other instruction sets */
 #define GM_SAME_LOOPS(isa)                                                                                   \
     extern const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, isa)                                              \
         __attribute__((alias(GM_IN_QUOTES(GM_LOOPS_NAME(GM_PROBLEM, GM_ISA)))));
