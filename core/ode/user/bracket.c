@@ -46,7 +46,7 @@ static bool is_top(struct gm_user_system *system, bool negative)
     return same;
 }
 
-/* The same of vectors alone, whose components are three lists. */
+/* Returns true if all components are angular momenta, in three lists, with sign s. */
 static bool are_spins(struct gm_user_system *system, bool negative)
 {
     const size_t n = system->n, spins = n / 3;

@@ -25,8 +25,8 @@ enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS +
 struct room {
     struct gm_modes modes;
     double *inputs;                 /* the tapes' inputs, [input * points + node] */
-    double *state, *rates;          /* fields * points: of one member */
-    double complex *waves, *slopes; /* likewise */
+    double *state, *rates;          /* one member: fields * points */
+    double complex *waves, *slopes; /* one member's waves */
 };
 
 struct own {
@@ -42,12 +42,12 @@ struct own {
     bool massive;
     /* the sign of each field's mirror image between walls: 1 or -1; all 0: the rates are not symmetric */
     double mirrored[GM_MOST_FIELDS];
-    bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
+    bool needed[ORDERS * GM_MOST_FIELDS]; /* derivatives that occur */
     struct gm_tape rates, rests, *densities;
-    double complex *symbols; /* of L, [mode][row][column] */
+    double complex *symbols; /* the matrices of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
-    struct gm_arena *arena; /* in which all this lies */
+    struct gm_arena *arena; /* owns all of this */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -61,7 +61,7 @@ struct deriving {
     struct gm_user_evolution *evolution;
     struct gm_user_system *system;
     struct gm_arena *arena;
-    gm_node_id *others; /* what stands for the system's variables */
+    gm_node_id *others; /* replacements of the system's variables */
 };
 
 static void number_inputs(struct deriving *deriving)

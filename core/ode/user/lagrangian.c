@@ -23,7 +23,7 @@ static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, boo
     return linear;
 }
 
-/* whether it is one of the mass matrix */
+/* returns true if the entry belongs to the mass matrix */
 static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struct gm_sparse_entry *entry)
 {
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
@@ -88,11 +88,11 @@ static void no_numbers(double *values, size_t count)
     }
 }
 
-/* One state whose velocities are looked for. */
+/* One state and the search for its velocities. */
 struct transform {
     const struct gm_user_lagrangian *lagrangian;
     double *at;      /* q, v, t */
-    double *outputs; /* of the tape of momenta */
+    double *outputs; /* the outputs of the tape of momenta */
     double *wanted;  /* p */
     double *scratch;
 };
@@ -203,7 +203,7 @@ void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const
         memcpy(f, at + half * m, half * m * sizeof *f);
         gm_tape_values(&lagrangian->rates, at, f + half * m, m);
         for (size_t i = 2 * half * m; i < n * m; i++) {
-            f[i] = 1; /* of t */
+            f[i] = 1; /* the rate of t */
         }
     }
     free(at);
@@ -275,7 +275,7 @@ void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, cons
     }
 }
 
-/* From dL/dv(q, v, t) = p: M dv = dp - B dq - b dt. */
+/* dL/dv(q, v, t) = p gives M dv = dp - B dq - b dt. */
 void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y, double *matrix)
 {
     const struct gm_user_lagrangian_model *model = lagrangian->model;

@@ -19,12 +19,12 @@ struct gm_user_lagrangian_model {
     gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
     size_t momenta_count;
 };
-/* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
-   below. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; its body is left when out of
+   memory. So does the next function. */
 void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
                                    struct gm_user_system *system);
 
-/* The same with the values of parameters; the model outlives it, and threads share it. */
+/* The tapes of L for given values of parameters; the model outlives them, and threads share them. */
 struct gm_user_lagrangian {
     const struct gm_user_lagrangian_model *model;
     struct gm_tape momenta;
@@ -32,7 +32,7 @@ struct gm_user_lagrangian {
     struct gm_tape value; /* L */
     struct gm_tape slopes;
 };
-/* values are those of the system's variables. */
+/* `values` are the values of the system's variables. */
 void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
                              const struct gm_user_lagrangian_model *model, const double *values);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tapes that are made when they are first asked for: few schemes ask for all, and of a large system they take longer
-   than all else. */
+/* Tapes that are made at first use: few schemes use all, and for a large system they take longer than all
+   else. */
 #ifndef GM_CORE_ODE_USER_LAZY_TAPE_H
 #define GM_CORE_ODE_USER_LAZY_TAPE_H
 
@@ -18,7 +18,7 @@ struct gm_late_tape {
     _Atomic(struct gm_tape *) tape; /* NULL: not yet */
 };
 
-/* The tape, made by whichever thread asks first. NULL: out of memory. */
+/* Returns the tape, which the first thread makes. NULL: out of memory. */
 const struct gm_tape *gm_late_tape(struct gm_late_tape *late);
 /* The counterparts of gm_tape_values and gm_tape_block; NaN when out of memory. */
 void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m);

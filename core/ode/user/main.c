@@ -151,8 +151,9 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
     return text;
 }
 
-/* The text of the kernels of a system of share/, which the program writes as well (gm_user_problem_kernel): for all values of
-   the parameters, or for those of the system. As above. */
+/* Returns the text of the kernels of a system of share/, which the program writes as well
+   (gm_user_problem_kernel): for all values of the parameters, or for the system's values. Failures are those
+   of kernel_of. */
 static char *own_kernel_of(struct gm_user_system *system, bool general, const char **lacks)
 {
     struct gm_user_model model;

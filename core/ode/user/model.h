@@ -11,8 +11,8 @@
 #include "core/ode/user/constraints.h"
 #include "core/ode/user/lagrangian.h"
 
-/* The rates of the components, and their Jacobian d rate[row] / d component where the model has one; for all values of
-   the parameters, or for the one that a line `compile:` gives to a parameter. */
+/* The rates of the components, and their Jacobian d rate[row] / d component if the model has one; for all
+   values of the parameters, or for the value that a line `compile:` gives to one. */
 struct gm_user_rates {
     gm_node_id *nodes;
     struct gm_sparse jacobian;
@@ -38,7 +38,8 @@ struct gm_user_model {
     struct gm_arena *arena;
 };
 
-/* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */
+/* Opens the model; the system outlives it, and its graph grows. Returns false when out of memory. The caller
+   closes it in both cases. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
 void gm_user_model_close(struct gm_user_model *model);
 
@@ -48,7 +49,7 @@ const char *gm_user_model_lacks(const struct gm_user_model *model);
 /* Returns true if a fact is known with these values of the system's variables; a fact that was tested, not
    proved, holds for the tested parameters. */
 bool gm_user_model_holds(const struct gm_user_model *model, const double *values, enum gm_fact fact);
-/* The rates for these values of the system's variables. */
+/* Returns the rates for these values of the system's variables. */
 const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *model, const double *values);
 /* Returns true if variational schemes can advance it. */
 bool gm_user_model_has_action(const struct gm_user_model *model);
@@ -56,7 +57,7 @@ bool gm_user_model_has_action(const struct gm_user_model *model);
 bool gm_user_model_is_forced(const struct gm_user_model *model);
 /* Returns true if velocity and force split its field, with these values. */
 bool gm_user_model_splits(const struct gm_user_model *model, const double *values);
-/* Returns why there are no kernels of it; NULL: there may be. */
+/* Returns why no kernels can be written; NULL: they may be. */
 const char *gm_user_model_refuses_kernels(const struct gm_user_model *model);
 
 #endif

@@ -45,7 +45,7 @@ static void *no_memory(struct polishing *polishing)
     return NULL;
 }
 
-/* The scheme with x for its decimals; NULL with a fault. */
+/* Returns the scheme with x for its decimals; NULL with a fault. */
 static const struct gm_scheme *scheme_at(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;
@@ -55,7 +55,7 @@ static const struct gm_scheme *scheme_at(struct polishing *polishing)
     return gm_user_scheme_open(&source, polishing->fault);
 }
 
-/* F at x; malloc'ed, NULL with a fault. */
+/* Returns F at x; the caller frees. NULL with a fault. */
 static struct gm_ball *residuals(struct polishing *polishing)
 {
     struct gm_polish *polish = polishing->polish;
@@ -205,8 +205,8 @@ static size_t end_of(const struct gm_user_scheme_source *source, bool is_word)
     return is_word ? end - 1 : end;
 }
 
-/* The numbers that are written: x and the sums of rows, as they follow one another in the text. malloc'ed,
-   NULL with a fault. */
+/* Returns the numbers to write, x and the sums of rows, in the order of the text; the caller frees. NULL with
+   a fault. */
 static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
 {
     polishing->decimals.sums = &polishing->sums;
@@ -233,7 +233,7 @@ static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
     return all;
 }
 
-/* The text with these numbers, up to `end`. */
+/* Writes the text with these numbers, up to `end`. */
 static void put_numbers(FILE *stream, const char *text, size_t end, const struct gm_decimal *all,
                         size_t count, double doubt)
 {
@@ -284,7 +284,7 @@ static char *write(struct polishing *polishing, const struct gm_written_scheme *
     return text;
 }
 
-/* Gathers the decimals and what is asked of them. */
+/* Gathers the decimals and the conditions on them. */
 static bool gather(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;

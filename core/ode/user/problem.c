@@ -21,7 +21,7 @@
 
 /* The data that a problem's `parameters` and `facets` point to. */
 struct own {
-    const double *constants[GM_KERNEL_FUNCTIONS]; /* where compiled kernels look for them */
+    const double *constants[GM_KERNEL_FUNCTIONS]; /* the constants of compiled kernels */
     struct gm_ode ode;
     struct gm_loops loops, interpreted, free; /* free: without constraints */
     const struct gm_loops *taken; /* the source of compiled functions in `loops`; NULL: all are interpreted */
@@ -41,15 +41,15 @@ struct own {
     struct gm_user_constraints constraints;
     struct gm_action action;
     double friction;
-    struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
+    struct gm_tape density, slopes; /* the monitor's Q, and Q with dQ/dy */
     struct gm_monitor monitor;
     struct gm_user_bracket bracket;
     struct gm_poisson poisson;
-    double matrix[9]; /* of a linear field of three components without divergence */
-    double *values;   /* of the system's variables */
+    double matrix[9]; /* the matrix of a linear field of three components without divergence */
+    double *values;   /* values of the system's variables */
     const struct gm_user_model *model;
     const struct gm_user_rates *rates; /* of the model */
-    struct gm_arena *arena;            /* in which all this lies */
+    struct gm_arena *arena;            /* owns all of this */
 };
 
 /* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
@@ -191,7 +191,7 @@ static void flow_of_piece(const struct gm_problem *problem, size_t piece, double
     gm_user_bracket_flow(&own_of(problem)->bracket, piece, h, y);
 }
 
-/* So that the first step takes no longer than others. */
+/* Makes tapes before the first step, so that it takes no longer than others. */
 static void prepare(const struct gm_problem *problem, unsigned needs)
 {
     struct own *self = own_of(problem);
@@ -471,7 +471,7 @@ static bool attracts(const struct own *self, const struct gm_problem *problem)
     }
     const gm_node_id *parts =
         gm_arena_keep(self->arena, gm_formula_parts(&system->graph, energy, &count), free);
-    /* of the parts alone */
+    /* filled at the parts only */
     double *at = gm_arena_keep(self->arena, malloc((energy + (size_t)1) * sizeof *at), free);
     gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
     const bool negative = at[energy] < 0;
@@ -536,7 +536,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     }
     self->ode.forced = system->kind <= GM_LAGRANGIAN && gm_user_model_is_forced(model);
     if (system->kind <= GM_LAGRANGIAN && !self->ode.forced) {
-        /* what moves with the time generates no field of the whole state: it splits, and that is all */
+        /* a Hamiltonian with the time generates no field of the whole state: it only splits */
         self->split.nystrom = gm_user_model_holds(model, values, GM_FACT_NYSTROM);
         self->split.unit_mass = !lagrangian && is_unit_mass(self);
         self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A system that somebody wrote down, as a problem that schemes advance: its formulas are interpreted, until
-   loops that were compiled of them take over. */
+/* A user-defined system as a problem that schemes advance: its formulas are interpreted until compiled loops
+   take over. */
 #ifndef GM_CORE_ODE_USER_PROBLEM_H
 #define GM_CORE_ODE_USER_PROBLEM_H
 
@@ -24,7 +24,8 @@ void **gm_user_problem_note(const struct gm_problem *problem);
 /* From the next step on these loops advance the problem, as far as they go, and outlive it. NULL: the
    interpreter again, for a run that was opened with it. The numbers stay the same. */
 void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops);
-/* Takes the loops that the build compiled of these formulas, if there are such (`over` as above). */
+/* Takes the loops that the build compiled of these formulas, if they exist; `over` is the family, as in
+   gm_user_problem_kernel. */
 void gm_user_problem_take_compiled(struct gm_problem *problem, int over);
 /* Returns the loops that advance it; NULL: the interpreter. */
 const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem);

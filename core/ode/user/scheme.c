@@ -28,7 +28,7 @@
 #include "core/schemes.h"
 #include "core/theory/theory.h"
 
-/* Schemes in schemes; stages that theory is asked about. */
+/* The most nested schemes; the most stages of a scheme in theory. */
 enum { DEEPEST = 8, MOST_STAGES = 256 };
 
 /* A row with its coefficients. */
@@ -36,7 +36,7 @@ struct own {
     struct gm_scheme row; /* first */
     struct gm_coefficients exact;
     void *coefficients;
-    struct gm_arena *arena; /* of the scheme that is opened: of all that it is made of */
+    struct gm_arena *arena; /* the opened scheme's: owns all its parts */
 };
 
 /* Coefficients, each with one decimal moved, which the scheme takes over. */
@@ -45,13 +45,13 @@ struct moved {
     int count;
 };
 
-/* The body of an arena, which a fault leaves; the sentence is empty where memory was refused. */
+/* The body of an arena, which a fault leaves; the sentence is empty when out of memory. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
     struct gm_arena *arena;
     int depth;
-    struct moved *moved; /* of the whole scheme; or NULL */
+    struct moved *moved; /* the whole scheme's; or NULL */
     struct own *made;    /* the whole scheme */
 };
 
@@ -284,7 +284,7 @@ struct pieces {
     } at[GM_SPLITTING_PIECES];
 };
 
-/* Two pieces of one kind that meet are one. False: there are too many. */
+/* Adds a piece; neighbours of one kind are merged. Returns false if there are too many. */
 static bool add_piece(struct pieces *pieces, enum gm_piece piece, double value, struct gm_ball ball)
 {
     const int last = pieces->count - 1;
@@ -404,7 +404,7 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
     opened(making, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
 }
 
-/* Faults are those of the place. */
+/* Makes a composition; faults are reported at `place`. */
 static struct own *compose(const struct making *making, const struct substeps *substeps, size_t place)
 {
     bool splittings = true, carrying = true;
@@ -534,7 +534,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
     return self;
 }
 
-/* The adjoint of what is made of coefficients alone. */
+/* Makes the adjoint of a scheme made of coefficients alone. */
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
     if (!scheme->exact && !scheme->family->coefficients_open) {
@@ -854,8 +854,8 @@ static struct own *open_source(const struct gm_user_scheme_source *source, struc
     return NULL;
 }
 
-/* The coefficients of the scheme with each of its decimals moved by half a unit of its last digit; of a
-   scheme with very many it is left alone. False with a fault. */
+/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
+   nothing if there are too many. False with a fault. */
 static bool open_moved(const struct gm_user_scheme_source *source, struct moved *moved,
                        struct gm_fault *fault)
 {
