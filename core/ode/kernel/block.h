@@ -62,8 +62,8 @@ enum {
 
 struct K(block) {
     real y[GM_COMPONENTS];
-    real carry[GM_COMPONENTS]; /* what rounding lost from y, for compensated summation */
-    real force[GM_COMPONENTS]; /* splitting: of the last kick, while q has not moved since */
+    real carry[GM_COMPONENTS]; /* the rounding errors of y, for compensated summation */
+    real force[GM_COMPONENTS]; /* splitting: the last kick's force, while q has not moved since */
     bool force_known;
 };
 
@@ -72,7 +72,7 @@ struct K(counts) {
     int lanes;      /* members in this block */
     bool continued; /* these are not the run's first steps */
     unsigned long evaluations, solves, iterations;
-    struct gm_unsolved unsolved; /* of the last lane that was not solved */
+    struct gm_unsolved unsolved; /* the last lane that was not solved */
 };
 
 /* Loads members from `first` on; a block beyond the last member repeats it, which changes nothing. `whole`:
@@ -132,7 +132,7 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
    read side by side than the machine prefetches. Nothing beyond the last member is read. */
 GM_INLINE void K(block_ask_ahead)(const struct gm_task *task, size_t first)
 {
-    enum { AHEAD = 256, CACHES = 1 << 22 }; /* numbers */
+    enum { AHEAD = 256, CACHES = 1 << 22 }; /* in numbers */
     const size_t m = task->problem->m;
     for (size_t c = 0; GM_COMPONENTS * m > CACHES && c < GM_COMPONENTS; c++) {
         __builtin_prefetch(task->y + c * m + first + AHEAD);

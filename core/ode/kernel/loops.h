@@ -25,7 +25,7 @@ struct gm_loops {
        strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
     void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,
                     double *velocity_x, double *velocity_y, double *strain, size_t count);
-    /* x_piece := x_piece + h times its rate, which holds the other components alone; NULL: it is not compiled */
+    /* x_piece := x_piece + h times its rate, which holds the other components alone; NULL: not compiled */
     void (*shear)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
     /* H if it is a sum as long as the field's; NULL: only the Hamiltonian evaluates it */
     double (*energy)(const struct gm_problem *problem, const double *y);
@@ -35,7 +35,7 @@ struct gm_loops {
 #define GM_LOOPS_NAME(problem, isa) GM_LOOPS_NAME_(problem, isa)
 #define GM_LOOPS_NAME_(problem, isa) gm_loops_##problem##_##isa
 
-/* Declares, and lists, a problem's loops; GM_LOOPS_X86 is set where the build made the wider ones. */
+/* Declares and lists a problem's loops; GM_LOOPS_X86 is set if the build made the wider ones. */
 #ifdef GM_LOOPS_X86
 #define GM_LOOPS_DECLARE(problem)                                                                            \
     extern const struct gm_loops gm_loops_##problem##_baseline, gm_loops_##problem##_avx2,                   \
@@ -65,7 +65,7 @@ const struct gm_loops *gm_compiled_loops(const char *text);
 /* Returns true if the program has loops of a system with this number of components. */
 bool gm_compiled_has(size_t components);
 
-/* f(y) of the active components of m members, whichever way the problem gives it. */
+/* Writes f(y) of the active components of m members, for every form in which the problem gives it. */
 void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
 
 /* The best instruction set of this machine and build: an index into gm_ode_of(problem)->loops. */

@@ -173,7 +173,7 @@ GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
 #ifdef __AVX512F__
     farthest = (gm_lanes_mask)K(constant)(limit) - farthest;
 #else
-    (void)limit; /* K(distance) has asked it */
+    (void)limit; /* K(distance) has compared with it */
 #endif
     int64_t any = 0;
     for (int i = 0; i < GM_WIDTH; i++) {

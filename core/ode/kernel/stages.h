@@ -96,9 +96,9 @@ gm_stages_linear(void *data, const double *z, double *residual, double *matrix, 
     return true;
 }
 
-/* The weights w of z = h A f by which sum w_k z_k = h sum b_i f_i: A' w = b; of a stiffly accurate method z_s itself.
-   After Newton's method steps are made of z: f(y + z) would multiply what is left of its last change by h J. False
-   where A is singular, or so by rounding. */
+/* Finds the weights w with sum w_k z_k = h sum b_i f_i, z = h A f: A' w = b; a stiffly accurate method has
+   z_s itself. After Newton's method steps are made of z: f(y + z) would multiply the rest of its last change
+   by h J. Returns false if A is singular, or nearly so. */
 static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLEAU_STAGES], const double *b,
                                         double *weights)
 {

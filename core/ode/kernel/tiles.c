@@ -15,7 +15,7 @@ enum { MOST_MEMBERS = 248, IN_CACHE = 4096, LINE = 64 };
 
 /* The rows of a tile begin where lines of the cache do: else every register that is loaded lies in two of them. */
 struct tiles {
-    size_t members; /* of a tile */
+    size_t members; /* members of a tile */
     double *y, *carry, *scratch, *shared;
     _Alignas(LINE) double storage[];
 };

@@ -43,7 +43,7 @@ typedef enum gm_status gm_tile_step(const struct gm_task *task, struct gm_tile *
 /* Makes all steps of all members; the workspace is gm_tiles_open's. */
 struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row, gm_tile_step *step);
 
-/* y[i] += factor x[i]; where carry is not NULL with compensation (Kahan) */
+/* y[i] += factor x[i], with compensation (Kahan) if carry is not NULL */
 static inline void gm_tile_add(double *y, double factor, const double *x, double *carry, size_t count)
 {
     for (size_t i = 0; i < count && !carry; i++) {
