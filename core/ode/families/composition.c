@@ -104,7 +104,7 @@ static struct gm_progress loop(const struct gm_task *task)
             substep.workspace = workspace->workspaces[i];
             substep.out = there ? workspace->state : task->out;
             substep.carry_out = !task->carry ? NULL : there ? workspace->carry : task->carry_out;
-            if (task->carry) { /* a scheme that does not sum so leaves it as it is */
+            if (task->carry) { /* a scheme without compensation leaves it unchanged */
                 memcpy(substep.carry_out, substep.carry, bytes);
             }
             const struct gm_progress made =

@@ -127,7 +127,7 @@ static void workspace_reset(void *pointer)
 {
     struct workspace *workspace = pointer;
     workspace->good = -1;
-    workspace->dt = 0; /* so that the next step forgets the past */
+    workspace->dt = 0; /* the next step starts without a past */
 }
 
 static int advance(struct workspace *workspace, gsl_odeiv2_driver *driver, double t, double dt, double *y)
@@ -154,7 +154,7 @@ static enum gm_status step(const struct gm_task *task, struct workspace *workspa
             return GM_BLOW_UP;
         }
         if (result != GSL_SUCCESS) {
-            return GM_STEP_COLLAPSE; /* the driver's own steps have no length any more */
+            return GM_STEP_COLLAPSE; /* the driver's steps have become too small */
         }
         for (size_t c = 0; c < n; c++) {
             if (!(fabs(workspace->y[c]) <= task->limit)) { /* a NaN compares false */
@@ -187,7 +187,7 @@ struct stretch {
     int64_t done;
 };
 
-/* Under the guard: a stepper solves its linear equations in memory that it takes at every step. */
+/* Runs under the guard: a stepper allocates memory for linear equations at every step. */
 static bool make_steps(void *data)
 {
     struct stretch *stretch = data;
@@ -209,7 +209,7 @@ static struct gm_progress loop(const struct gm_task *task)
     struct workspace *workspace = task->workspace;
     const size_t size = task->problem->n * task->problem->m * sizeof(double);
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    /* asked again for the steps before one that failed: they cannot be repeated, but they are known */
+    /* the steps before a failed one are requested: they cannot be repeated, but are stored */
     if (workspace->status != GM_OK && workspace->good == task->steps_before + task->steps) {
         memcpy(task->out, workspace->state, size);
         progress.evaluations = workspace->evaluations;

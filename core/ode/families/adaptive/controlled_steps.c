@@ -39,7 +39,7 @@ enum { CONTROL, SLOPE, TIME_CARRY, REMEMBERED }; /* the memory; CONTROL is rho /
 struct workspace {
     struct gm_scheme base;          /* Phi */
     struct gm_splitting_row pieces; /* the pieces of Phi, made once, if it is a composition */
-    void *base_workspace;           /* NULL: its loop needs none */
+    void *base_workspace;           /* workspace of Phi's loop; NULL: not needed */
     double *state, *carry;          /* 2 n each: before and after a step */
     double *field, *gradient;       /* n */
     double storage[];
@@ -160,7 +160,7 @@ static struct course begin(const struct gm_task *task)
     course.step.out = workspace->state + n;
     course.step.memory = course.step.memory_out = NULL;
     memcpy(workspace->state, task->y, n * sizeof(double));
-    if (task->carry) { /* a scheme that does not sum so leaves it as it is */
+    if (task->carry) { /* a scheme without compensation leaves it unchanged */
         course.step.carry = workspace->carry;
         course.step.carry_out = workspace->carry + n;
         memcpy(workspace->carry, task->carry, n * sizeof(double));

@@ -25,7 +25,8 @@
 enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
 enum { ITERATIONS = 50 };
 
-/* The scratch: the middle, the field and its Jacobian there, a right side, and what Newton's method works in. */
+/* The scratch: the middle, the field and its Jacobian there, a right side, and the scratch of Newton's
+   method. */
 struct storage {
     double *middle, *field, *jacobian, *right, *scratch;
 };
@@ -98,8 +99,8 @@ static bool find_middle(const struct gm_problem *problem, const double *y, doubl
     return gm_jacobian(problem, storage->middle, storage->jacobian);
 }
 
-/* The step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is nested,
-   as both at once would find steps backwards. */
+/* Finds the step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is
+   nested, as both at once would find steps backwards. */
 static bool find_step(const struct gm_problem *problem, const double *y, double energy, double *tau,
                       const struct storage *storage, struct gm_progress *progress)
 {

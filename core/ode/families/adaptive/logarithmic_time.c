@@ -25,22 +25,22 @@
 
 enum { BINDING, TIME_CARRY, REMEMBERED };
 
-/* A step on its way: the place is (q, 0), at rest there, so that V is its energy and F its rates. */
+/* A step in progress: the place is (q, 0), at rest, so that V is its energy and F its rates. */
 struct passing {
     const struct gm_problem *problem;
-    double binding, time; /* B; what has passed */
-    double *place, *y;    /* n each; of y the momenta alone are right, but after what is called `moving` */
+    double binding, time; /* B; the time passed in this step */
+    double *place, *y;    /* n each; y has the right q only after moving() */
     double *rates;        /* n */
 };
 
-/* y, where the velocities are not the momenta */
+/* Returns y with its q, needed if velocities are not the momenta. */
 static const double *moving(const struct passing *at)
 {
     memcpy(at->y, at->place, at->problem->n / 2 * sizeof *at->y);
     return at->y;
 }
 
-/* False: T + B is not positive. */
+/* Drifts by ds. Returns false if T + B is not positive. */
 static bool drift(struct passing *at, double ds)
 {
     const struct gm_problem *problem = at->problem;
@@ -64,7 +64,7 @@ static bool drift(struct passing *at, double ds)
     return whole > 0;
 }
 
-/* False: the place is one where V is not negative. */
+/* Kicks by ds. Returns false if V is not negative at this place. */
 static bool kick(const struct passing *at, double ds)
 {
     const size_t half = at->problem->n / 2;
@@ -96,8 +96,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     }
     good = drift(&at, last / 2) && good;
     moving(&at);
-    const int drifts =
-        gm_ode_of(at.problem)->split->unit_mass ? 0 : composition->steps + 1; /* with a field */
+    const int drifts = gm_ode_of(at.problem)->split->unit_mass
+                           ? 0
+                           : composition->steps + 1; /* drifts that evaluate the field */
     progress->evaluations += (unsigned long)(composition->steps + drifts);
     const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
     if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {

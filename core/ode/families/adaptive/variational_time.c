@@ -125,7 +125,7 @@ static bool solve_velocity(const struct gm_problem *problem, const double *y, do
     return false;
 }
 
-/* The step from y whose midpoint has the energy E, by Newton's method from the last one. */
+/* Finds the step from y whose midpoint has the energy E, by Newton's method from the last one. */
 static bool solve_step(const struct gm_problem *problem, const double *y, double energy, double *tau,
                        struct gm_progress *progress)
 {

@@ -56,7 +56,7 @@ struct work {
     struct gm_progress *progress;
 };
 
-/* The brackets are those of one polynomial: slopes change when all are known. */
+/* Computes new slopes; all brackets belong to one polynomial, so slopes change together. */
 static bool sweep(void *data, const double *slopes, double *next, double *scale)
 {
     const struct work *work = data;

@@ -29,13 +29,13 @@
 #undef GM_SCHEME_ROW
 #undef GM_SCHEME_TEXTS
 
-/* The loop where n is chosen at run time, through the problem's field, by the rules of the loop over kernels:
-   a member's bits depend neither on the others nor on which of the two loops it is. A passive particle whose
-   iteration does not contract, because a vortex turns it too fast, is solved by Newton's method. */
+/* The loop for an n chosen at run time, through the problem's field, by the rules of the loop over kernels: a
+   member's bits depend neither on the others nor on the loop. A passive particle whose iteration does not
+   contract, because a vortex turns it too fast, is solved by Newton's method. */
 
 enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150 };
 
-/* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
+/* A tile's scratch; in arrays over stages, stage i begins at i * n * members. */
 struct stage_scratch {
     double *at, *z, *slopes; /* states, increments, f: stages * n * members */
     double *state;           /* n * members */
@@ -144,8 +144,8 @@ GM_OF_TILE void find_state(const struct stage_scratch *s, size_t n, size_t membe
     }
 }
 
-/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
-   is taken at the new q, which doubles the order in h that an iteration gains. */
+/* One iteration: new slopes at y + z, and new z from them. If q' depends on p alone and p' on q alone, p' is
+   taken at the new q, which doubles the order in h that an iteration gains. */
 GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops *loops,
                         const struct gm_implicit_row *row, double h, const double *y, size_t members,
                         const struct stage_scratch *s)
@@ -177,8 +177,8 @@ GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops 
     }
 }
 
-/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; where Newton's method can be asked
-   it has to contract well. */
+/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; if Newton's method is
+   available, it must contract well. */
 GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
                                size_t members, const struct stage_scratch *s, struct gm_progress *progress)
 {
@@ -229,7 +229,7 @@ static void set_stages(struct gm_stages *stages, const struct gm_implicit_row *r
     stages->progress = progress;
 }
 
-/* The same equations by Newton's method for member l. What the step adds to it is left in the first z. */
+/* Solves the equations by Newton's method for member l, and leaves its increment in the first z. */
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
@@ -294,7 +294,7 @@ static bool carried_slope(void *data, size_t j, const double *state, double *f, 
     return true;
 }
 
-/* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
+/* Solves for one particle by Newton's method, from z = 0; leaves its slopes in the block. */
 static bool solve_one(const struct gm_problem *problem, const double *states,
                       const struct gm_implicit_row *row, double h, struct block *block, size_t k)
 {
@@ -484,8 +484,8 @@ static const struct gm_scheme schemes[] = {
 #undef GM_SCHEME_TEXTS
 };
 
-/* A composition of steps g_k h is a method too, whose stages are those of all steps: a_ij of a step is g_k
-   a_ij, and g_l b_j of each earlier one. */
+/* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
+   g_l b_j of each earlier one. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const struct gm_implicit_row *row = scheme->coefficients;

@@ -32,7 +32,7 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
 
-/* The scratch: what the basis is at the points, unknowns, and their equations. */
+/* The scratch: the basis at the points, unknowns, and their equations. */
 struct step {
     const struct gm_variational_row *rule;
     const struct gm_task *task;
@@ -52,7 +52,7 @@ static size_t unknowns_of(const struct gm_problem *problem, const struct gm_vari
     return rule->degree * (problem->n / 2 + gm_action_constraints(problem));
 }
 
-/* The unknowns, and what Newton's method works in; the tables, and three vectors of coordinates. */
+/* The unknowns, and the scratch of Newton's method; the tables, and three vectors of coordinates. */
 static size_t room_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
 {
     const size_t unknowns = unknowns_of(problem, rule);
@@ -171,7 +171,7 @@ static bool add_point(const struct step *step, const double *unknowns, size_t i)
     return true;
 }
 
-/* The constraints at control point j, whose weight is b. */
+/* Adds the constraints at control point j, whose weight is b. */
 static void add_constraints(const struct step *step, const double *unknowns, size_t j)
 {
     const struct gm_manifold *manifold = &step->manifold;
@@ -238,7 +238,7 @@ static bool linear(void *data, const double *unknowns, double *residual, double 
     return true;
 }
 
-/* The last change is one of the multipliers too, and so of what the momenta gain by them. */
+/* Adds the last change of the multipliers to the momenta's gain. */
 static void correct_impulse(const struct step *step)
 {
     const struct gm_manifold *manifold = &step->manifold;
@@ -257,8 +257,8 @@ static void correct_impulse(const struct step *step)
     }
 }
 
-/* Newton's method from rest, where the first step is the Legendre transform. The last change is below rounding, but of
-   one sign in all steps: left out it would add up. */
+/* Solves by Newton's method from rest, whose first step is the Legendre transform. The last change is below
+   rounding, but has one sign in all steps: left out it would add up. */
 static bool solve(struct step *step)
 {
     const struct gm_implicit_equations equations = {.size = step->unknowns,

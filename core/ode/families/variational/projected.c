@@ -16,7 +16,7 @@
 
 struct workspace {
     const struct gm_scheme *base; /* Phi */
-    void *base_workspace;         /* NULL: its loop needs none */
+    void *base_workspace;         /* workspace of the base's loop; NULL: not needed */
     double *state, *member;       /* n * m before a step, n */
     double storage[];
 };
