@@ -16,8 +16,8 @@
 
 enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
 
-/* The derivative of one step at the start, and that of where it begins: the identity, or under constraints that of the
-   state on the manifold which is as close as may be. */
+/* The derivative of one step at the start, and the derivative of its initial state: the identity, or under
+   constraints that of the nearest state on the manifold. */
 struct derivative {
     double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
     double largest;
@@ -29,7 +29,7 @@ struct step {
     double dt;
 };
 
-/* Writes the state where a step begins, and behind it the one where the step ends. */
+/* Writes the initial state of a step, followed by its final state. */
 static bool make_step(const void *context, const double *from, double *to)
 {
     const struct step *step = context;
@@ -72,7 +72,7 @@ struct defect {
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
-/* mean := the mean of `count` derivatives, of which it is that of all others so far. */
+/* mean := the mean of `count` derivatives, of the mean of all others and the next one. */
 static void average(struct derivative *mean, const struct derivative *next, size_t n, int count)
 {
     for (size_t i = 0; i < n * n; i++) {

@@ -200,8 +200,8 @@ static bool is_even(const struct gm_subject *subject)
     return true;
 }
 
-/* Takes in the order on one system. The lowest of those that are settled counts. Before the asymptotic regime
-   an order may look higher than it is, and where errors cancel, lower. */
+/* Measures the order on one system. The lowest settled order counts. Before the asymptotic regime an order
+   may look too high, and if errors cancel, too low. */
 static void measure_order(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
     struct gm_ladder ladder;
@@ -304,8 +304,8 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     }
 }
 
-/* On a system that is not smooth what holds decides nothing: the few steps may all lie on one side of a corner.
-   What fails there fails. */
+/* Leaves satisfied claims undecided on a system that is not smooth: the few steps may all lie on one side of
+   a corner. A failed claim stays so. */
 static void doubt(struct gm_certificate *certificate)
 {
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {

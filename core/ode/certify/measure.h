@@ -67,7 +67,7 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
 double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
                  double tolerance);
 
-/* The relative change of a quantity over many smaller steps; NaN where they fail. */
+/* Returns the relative change of a quantity over many smaller steps; NaN if they fail. */
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept);
 /* Returns a quantity's change by a hundred times the round-off of the start's largest number, in some
    direction. */

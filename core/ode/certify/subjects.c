@@ -60,14 +60,14 @@ static const struct term ring_square[] = {{1, 0, 0},   {1, 1, 1},   {1, 2, 2}, {
         .value = sum_of_terms, .data = terms                                                                 \
     }
 
-/* The problem is one in C with these parameters, or that of a built-in file: one of share/subjects, or a system. */
+/* A subject: a problem in C with these parameters, or a built-in file: one of share/subjects, or a system. */
 static const struct row {
     const struct gm_problem *problem;
     const void *parameters;
     const char *file;
     struct gm_system_value value; /* a parameter's value that replaces the file's */
     double dt;
-    unsigned only; /* facets: not for schemes that need none of them; 0: for all */
+    unsigned only; /* facets of which a scheme must need one; 0: any scheme */
     double start[12];
     struct gm_kept kept[GM_SUBJECT_INVARIANTS];
     const char *name; /* the subject's name, if not the file's */
