@@ -326,7 +326,7 @@ static void evaluate(const struct gm_tangent *tangent, const double *y, double *
     loops->jacobian(problem, y, jacobian);
 }
 
-/* w of a stage, as far as it is asked for. */
+/* Computes the needed components of a stage's w. */
 static void multiply(const struct gm_tangent *tangent, const double *jacobian, const double *dy, size_t stage)
 {
     const size_t n = tangent->n;
@@ -388,8 +388,8 @@ static bool linear(void *data, const double *states, double *residual, double *m
     return true;
 }
 
-/* The stages of a block, and their derivatives; false where Newton's method does not find them. A change that is as
-   small leaves an error of its square. */
+/* Solves for the stages of a block and their derivatives; false if Newton's method fails. The last, small
+   change leaves an error of its square. */
 static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t count)
 {
     const size_t n = tangent->n, all = count * n;
