@@ -346,7 +346,7 @@ static inline void expand(double *expansion, const double *powers, const double 
     }
 }
 
-/* Two cells whose distance allows it act on each other by their moments. */
+/* Adds the effects of two distant cells on each other by their moments. */
 static void act(struct tree *tree, const struct cell *one, const struct cell *other, bool of_logarithms)
 {
     const size_t terms = tree->terms;
@@ -372,7 +372,7 @@ static void act(struct tree *tree, const struct cell *one, const struct cell *ot
     expand(expansion_of(tree, other), of_other, sums, -w_x, -w_y, terms);
 }
 
-/* The vortices of two leaves, or of one, act on each other one by one. */
+/* Adds the effects of the vortices of two leaves, or of one, on each other one by one. */
 static void act_singly(struct tree *tree, const struct cell *one, const struct cell *other,
                        bool of_logarithms)
 {
@@ -473,7 +473,8 @@ static void close_tree(struct tree *tree)
     free(tree->coefficients);
 }
 
-/* False: out of memory, or a place is not finite. To be closed in both cases. */
+/* Opens a tree. Returns false when out of memory, or if a coordinate is not finite; the caller closes it in
+   both cases. */
 static bool open_tree(struct tree *tree, const double *state, size_t count, double tolerance,
                       bool of_logarithms)
 {
