@@ -66,7 +66,7 @@ struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scra
     return action;
 }
 
-/* A^-1 and b, which are the same everywhere at one time. */
+/* Computes A^-1 and b, which do not depend on the state at one time. */
 static bool find_mass(const struct gm_action_at *action, const double *at)
 {
     const size_t n = action->problem->n, half = action->half;
