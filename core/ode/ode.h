@@ -42,7 +42,7 @@ struct gm_motion {
 };
 
 /* A regular Lagrangian L(t, q, v) with forces F(t, q, v) and constraints g(q) = 0; the state is q, p = dL/dv
-   and, where the equations hold the time, t as its last component. */
+   and, if the equations hold the time, t as its last component. */
 struct gm_action {
     /* Fills the motion at (q, v) or (q, v, t), n numbers. NULL: H = T(p) + V(t, q), T quadratic, and forces,
        so that all follows from the field and the Jacobian of `free`. */
@@ -120,8 +120,8 @@ struct gm_semilinear {
     void (*nonlinear)(const struct gm_problem *problem, const double *y, double *rest);
 };
 
-/* The facets of a system. Where n is a constant, loops hold loops over the problem's kernels. Where n is
-   chosen at run time (vortices) they hold none, and a family steps through gm_field if it can. */
+/* The facets of a system. For a constant n, `loops` has loops over the problem's kernels. For an n chosen at
+   run time (vortices) it has none, and a family steps through gm_field if it can. */
 enum gm_ode_facet {
     GM_NEEDS_SPLIT = 1u << 0,
     GM_NEEDS_HAMILTONIAN = 1u << 1,

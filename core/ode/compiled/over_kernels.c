@@ -124,7 +124,7 @@ static void jacobian(const struct gm_problem *problem, const double *y, double *
 #endif
 
 #if defined(GM_KERNEL_KEY) && GM_COMPONENTS <= 4
-/* The number is constant, so that the compiler leaves out what the other rates take. */
+/* Moves one piece; its number is constant, so that the compiler omits the other rates. */
 static inline __attribute__((always_inline)) void shear_of(const struct gm_problem *problem, size_t piece,
                                                            double h, double *y, size_t m)
 {
