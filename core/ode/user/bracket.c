@@ -46,7 +46,7 @@ static bool is_top(struct gm_user_system *system, bool negative)
     return same;
 }
 
-/* Returns true if all components are angular momenta, in three lists, with sign s. */
+/* Returns true if all components are angular momenta, in three lists; `negative` chooses the sign. */
 static bool are_spins(struct gm_user_system *system, bool negative)
 {
     const size_t n = system->n, spins = n / 3;
@@ -94,7 +94,7 @@ static void find_parts(struct gm_arena *arena, struct gm_user_system *system, co
     }
 }
 
-/* Returns true if the slope over y_i holds y_i and z only, and the slopes over z hold no y. */
+/* Returns true if the slope over y_i holds y_i only, and the slopes over z hold no y. */
 static bool is_sum_over_axes(size_t n, const bool *holds)
 {
     bool good = n == 3 || n == 6;

@@ -23,8 +23,8 @@ struct gm_user_bracket_model {
     struct gm_user_piece *pieces;
     size_t piece_count; /* 0: the energy does not split into such pieces */
 };
-/* Derives the formulas; the graph of the system grows. The arena owns them; its body is left when out of
-   memory. So does the next function. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its
+   body when out of memory. */
 void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
                                 struct gm_user_system *system);
 

@@ -15,7 +15,7 @@ struct gm_user_constraints_model {
     struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
 };
 /* Derives the formulas; the graph of the system grows, and `count` is 0 without constraints. The arena owns
-   them; its body is left when out of memory. So does the next function. */
+   them; both open functions leave its body when out of memory. */
 void gm_user_constraints_model_open(struct gm_arena *arena, struct gm_user_constraints_model *model,
                                     struct gm_user_system *system);
 

@@ -19,8 +19,8 @@ struct gm_user_lagrangian_model {
     gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
     size_t momenta_count;
 };
-/* Derives the formulas; the graph of the system grows. The arena owns them; its body is left when out of
-   memory. So does the next function. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its
+   body when out of memory. */
 void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
                                    struct gm_user_system *system);
 

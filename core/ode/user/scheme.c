@@ -736,7 +736,7 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
 }
 
 /* Fills order and claims that the text does not give from theory; without theory the order is that of the
-   parts. A loaded scheme with the same name and text passes on its own. */
+   parts. A scheme that is already open under this name with the same text passes on its order and claims. */
 static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
                    const char *name, const char *title,
                    const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
