@@ -72,7 +72,7 @@ struct defect {
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
-/* mean := the mean of `count` derivatives, of the mean of all others and the next one. */
+/* mean := the mean of `count` derivatives; before, it is the mean of all but `next`. */
 static void average(struct derivative *mean, const struct derivative *next, size_t n, int count)
 {
     for (size_t i = 0; i < n * n; i++) {

@@ -122,7 +122,7 @@ static void note(struct gm_certificate *certificate, enum gm_claim claim, double
 }
 
 /* Returns true if a field's equations on its grid conserve a quantity; derivatives in space may break a
-   conservation law. Tested by its change along the rates, at the start and further along them, where the
+   conservation law. The test is its change along the rates, at the start and further along them, where the
    states have the mirror symmetries of the start. */
 static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct gm_kept *kept)
 {

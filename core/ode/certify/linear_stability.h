@@ -12,8 +12,8 @@ enum gm_linear_test { GM_TEST_NONE, GM_TEST_PLANE /* y' = z y */, GM_TEST_OSCILL
 
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme);
 
-/* Returns |y| after a step divided by |y| before it, found by stepping; the geometric mean over `steps`
-   steps, above 1 for multistep methods. NAN if the step fails. re, im: z; the oscillator takes re = 0. */
+/* Returns |y| after a step divided by |y| before it, found by stepping: the geometric mean over `steps`
+   steps; multistep methods need several. NAN if a step fails. re, im: z; the oscillator takes re = 0. */
 double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, int64_t steps);
 
 /* Returns the growth from the coefficients: |R(z)| of a Runge-Kutta method, the spectral radius of a

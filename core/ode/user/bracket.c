@@ -76,7 +76,7 @@ static void find_turning(struct gm_user_bracket_model *model, struct gm_user_sys
 
 /* ---- what the slopes of the energy are made of ---- */
 
-/* holds[i * n + j]: whether dH/dy_i holds component j. */
+/* holds[i * n + j]: true if dH/dy_i holds component j */
 static void find_parts(struct gm_arena *arena, struct gm_user_system *system, const gm_node_id *gradient,
                        bool *holds)
 {
@@ -160,7 +160,7 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
     return true;
 }
 
-/* The rates of one group. False: they are not linear in the components that move. */
+/* Opens the rates of one group. Returns false if they are not linear in the components that move. */
 static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
                        struct gm_user_system *system, const size_t *group, size_t which)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Constraints as one tape: themselves, their slopes, and what these change by. */
+/* Constraints as one tape: their values, slopes, and second derivatives. */
 #include "core/ode/user/constraints.h"
 
 #include <math.h>

@@ -251,7 +251,7 @@ static void differences(const struct own *self, const double *u, size_t order, d
     }
 }
 
-/* The inputs of tapes from a state. */
+/* Writes the inputs of tapes from a state. */
 static void derive(const struct own *self, struct room *room, const double *y)
 {
     const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
@@ -279,7 +279,7 @@ static void derive(const struct own *self, struct room *room, const double *y)
     }
 }
 
-/* The rates, or what is left of them without L, of one member. */
+/* Computes one member's rates, or their rest without L. */
 static void evaluate(struct own *self, const struct gm_tape *tape, const double *y, double *rates)
 {
     const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
@@ -349,7 +349,7 @@ static void open_tape(const struct own *self, struct gm_tape *tape, const gm_nod
                  gm_tape_open(tape, &self->evolution->system->graph, nodes, count, self->inputs, values));
 }
 
-/* The coefficients of what is linear: its values where one input is 1 and the others are 0. */
+/* Computes the coefficients of a linear formula: its values if one input is 1 and the others are 0. */
 static void find_coefficients(const struct own *self, const gm_node_id *nodes, const double *values,
                               double *coefficients)
 {

@@ -118,7 +118,8 @@ static struct gm_progress K(explicit_own_run)(const struct gm_task *task,
 __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)
 {
     const enum gm_explicit_row *row = task->scheme->coefficients;
-    const struct gm_explicit_tableau *tableau = NULL; /* without a loop of its own, as compensated groups */
+    const struct gm_explicit_tableau *tableau =
+        NULL; /* a tableau without a loop; compensated runs have none */
     switch (*row) {
 #define GM_EXPLICIT(identifier, ...)                                                                         \
     case GM_EXPLICIT_##identifier:                                                                           \

@@ -111,7 +111,7 @@ struct substep {
     const struct gm_task *task;
     struct work *work;
     const double *y;
-    double h, norm; /* the norm of y */
+    double h, norm; /* norm: the sum of |y| */
     struct gm_progress *progress;
 };
 
