@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy of a built-in problem, written once more for what needs its derivatives. */
+/* The energy of a built-in problem as a formula, for schemes that need its derivatives. */
 #include "core/ode/hamiltonian.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ struct reading {
     struct gm_formula *graph;
 };
 
-/* Words of the components are lists of equal length, or single ones. */
+/* The words of struct gm_ode's components are lists of equal length, or single ones. */
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     const struct reading *reading = data;

@@ -4,14 +4,15 @@
 
 #include "core/ode/ode.h"
 
-/* Reads the formula of a Hamiltonian in the problem's components, as they are called in struct gm_ode: lists,
-   "x[]", by their number from 1. What struct gm_hamiltonian wants of a problem whose energy is computed by
-   hand. */
+/* Reads the formula of a Hamiltonian in the problem's components, with the names of struct gm_ode; lists,
+   "x[]", by their number from 1. It is gm_hamiltonian.formula of a problem whose energy is computed by hand.
+   */
 bool gm_hamiltonian_read(const struct gm_problem *problem, const char *text, struct gm_formula *graph,
                          gm_node_id *energy);
 
-/* Declares what core/ode/compiled/over_energy.c makes of the H in a problem's file: gm_energy_NAME,
-   gm_formula_NAME where the file has no parameters, and, of H = p^2/2 + V(q) with one q, gm_potential_NAME. */
+/* Declares the functions that core/ode/compiled/over_energy.c makes of the H in a problem's file:
+   gm_energy_NAME, gm_formula_NAME if the file has no parameters, and, for H = p^2/2 + V(q) with one q,
+   gm_potential_NAME. */
 #define GM_ENERGY_DECLARE(name) GM_ENERGY_DECLARE_(name)
 #define GM_ENERGY_DECLARE_(name)                                                                             \
     void gm_energy_##name(const struct gm_problem *problem, const double *y, double *energy, size_t m);      \

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The facets of ordinary differential equations: what structure a problem may have, and a scheme may need. */
+/* The facets of ordinary differential equations: the structure that a problem may have, and a scheme may
+   need. */
 #ifndef GM_CORE_ODE_ODE_H
 #define GM_CORE_ODE_ODE_H
 
@@ -16,9 +17,9 @@ enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 
 /* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
 struct gm_split {
-    bool nystrom;   /* T is quadratic, */
-    bool unit_mass; /* q' = p even: it need not be asked for */
-    bool attracts;  /* H at p = 0 is negative where it starts */
+    bool nystrom;   /* T is quadratic */
+    bool unit_mass; /* q' = p: needs no evaluation */
+    bool attracts;  /* H at p = 0 is negative at the start */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
@@ -26,31 +27,31 @@ struct gm_split {
 struct gm_hamiltonian {
     void (*energy)(const struct gm_problem *problem, const double *y, double *energy, size_t m);
     double (*weight)(const struct gm_problem *problem);
-    /* `energy` is that of the first of several copies, as where tangent vectors are carried along. */
+    /* `energy` is the first copy's if there are several copies, for example of tangent vectors */
     bool partial;
-    /* The same as a formula in a graph that was opened for it, of the components alone, by number. False: out
-       of memory. NULL: it is written nowhere. */
+    /* Writes H as a formula in a graph opened for it, of the components alone, by number. Returns false when
+       out of memory. NULL: H has no formula. */
     bool (*formula)(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *energy);
 };
 
-/* Where values and derivatives of an action are put, half = n / 2 coordinates; matrices by rows, row i for
-   the entry i of momenta or forces. */
+/* The values and derivatives of an action, half = n / 2 coordinates; matrices by rows, row i for entry i of
+   momenta or forces. */
 struct gm_motion {
     double *momenta, *forces;                            /* dL/dv, dL/dq + F: half */
     double *momenta_q, *momenta_v, *forces_q, *forces_v; /* over q and v: half * half */
 };
 
 /* A regular Lagrangian L(t, q, v) with forces F(t, q, v) and constraints g(q) = 0; the state is q, p = dL/dv
-   and, where the equations hold the time, t as its last component. */
+   and, if the equations hold the time, t as its last component. */
 struct gm_action {
-    /* At (q, v) or (q, v, t), n numbers. NULL: H = T(p) + V(t, q), T quadratic, and forces, so that all is
-       made of the field and the Jacobian of `free`. */
+    /* Fills the motion at (q, v) or (q, v, t), n numbers. NULL: H = T(p) + V(t, q), T quadratic, and forces,
+       so that all follows from the field and the Jacobian of `free`. */
     void (*motion)(const struct gm_problem *problem, const double *at, const struct gm_motion *motion);
-    const struct gm_loops *free; /* those without constraints; NULL: the problem's */
-    /* F = -rate p; NULL: it is not of this form */
+    const struct gm_loops *free; /* the loops without constraints; NULL: the problem's */
+    /* F = -rate p; NULL: F has another form */
     double (*friction)(const struct gm_problem *problem);
-    size_t constraints; /* g; 0: none */
-    /* g (constraints), G = dg/dq (constraints * half), and d(G' multipliers)/dq (half * half) */
+    size_t constraints; /* number of constraints g; 0: none */
+    /* writes g (constraints), G = dg/dq (constraints * half), and d(G' multipliers)/dq (half * half) */
     void (*constrain)(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
                       double *slopes, double *curvature);
 };
@@ -75,28 +76,28 @@ struct gm_kepler_split {
     void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
 };
 
-/* Q(y) > 0: how dense the steps are to be of a scheme that chooses them, ds = Q dt */
+/* Q(y) > 0: the density of an adaptive scheme's steps, ds = Q dt */
 struct gm_monitor {
-    /* of one member; gradient: dQ/dy (n), or NULL */
+    /* one member's Q; gradient: dQ/dy (n), or NULL */
     void (*density)(const struct gm_problem *problem, const double *y, double *density, double *gradient);
     bool of_places; /* Q holds the first n / 2 components alone */
 };
 
 /* y' = B(y) dH/dy, B skew: the bracket {y_i, y_j} = B_ij */
 struct gm_poisson {
-    /* of one member: H, dH/dy (n), and B by rows (n * n) */
+    /* one member's H, dH/dy (n), and B by rows (n * n) */
     double (*energy)(const struct gm_problem *problem, const double *y);
     void (*gradient)(const struct gm_problem *problem, const double *y, double *gradient);
     void (*bracket)(const struct gm_problem *problem, const double *y, double *matrix);
-    /* s = +-1 where the bracket is that of angular momenta, y' = s y x dH/dy; or, of six components, of
-       an angular momentum y and a vector z that it turns, y' = s (y x dH/dy + z x dH/dz), z' = s z x dH/dy. 0:
-       another one. */
+    /* s = +-1 if the bracket is that of angular momenta, y' = s y x dH/dy; or, with six components, of an
+       angular momentum y and a vector z that it rotates, y' = s (y x dH/dy + z x dH/dz), z' = s z x dH/dy. 0:
+       another bracket */
     double turning;
-    size_t spins; /* so many angular momenta, in three lists of their components; 0: that of a top, or none */
-    bool axes;    /* then: H is a sum of functions of one component of y each, and of one of z */
-    /* The moments of inertia of a free body, H = sum y_i^2 / (2 moments_i); 0: it is none. */
+    size_t spins; /* number of angular momenta, in three lists of their components; 0: a top, or none */
+    bool axes;    /* H is a sum of functions of one component of y each, and of one of z */
+    /* The moments of inertia of a free body, H = sum y_i^2 / (2 moments_i); 0: not a free body. */
     double moments[3];
-    /* H = H_1 + ..., each of which has an exact flow: y := that of piece number `piece` over h, of one member, in
+    /* H = H_1 + ..., each with an exact flow: y := the flow of piece number `piece` over h, one member, in
        place. 0: not known */
     size_t pieces;
     void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y);
@@ -109,8 +110,8 @@ struct gm_volume {
     void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
 };
 
-/* y' = L y + N(y) of `fields` lists of equal length, one behind the other, on a ring: L looks the same at every
-   point, so that it multiplies waves by matrices. */
+/* y' = L y + N(y) of `fields` consecutive lists of equal length on a ring: L is the same at every point, so
+   that it multiplies waves by matrices. */
 struct gm_semilinear {
     size_t fields;
     /* L on the wave of number `mode` <= points / 2, exp(2 pi i mode j / points): fields * fields by rows */
@@ -119,8 +120,8 @@ struct gm_semilinear {
     void (*nonlinear)(const struct gm_problem *problem, const double *y, double *rest);
 };
 
-/* The facets of a system. Where n is a constant, loops hold loops over the problem's kernels. Where n is
-   chosen at run time (vortices) they hold none, and a family steps through gm_field if it can. */
+/* The facets of a system. For a constant n, `loops` has loops over the problem's kernels. For an n chosen at
+   run time (vortices) it has none, and a family steps through gm_field if it can. */
 enum gm_ode_facet {
     GM_NEEDS_SPLIT = 1u << 0,
     GM_NEEDS_HAMILTONIAN = 1u << 1,
@@ -132,13 +133,13 @@ enum gm_ode_facet {
     GM_NEEDS_NYSTROM = 1u << 7,      /* a split whose kinetic energy is quadratic */
     GM_NEEDS_INSEPARABLE = 1u << 8,  /* a hamiltonian without a split */
     GM_NEEDS_ENERGY = 1u << 9,       /* a hamiltonian whose energy generates the whole field */
-    GM_NEEDS_ACTION = 1u << 10,      /* an action without constraints, or a Hamiltonian that makes one, */
-    GM_NEEDS_CONSTRAINTS = 1u << 11, /* or with them */
+    GM_NEEDS_ACTION = 1u << 10,      /* an action without constraints, or a Hamiltonian that makes one */
+    GM_NEEDS_CONSTRAINTS = 1u << 11, /* an action with constraints */
     GM_NEEDS_FRICTION = 1u << 12,    /* forces -rate p and no others */
     GM_NEEDS_MONITOR = 1u << 13,
     GM_NEEDS_POISSON = 1u << 14,
     GM_NEEDS_ROTATIONS = 1u << 15, /* the bracket of angular momenta alone */
-    GM_NEEDS_AXES = 1u << 16,      /* of one, or with a vector, and an energy that is a sum over the axes */
+    GM_NEEDS_AXES = 1u << 16,      /* one angular momentum, or with a vector; H is a sum over the axes */
     GM_NEEDS_FREE_BODY = 1u << 17,
     GM_NEEDS_SEMILINEAR = 1u << 18,
     GM_NEEDS_GROUP = 1u << 19,      /* the bracket of angular momenta alone, or with a vector */
@@ -151,11 +152,11 @@ struct gm_ode {
     const char *components;
     bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic; /* f is a polynomial of degree 2 */
-    bool linear;    /* of degree 1, whose coefficients do not depend on the time */
-    bool rough;     /* f is not smooth: no order can be told */
-    bool written;   /* it was written by somebody: core/ode/user/problem.h knows more of it */
-    bool forced;    /* a force acts beside what an energy gives */
-    const struct gm_split *split; /* NULL: it has none, and so on */
+    bool linear;    /* f is of degree 1, with coefficients that do not depend on the time */
+    bool rough;     /* f is not smooth: no order can be measured */
+    bool written;   /* the system is user-defined (core/ode/user/problem.h) */
+    bool forced;    /* a force acts beside the energy's field */
+    const struct gm_split *split; /* NULL: the problem has no such facet; so below */
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_lagrangian *lagrangian;
     const struct gm_action *action; /* NULL: a quadratic T(p) makes one (core/ode/variational/action.h) */
@@ -165,10 +166,10 @@ struct gm_ode {
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;
-    /* Where tangents are carried along: the motion alone, whose q and p are the first of each half. */
+    /* The motion without its tangents, if they are carried along; its q and p are the first of each half. */
     const struct gm_problem *motion;
-    /* Makes now what schemes with these needs (GM_NEEDS_...) ask for, and what is made when it is first asked for; NULL:
-       nothing is. */
+    /* Makes the parts that schemes with these needs (GM_NEEDS_...) use and that are otherwise made at first
+       use; NULL: nothing to make. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);
     /* made of the problem's kernels by core/ode/compiled/over_kernels.c */
     const struct gm_loops *loops[GM_ISA_COUNT];

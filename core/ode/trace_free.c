@@ -22,8 +22,7 @@ void gm_trace_free_flow(const double a[9], size_t piece, double h, double *y, si
 {
     const size_t j = piece, k = 1 - piece;
     const bool last = piece == 1;
-    /* moving: (y_j, y_3); standing: y_k, which drives them by (a_jk y_k, d y_k), d = a_3k in the last
-       piece */
+    /* moving: (y_j, y_3); fixed: y_k, which drives them by (a_jk y_k, d y_k), d = a_3k in the last piece */
     const double own = a[4 * j], to_j = a[3 * j + 2], to_3 = last ? a[6 + j] : 0;
     double whole[2][2], half[2][2];
     plane_flow(own, to_j, to_3, h, whole);

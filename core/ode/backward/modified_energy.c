@@ -19,7 +19,7 @@
 
 enum {
     MOST_BRANCHES = GM_MODIFIED_ORDER - 1,
-    MOST_NODES = 500000, /* of the graph: a longer formula is refused */
+    MOST_NODES = 500000, /* largest size of the graph: a longer formula is refused */
 };
 
 struct gm_modified_energy {
@@ -27,12 +27,12 @@ struct gm_modified_energy {
     int power;
     double weight; /* w */
     struct gm_modified modified;
-    int differentials;                             /* so many trees have an F that is asked for */
+    int differentials;                             /* number of trees whose F is needed */
     struct gm_tape field[GM_MODIFIED_BRANCH];      /* D^m f (v_1, ..., v_m) of the state and these */
     struct gm_tape hamiltonian[GM_MODIFIED_ORDER]; /* D^m w H (v_1, ..., v_m) */
-    size_t with[GM_MODIFIED_ORDER];                /* so many terms have m branches */
+    size_t with[GM_MODIFIED_ORDER];                /* number of terms with m branches */
     double *vectors;                               /* F, differentials * n */
-    double *inputs, *values;                       /* of the tapes */
+    double *inputs, *values;                       /* the tapes' inputs and outputs */
 };
 
 /* ---- derivatives of the formula ---- */
@@ -114,7 +114,7 @@ static int branches_of(const struct gm_trees *trees, int tree, int branches[MOST
 
 /* ---- from a problem and a scheme ---- */
 
-/* The terms, by what theory knows of the scheme; false with the reason. */
+/* Finds the terms from the scheme's coefficients; false with the reason. */
 static bool open_terms(struct gm_modified_energy *energy, const struct gm_scheme *scheme,
                        char why[GM_MODIFIED_WHY])
 {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of the geometry a scheme breaks in a step or a short run: the defects of symplecticity, volume,
-   symmetry, reversibility, energy and other invariants. The derivative of a step is found by extrapolated
-   differences, so it asks nothing of the scheme. A defect refutes a claim only
-   where it stands clear of the error of the measurement: steps that stretch phase space a millionfold stretch
-   round-off too. */
+/* The defects of a scheme's geometry in a step or a short run: of symplecticity, volume, symmetry,
+   reversibility, energy and other invariants. The derivative of a step is found by extrapolated differences,
+   so it needs nothing from the scheme. A defect refutes a claim only if it exceeds the error of the
+   measurement: steps that stretch phase space a millionfold stretch round-off too. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +16,8 @@
 
 enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
 
-/* The derivative of one step at the start, and that of where it begins: the identity, or under constraints that of the
-   state on the manifold which is as close as may be. */
+/* The derivative of one step at the start, and the derivative of its initial state: the identity, or under
+   constraints that of the nearest state on the manifold. */
 struct derivative {
     double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
     double largest;
@@ -30,7 +29,7 @@ struct step {
     double dt;
 };
 
-/* Writes the state where a step begins, and behind it the one where the step ends. */
+/* Writes the initial state of a step, followed by its final state. */
 static bool make_step(const void *context, const double *from, double *to)
 {
     const struct step *step = context;
@@ -64,7 +63,7 @@ static bool differentiate(const struct gm_subject *subject, const struct gm_sche
     return isfinite(derivative->largest);
 }
 
-/* A defect of one step: NaN where it fails; clear where it stands clear of the error of its measurement. */
+/* A defect of one step: NaN if the step fails; `clear` if it exceeds the error of its measurement. */
 struct defect {
     double size;
     bool clear;
@@ -73,7 +72,7 @@ struct defect {
 typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                          const struct derivative *derivative);
 
-/* mean := the mean of `count` derivatives, of which it is that of all others so far. */
+/* mean := the mean of `count` derivatives; before, it is the mean of all but `next`. */
 static void average(struct derivative *mean, const struct derivative *next, size_t n, int count)
 {
     for (size_t i = 0; i < n * n; i++) {
@@ -83,9 +82,9 @@ static void average(struct derivative *mean, const struct derivative *next, size
     }
 }
 
-/* The defect that is a polynomial of this degree in the entries of the derivative. It stands clear where shorter
-   differences give nearly the same entries. One that is near the tolerance is that of the mean of several derivatives, in
-   which round-off is less. */
+/* Returns a defect that is a polynomial of this degree in the entries of the derivative. It is clear if
+   shorter differences give nearly the same entries. A defect near the tolerance is measured again with the
+   mean of several derivatives, in which round-off is less. */
 static struct defect of_derivative(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                    double dt, double tolerance, int degree, defect_of *defect)
 {
@@ -130,7 +129,7 @@ static double add_form(double form, const double (*tangent)[TANGENTS], size_t al
     return form;
 }
 
-/* Every area is to be `area` times what it was. */
+/* Returns how far areas differ from `area` times their value before the step. */
 static double areas_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
                            const struct derivative *derivative, double area)
 {
@@ -200,8 +199,8 @@ static double determinant_defect(const struct gm_subject *subject, const struct 
     return fabs(determinant - 1);
 }
 
-/* How far a run that turns round ends from its start. Where the scheme chooses its steps, a few of them, so
-   that it has chosen some. */
+/* Returns the distance of a reversed run's end from its start. An adaptive scheme makes 3 steps, so that its
+   control has acted. */
 static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  bool reflected)
 {
@@ -214,7 +213,7 @@ static struct defect of_way_back(const struct gm_subject *subject, const struct 
         return (struct defect){.size = NAN};
     }
     const double size = gm_distance(back, start, n) / subject->scale;
-    /* so many times round-off is stretched on the way back */
+    /* the size must exceed round-off times its growth on the return */
     const bool told = gm_subject_turn(subject, scheme, dt, steps, reflected, push, pushed);
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
@@ -242,8 +241,8 @@ static struct defect defect_at(const struct gm_subject *subject, const struct gm
     return of_way_back(subject, scheme, dt, claim == GM_REVERSIBLE);
 }
 
-/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
-   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
+/* Decides by steps of length dt, dt / 4, dt / 16. The defect of a scheme falls like a power of dt: a defect
+   that vanishes suddenly came from another solution of the solver, or from a step that is far too large. */
 static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
                      double tolerance)
 {
@@ -268,7 +267,7 @@ static double decide(const struct gm_subject *subject, const struct gm_scheme *s
 /* The state after many smaller steps; false: they fail. */
 static bool go_on(const struct gm_subject *subject, const struct gm_scheme *scheme, double *end)
 {
-    /* A scheme that chooses its step may end for want of one: what it has done counts. */
+    /* An adaptive scheme may end when no step is possible: the steps before count. */
     const bool adaptive = scheme->family->adaptive;
     const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
     double whole[MOST];

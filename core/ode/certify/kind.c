@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of ordinary differential equations as the hall sees it: its facets, the families of schemes
-   that need them, and what those are certified by: every subject that they fit. */
+/* The kind of ordinary differential equations: its facets, the families of schemes that need them, and their
+   certificates: every subject that fits a scheme is measured. */
 #include "core/ode/ode.h"
 
 #include <limits.h>
@@ -30,7 +30,7 @@ static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
     const struct gm_split *split = ode->split;
-    const bool held = gm_action_constraints(problem) > 0; /* its energy generates another motion, */
+    const bool held = gm_action_constraints(problem) > 0; /* the energy generates another motion */
     const struct gm_hamiltonian *hamiltonian = held ? NULL : ode->hamiltonian;
     const bool action = gm_has_action(problem);
     return (split ? GM_NEEDS_SPLIT : 0) | (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) |
@@ -121,8 +121,9 @@ static void note(struct gm_certificate *certificate, enum gm_claim claim, double
     }
 }
 
-/* Whether a field's equations on its grid keep a quantity: what the continuum keeps, derivatives in space may not. By
-   its change along the rates, at the start and further along them, where there are as many mirrors as at the start. */
+/* Returns true if a field's equations on its grid conserve a quantity; derivatives in space may break a
+   conservation law. The test is its change along the rates, at the start and further along them, where the
+   states have the mirror symmetries of the start. */
 static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     enum { STATES = 3 };
@@ -151,7 +152,7 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
     return good;
 }
 
-/* Whether the bracket of a quantity with every component is 0, as far as differences tell. */
+/* Returns true if the bracket of a quantity with every component is 0, up to the error of differences. */
 static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
@@ -182,7 +183,7 @@ static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *k
     return poisson && sum > 0 && largest <= 1e-6 * sum;
 }
 
-/* Whether the energy is that of the momenta turned round. */
+/* Returns true if the energy is even in the momenta. */
 static bool is_even(const struct gm_subject *subject)
 {
     double y[GM_SUBJECT_COMPONENTS], turned[GM_SUBJECT_COMPONENTS];
@@ -199,8 +200,8 @@ static bool is_even(const struct gm_subject *subject)
     return true;
 }
 
-/* Takes in the order on one system. The lowest of those that are settled counts. Before the asymptotic regime
-   an order may look higher than it is, and where errors cancel, lower. */
+/* Measures the order on one system. The lowest settled order counts. Before the asymptotic regime an order
+   may look too high, and if errors cancel, too low. */
 static void measure_order(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
     struct gm_ladder ladder;
@@ -214,7 +215,7 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
     }
 }
 
-/* Notes the change of a quantity that a system conserves, under every claim that the quantity bears on. */
+/* Notes the change of a quantity that a system conserves, under every claim that concerns it. */
 static void measure_kept(struct gm_certificate *certificate, const struct gm_subject *subject,
                          const struct gm_kept *kept)
 {
@@ -233,7 +234,7 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
             continue;
         }
         if (changes && gm_ode_of(&subject->problem)->rough) {
-            /* what it is on the one side of a corner it need not be on the other */
+            /* the quantity may differ across a corner of the field */
             gm_certificate_undecided(certificate, claim, name);
         } else if (changes && drift < gm_round_off_of(subject, kept)) {
             gm_certificate_withhold(certificate, claim,
@@ -303,8 +304,8 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     }
 }
 
-/* On a system that is not smooth what holds decides nothing: the few steps may all lie on one side of a corner.
-   What fails there fails. */
+/* Leaves satisfied claims undecided on a system that is not smooth: the few steps may all lie on one side of
+   a corner. A failed claim stays so. */
 static void doubt(struct gm_certificate *certificate)
 {
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -342,7 +343,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     subject.scale = subject.scale > 0 ? subject.scale : 1;
     measure(certificate, &subject);
     note_same(certificate, &subject);
-    /* an order is of short steps, and dt need not be one: that of a map is all of it */
+    /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
         measure_order(certificate, &subject);

@@ -68,7 +68,7 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
 {
     switch (gm_linear_test_of(scheme)) {
     case GM_TEST_PLANE: {
-        /* the third component stays where it is, at 0 */
+        /* the third component stays 0 */
         const double matrix[9] = {re, -im, 0, im, re, 0, 0, 0, 0}, y[3] = {1, 0, 0};
         double end[3];
         struct gm_problem problem = gm_problem_linear;
@@ -160,7 +160,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
     return scheme->family == &gm_family_splitting ? splitting_radius(scheme->coefficients, im) : NAN;
 }
 
-/* What a step adds to 1 at the distance x. */
+/* Returns the growth of a step minus 1 at the distance x. */
 static double excess(const struct gm_scheme *scheme, double re, double im, double x, int64_t steps)
 {
     const double growth = gm_linear_growth(scheme, x * re, x * im, steps);

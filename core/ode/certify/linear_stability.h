@@ -4,7 +4,7 @@
 
 #include "core/scheme.h"
 
-/* By what factor a scheme lets solutions of a linear test equation grow in a step of length 1:
+/* The growth factor of a scheme's solutions of a linear test equation in a step of length 1:
        y' = z y, z complex               for schemes that take any ordinary differential equation
        q' = p, p' = -w^2 q, z = i w      for schemes that take H = T(p) + V(q) */
 
@@ -12,17 +12,17 @@ enum gm_linear_test { GM_TEST_NONE, GM_TEST_PLANE /* y' = z y */, GM_TEST_OSCILL
 
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme);
 
-/* |y| after a step by |y| before it, found by stepping: in the long run, over `steps` steps, for methods that
-   remember more than one. NAN where the step fails. re, im: z; the oscillator takes re = 0. */
+/* Returns |y| after a step divided by |y| before it, found by stepping: the geometric mean over `steps`
+   steps; multistep methods need several. NAN if a step fails. re, im: z; the oscillator takes re = 0. */
 double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, int64_t steps);
 
-/* The same from the coefficients: |R(z)| of a Runge-Kutta method, the spectral radius of a splitting. NAN for
-   families whose coefficients say nothing of it. */
+/* Returns the growth from the coefficients: |R(z)| of a Runge-Kutta method, the spectral radius of a
+   splitting. NAN for other families. */
 double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double im);
 
-/* How far from 0 along the direction (re, im), of length 1, nothing grows: `reach` where nothing does up to
-   there. Growth within the rounding of a symplectic map, 1e-7, is none; but where the excess over 1 falls
-   from there towards 0 like a power of the distance, every step grows and the limit is 0. */
+/* Returns the distance from 0 along the direction (re, im), of length 1, up to which nothing grows, at most
+   `reach`. Growth below the rounding of a symplectic map, 1e-7, does not count; but if the excess over 1
+   falls from there towards 0 like a power of the distance, every step grows and the limit is 0. */
 double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, int64_t steps);
 
 #endif

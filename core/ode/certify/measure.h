@@ -5,40 +5,39 @@
 #include "core/certify.h"
 #include "core/ode/user/model.h"
 
-/* What kind.c certifies by: the problems that schemes are certified on, and the measurements. */
+/* The problems that schemes are certified on, and the measurements, for kind.c. */
 
-/* Components of any, and of those of which the derivative of a step is taken. */
+/* The most components of a subject, and of one whose derivative of a step is taken; the most invariants. */
 enum { GM_SUBJECT_COMPONENTS = 4096, GM_SUBJECT_TANGENTS = 64, GM_SUBJECT_INVARIANTS = 3 };
 
 struct gm_subject {
     struct gm_problem problem; /* m = 1 */
     const double *start;
-    double dt;    /* of one step; large enough that RK4 shows a symplecticity defect above 1e-6 */
-    double unit;  /* of the times at which the order is measured */
-    double scale; /* of the components */
-    bool
-        volume; /* of a system without divergence; beside an energy it tells of no scheme that conserves it */
-    const struct gm_kept *kept; /* beside the energy; a name that is NULL is the problem's */
+    double dt;                  /* step size; large enough that RK4 shows a symplecticity defect above 1e-6 */
+    double unit;                /* unit of the times at which the order is measured */
+    double scale;               /* size of the components */
+    bool volume;                /* preservation of volume is measured: no energy, no bracket */
+    const struct gm_kept *kept; /* invariants beside the energy; a NULL name is the problem's */
     size_t kept_count;
-    struct gm_user_system system; /* that the problem is of, where it is one that was read */
+    struct gm_user_system system; /* the problem's system, if it has a file */
     struct gm_user_model model;
 };
 
 size_t gm_subject_count(void);
-/* Whether the scheme is measured on it; false also where memory is short. It does not move while it is open, and is to be
-   closed in all cases. */
+/* Returns true if the scheme is measured on it; false also when out of memory. It does not move while it is
+   open, and the caller closes it in all cases. */
 bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_scheme *scheme);
 void gm_subject_close(struct gm_subject *subject);
 
 /* The components that a scheme maps: the state, or with a second copy of phase space both. */
 size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme);
-/* Fills them at the start. */
+/* Writes the start of the components that a scheme maps. */
 void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole);
 
-/* The rate c of a friction -c p; 0: there is none. */
+/* Returns the rate c of a friction -c p; 0: no friction. */
 double gm_subject_friction(const struct gm_subject *subject);
 
-/* For the schemes that choose their step tau0 is what dt is for the others. */
+/* Returns settings whose tau0, for adaptive schemes, is dt. */
 struct gm_settings gm_subject_settings(double dt);
 
 /* gm_trial_advance, of the components that the scheme maps. */
@@ -54,22 +53,24 @@ bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *s
 double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme,
                         struct gm_ladder *ladder);
 
-/* The defect of a claim; NaN where a step fails, or where a defect beyond the tolerance does not stand clear of the
-   error of its own measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
+/* Returns the defect of a claim; NaN if a step fails, or if a defect beyond the tolerance does not exceed the
+   error of its measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
    (core/linear/differences.h).
-       GM_SYMPLECTIC         |M' J M - J|, under constraints of tangents of their manifold alone
+       GM_SYMPLECTIC         |M' J M - J|, under constraints for tangents of their manifold only
        GM_CONFORMAL          |M' J M - exp(-c dt) J|
        GM_POISSON_MAP        |M B(y0) M' - B(y1)|
        GM_KEEPS_VOLUME       |det M - 1|, of three components
-       GM_SYMMETRIC          what step(-dt) step(dt) leaves of the way back to the start
-       GM_REVERSIBLE         what R step R step leaves of it, R: p -> -p
-       GM_KEEPS_ENERGY       gm_drift, GM_KEEPS_CONSTRAINTS and _HIDDEN the constraints after as many steps */
+       GM_SYMMETRIC          |step(-dt) step(dt) y0 - y0|
+       GM_REVERSIBLE         |R step R step y0 - y0|, R: p -> -p
+       GM_KEEPS_ENERGY       gm_drift
+       GM_KEEPS_CONSTRAINTS, _HIDDEN  the constraints after as many steps */
 double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
                  double tolerance);
 
-/* The relative change of a quantity over many smaller steps; NaN where they fail. */
+/* Returns the relative change of a quantity over many smaller steps; NaN if they fail. */
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept);
-/* Its change by a hundred times the round-off of the start's largest number, in some direction. */
+/* Returns a quantity's change by a hundred times the round-off of the start's largest number, in some
+   direction. */
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept);
 
 #endif

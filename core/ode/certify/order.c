@@ -62,7 +62,7 @@ static double error_of(const struct gm_subject *subject, const struct gm_scheme 
     return good ? sum : NAN;
 }
 
-/* A scheme that chooses its step is compared with the solution at the time that it reached. */
+/* Returns the error of an adaptive scheme against the solution at the time that it reached. */
 static double error_at_own_time(const struct gm_subject *subject, const struct gm_scheme *scheme,
                                 const struct gm_settings *settings, double dt, double until)
 {
@@ -79,7 +79,7 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
     return error;
 }
 
-/* by least squares */
+/* the slope by least squares */
 static double slope(const double *x, const double *y, int count)
 {
     double mean_x = 0, mean_y = 0, above = 0, below = 0;
@@ -120,8 +120,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
         ladder->settled = !isnan(order);
         return order;
     }
-    /* The higher the order, the longer the time until round-off is small beside the error. The variational
-       schemes that choose their step may not reach a turning point. */
+    /* The higher the order, the longer the time until round-off is small against the error. Variational
+       schemes with a varying time may not reach a turning point. */
     const bool adaptive = scheme->family->adaptive;
     const bool varies_time = scheme->family->parameters == gm_settings_of_variational_time;
     const double span = varies_time ? 0.4 : scheme->order < 5 ? 2 : 10;
@@ -131,11 +131,11 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     if (!adaptive && !solve_at_times(subject, until, exact)) {
         return NAN;
     }
-    /* the finest steps, a factor of two apart, whose error stands clear of round-off */
+    /* the finest steps, a factor of two apart, whose error exceeds round-off */
     double x[GM_LADDER], e[GM_LADDER];
     int count = 0;
     int64_t between = 0;
-    /* of the highest orders that is where steps are large */
+    /* the highest orders exceed round-off at large steps only */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const int64_t before = between;
         const double finer = (adaptive ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);

@@ -26,8 +26,8 @@ static size_t read_names(const char *names, struct gm_quantity *quantities, size
     return count;
 }
 
-/* Says which components are places: of a Hamiltonian system the first half or, where that is one or belongs
-   to several copies, a degree of freedom with its momentum; of others all; three at most. */
+/* Marks the components that are coordinates: in a Hamiltonian system the first half or, if that is one or
+   belongs to several copies, a degree of freedom with its momentum; otherwise all; three at most. */
 static void mark_axes(const struct gm_problem *problem, struct gm_quantity *quantities, size_t count)
 {
     const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;

@@ -60,17 +60,17 @@ static const struct term ring_square[] = {{1, 0, 0},   {1, 1, 1},   {1, 2, 2}, {
         .value = sum_of_terms, .data = terms                                                                 \
     }
 
-/* The problem is one in C with these parameters, or that of a built-in file: one of share/subjects, or a system. */
+/* A subject: a problem in C with these parameters, or a built-in file: one of share/subjects, or a system. */
 static const struct row {
     const struct gm_problem *problem;
     const void *parameters;
     const char *file;
-    struct gm_system_value value; /* of a parameter of the file, where it is not that of the file */
+    struct gm_system_value value; /* a parameter's value that replaces the file's */
     double dt;
-    unsigned only; /* facets: not for schemes that need none of them; 0: for all */
+    unsigned only; /* facets of which a scheme must need one; 0: any scheme */
     double start[12];
     struct gm_kept kept[GM_SUBJECT_INVARIANTS];
-    const char *name; /* where it is not that of the file */
+    const char *name; /* the subject's name, if not the file's */
 } rows[] = {
     {.file = "pendulum", .dt = 0.6, .start = {0.6, 1.1}},
     {.file = "particles", .dt = 0.6, .start = {0.5, -0.4, 0.3, 0.8}},
@@ -119,7 +119,7 @@ static const struct row {
      .start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
      .kept = {KEPT(ring_sum), KEPT(ring_square)}},
     {.file = "fpu", .dt = 0.3, .only = GM_NEEDS_FAST_LINEAR, .start = FPU_START},
-    /* (h Omega)^2 = 0.09, with which two copies of phase space bear the binding that they are given here */
+    /* (h Omega)^2 = 0.09, at which two copies of phase space are stable with the binding given here */
     {.file = "fpu", .dt = 0.06, .only = GM_NEEDS_HAMILTONIAN, .start = FPU_START},
 };
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
-   file once for each problem, and where there are ensembles of it for each instruction set, with
+   file once for each problem, and if it has ensembles for each instruction set, with
        GM_KERNELS   the problem's kernels ("core/ode/problems/oscillators/fpu.kernel.h")
        GM_PROBLEM   its name (pendulum)
        GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
        GM_BASELINE  with the loops of a single run, or
        GM_ALONE     with no others: an ensemble is advanced member by member
-   and, where not all families are wanted, one of GM_LOOP_EXPLICIT, GM_LOOP_IMPLICIT, GM_LOOP_SPLITTING and
+   and, if not all families are needed, one of GM_LOOP_EXPLICIT, GM_LOOP_IMPLICIT, GM_LOOP_SPLITTING and
    GM_LOOP_NONE. The kernel file is included for each pass, over the lane type `real`. It defines
        GM_COMPONENTS   n, a constant
        GM_SEPARABLE    if H = T(p) + V(q)
@@ -124,7 +124,7 @@ static void jacobian(const struct gm_problem *problem, const double *y, double *
 #endif
 
 #if defined(GM_KERNEL_KEY) && GM_COMPONENTS <= 4
-/* The number is constant, so that the compiler leaves out what the other rates take. */
+/* Moves one piece; its number is constant, so that the compiler omits the other rates. */
 static inline __attribute__((always_inline)) void shear_of(const struct gm_problem *problem, size_t piece,
                                                            double h, double *y, size_t m)
 {
@@ -188,7 +188,7 @@ const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
 #endif
 
 #if defined(GM_ALONE) && defined(GM_LOOPS_X86)
-/* where the program looks for those of other instruction sets */
+/* aliases under the names of other instruction sets */
 #define GM_SAME_LOOPS(isa)                                                                                   \
     extern const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, isa)                                              \
         __attribute__((alias(GM_IN_QUOTES(GM_LOOPS_NAME(GM_PROBLEM, GM_ISA)))));

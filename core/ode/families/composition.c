@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compositions of any schemes whatever,
+/* Compositions of any schemes,
        y1 = Phi_s(g_s h) o ... o Phi_1(g_1 h) (y0),
-   by the loops that these have. The rows of the list are none: they are brought along. Hairer, Lubich &
-   Wanner (2006), sections II.4, V.3. */
+   with the loops of these schemes. The family has no rows: they are user-defined. Hairer, Lubich & Wanner
+   (2006), sections II.4, V.3. */
 #include "core/ode/families/composition.h"
 
 #include <stdlib.h>
@@ -15,8 +15,7 @@
 struct workspace {
     double *state, *carry; /* n * m each */
     int count;
-    const struct gm_family *
-        *families; /* of the substeps, with their workspaces; NULL: that of an earlier one */
+    const struct gm_family **families; /* the substeps' families; NULL: shares an earlier workspace */
     void **workspaces;
 };
 
@@ -105,7 +104,7 @@ static struct gm_progress loop(const struct gm_task *task)
             substep.workspace = workspace->workspaces[i];
             substep.out = there ? workspace->state : task->out;
             substep.carry_out = !task->carry ? NULL : there ? workspace->carry : task->carry_out;
-            if (task->carry) { /* a scheme that does not sum so leaves it as it is */
+            if (task->carry) { /* a scheme without compensation leaves it unchanged */
                 memcpy(substep.carry_out, substep.carry, bytes);
             }
             const struct gm_progress made =

@@ -5,7 +5,7 @@
 #include "core/scheme.h"
 
 /* The coefficients of a composition: in each step these schemes make steps of these fractions of h, one after
-   the other. They remember nothing from step to step, and take the step that they are given. */
+   the other. They have no memory between steps, and a given step size. */
 struct gm_substeps {
     int count;
     struct gm_substep {
@@ -14,10 +14,10 @@ struct gm_substeps {
     } at[];
 };
 
-/* Whether a scheme may be a part of one. */
+/* Returns true if a scheme may be a part of a composition. */
 bool gm_scheme_composes(const struct gm_scheme *scheme);
 
-/* The same, of schemes that all know what to do with a passive block. */
+/* The family of compositions whose schemes all advance a passive block. */
 extern const struct gm_family gm_family_composition_carrying;
 
 #endif

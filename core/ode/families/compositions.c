@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The compositions that several families make their higher orders of. Those of Verlet's method are written by the
-   build from share/schemes. */
+/* The compositions from which several families make their higher orders. The build writes the compositions of
+   Verlet's method from share/schemes. */
 #include "core/ode/families/compositions.h"
 
 const struct gm_composition gm_composition_none = {1, {1}};

@@ -12,10 +12,10 @@ enum { GM_COMPOSITION_STEPS = 35, GM_COMPOSITION_HALF = (GM_COMPOSITION_STEPS + 
 /* A row of gammas. */
 struct gm_composition {
     int steps;                          /* s, odd */
-    double gammas[GM_COMPOSITION_HALF]; /* as far as the middle one */
+    double gammas[GM_COMPOSITION_HALF]; /* g_1 up to the middle one */
 };
 
-/* What fraction of h the step i = 0, ..., s - 1 is. */
+/* Returns step i's fraction of h, i = 0, ..., s - 1. */
 static inline double gm_composition_fraction(const struct gm_composition *composition, int i)
 {
     const int mirrored = composition->steps - 1 - i;

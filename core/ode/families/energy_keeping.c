@@ -8,7 +8,7 @@
    D.I. McLaren, J. Phys. A 41 (2008) 045206; O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
    The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15. Both are solved for d
-   to round-off by fixed-point iteration, and where that does not contract by Newton's method with the
+   to round-off by fixed-point iteration, and if that does not contract by Newton's method with the
    Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static const struct {
     {0.9801449282487681158418, 0.05061426814518812957627},
 };
 
-/* Scratch arrays of n doubles, then what the solvers work in. */
+/* Scratch arrays of n doubles, then the scratch of the solvers. */
 enum { D, AT, F, VECTORS };
 
 /* mean := the discrete f between y and y + d. Returns the level of its round-off, times |d| / |f|. */
@@ -97,7 +97,7 @@ static double gradient_field(const struct gm_problem *problem, const double *y, 
     return fabs(weight * before) / sqrt(square);
 }
 
-/* One step, or one of those that it is made of. */
+/* One step, or one substep of a composition. */
 struct substep {
     const struct gm_task *task;
     const struct gm_members *members;
@@ -122,7 +122,7 @@ static bool sweep(void *data, const double *d, double *next, double *scale)
     return true;
 }
 
-/* With the matrix of the midpoint rule. */
+/* Writes the residual, and the matrix of the midpoint rule. */
 static bool linear(void *data, const double *d, double *residual, double *matrix, double *scale)
 {
     const struct substep *substep = data;

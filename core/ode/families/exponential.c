@@ -27,13 +27,13 @@ enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
 enum { PER_STAGE = STAGES + 1 };
 struct exponential {
     size_t stages; /* evaluations of N */
-    /* The n * n matrices of row 1 .. stages (the end) on one mode; those that stay 0 are not touched. whole:
-       exp(z) and phi_1 .. phi_3 of z = h L; half: of z/2. */
+    /* Computes the n * n matrices of row 1 .. stages (the end) on one mode; matrices that stay 0 are not
+       touched. whole: exp(z) and phi_1 .. phi_3 of z = h L; half: of z/2. */
     void (*rows)(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
                  double complex (*row)[PER_STAGE][SIZE]);
 };
 
-/* to += factor from, of so many numbers */
+/* to += factor from, for `size` numbers */
 static void add_vector(size_t size, double factor, const double complex *from, double complex *to)
 {
     for (size_t i = 0; i < size; i++) {
@@ -100,10 +100,10 @@ static void etd_rows(size_t n, double complex (*whole)[SIZE], double complex (*h
     }
 }
 
-/* What is kept of a run: the matrices of every mode for one step. */
+/* The workspace of a run: the matrices of every mode for one step. */
 struct work {
     struct gm_modes modes;
-    double dt;                /* that the matrices are for; 0: none */
+    double dt;                /* the step of the matrices; 0: none */
     double complex *matrices; /* [mode][row][PER_STAGE][fields * fields] */
     double complex *state, *rest, *stage;
 };

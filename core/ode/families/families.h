@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The families of this wing as declarations, from the list families.def. */
+/* The families of schemes as declarations, from the list families.def. */
 #ifndef GM_CORE_ODE_FAMILIES_FAMILIES_H
 #define GM_CORE_ODE_FAMILIES_FAMILIES_H
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steppers of the GNU Scientific Library, to compare with: RK4, Prince & Dormand's of order 8, the Adams and
-   the backward differentiation formulae. By the parameter `tolerance` a step of length dt is
-       0      one step of the library's, its error not asked for
+   the backward differentiation formulae. The parameter `tolerance` defines a step of length dt:
+       0      one step of the library, without error control
        > 0    the library's adaptive driver over dt, with that absolute and relative tolerance
-   The multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a past of
-   their own, and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
+   The multistep methods choose order and step themselves, so for them 0 means 1e-8; they store their past,
+   and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
    equations". */
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 
-/* of the multistep methods where none is given */
+/* default tolerance of the multistep methods */
 #define STANDARD_TOLERANCE 1e-8
 
 enum stepper { RK4, RK8PD, MSADAMS, MSBDF };
@@ -30,10 +30,10 @@ struct workspace {
     unsigned long evaluations, solves;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver **drivers; /* one for each member, because each has its own past */
-    double dt, tolerance;        /* that the drivers were set for */
+    double dt, tolerance;        /* the settings of the drivers */
     double *state;               /* n * m, after the last good step */
     double *y;                   /* n */
-    int64_t good;                /* that step, counted from the run's first */
+    int64_t good;                /* number of the last good step, counted from the run's first */
     enum gm_status status;       /* why the step after it failed */
 };
 
@@ -127,7 +127,7 @@ static void workspace_reset(void *pointer)
 {
     struct workspace *workspace = pointer;
     workspace->good = -1;
-    workspace->dt = 0; /* so that the next step forgets the past */
+    workspace->dt = 0; /* the next step starts without a past */
 }
 
 static int advance(struct workspace *workspace, gsl_odeiv2_driver *driver, double t, double dt, double *y)
@@ -154,7 +154,7 @@ static enum gm_status step(const struct gm_task *task, struct workspace *workspa
             return GM_BLOW_UP;
         }
         if (result != GSL_SUCCESS) {
-            return GM_STEP_COLLAPSE; /* the driver's own steps have no length any more */
+            return GM_STEP_COLLAPSE; /* the driver's steps have become too small */
         }
         for (size_t c = 0; c < n; c++) {
             if (!(fabs(workspace->y[c]) <= task->limit)) { /* a NaN compares false */
@@ -187,7 +187,7 @@ struct stretch {
     int64_t done;
 };
 
-/* Under the guard: a stepper solves its linear equations in memory that it takes at every step. */
+/* Runs under the guard: a stepper allocates memory for linear equations at every step. */
 static bool make_steps(void *data)
 {
     struct stretch *stretch = data;
@@ -209,7 +209,7 @@ static struct gm_progress loop(const struct gm_task *task)
     struct workspace *workspace = task->workspace;
     const size_t size = task->problem->n * task->problem->m * sizeof(double);
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    /* asked again for the steps before one that failed: they cannot be repeated, but they are known */
+    /* the steps before a failed one are requested: they cannot be repeated, but are stored */
     if (workspace->status != GM_OK && workspace->good == task->steps_before + task->steps) {
         memcpy(task->out, workspace->state, size);
         progress.evaluations = workspace->evaluations;
@@ -223,7 +223,7 @@ static struct gm_progress loop(const struct gm_task *task)
     struct stretch stretch = {.task = task};
     if (!gm_memory_guard_gsl(make_steps, &stretch)) {
         workspace->status = GM_OUT_OF_MEMORY;
-        workspace->tolerance = NAN; /* that of no driver: they are to be made anew */
+        workspace->tolerance = NAN; /* no driver's tolerance: all drivers are rebuilt */
     }
     workspace->good = task->steps_before + stretch.done;
     progress.done = stretch.done;

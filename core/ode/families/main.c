@@ -84,7 +84,7 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
 enum family { IMPLICIT, SPLITTING, COMPOSITIONS, FAMILIES };
 static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions"};
 
-/* Whether the steps are the same from both ends, as a row holds half of them. */
+/* Returns true if the steps are palindromic: a row holds half of them. */
 static bool is_symmetric(const struct gm_written_line *steps)
 {
     bool same = true;

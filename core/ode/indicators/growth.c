@@ -26,20 +26,20 @@ struct gm_growth {
     double *v;
     bool failed;
     struct sums sums;
-    /* What they were after 0, every, 2 every ... steps; when all are full every other one goes. */
+    /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
     size_t recorded;
     int64_t every;
 };
 
-/* Whether the last component is the time: orbits beside one another have the same. */
+/* Returns true if the last component is the time: neighbouring orbits have the same. */
 static bool has_time(const struct gm_problem *problem)
 {
     const char *names = gm_ode_of(problem)->components, *last = names ? strrchr(names, ' ') : NULL;
     return last && strcmp(last, " t") == 0;
 }
 
-/* Every component has its part, and no two the same: the fractions of multiples of the golden mean lie
+/* Fills v with a unit vector whose components all differ: fractions of multiples of the golden mean lie
    evenly. */
 static void choose_direction(double *v, size_t n)
 {
@@ -106,7 +106,7 @@ static void record(struct gm_growth *growth, int64_t steps)
     growth->records[growth->recorded++] = growth->sums;
 }
 
-/* A step of this length in time, in which the vector has grown so much. */
+/* Adds a step of this length in time, in which the vector has grown by the factor `length`. */
 static void add(struct gm_growth *growth, double step, double length)
 {
     struct sums *sums = &growth->sums;

@@ -4,10 +4,9 @@
        Y_i = y0 + h sum_j a_ij k_j,   dY_i = v + h sum_j a_ij w_j,   w_j = f'(Y_j) dY_j
        y1  = y0 + h sum_j b_j  k_j,   dy1  = v + h sum_j b_j  w_j
    where momenta may have other a and b. Splittings and Nystrom methods are of this form
-   (core/theory/coefficients.h). Stages that ask for one another form a block, which Newton's method solves:
-   its last matrix is that of the dY_i. Where there is no such form, or that solution is not the scheme's,
-   central differences are taken at two distances, of which the error in the square of the distance is
-   eliminated. */
+   (core/theory/coefficients.h). Stages that depend on one another form a block, which Newton's method solves:
+   its last matrix gives the dY_i. If a scheme has no such form, or that solution is not the scheme's, central
+   differences at two distances are extrapolated, which eliminates the error of second order. */
 #include "core/ode/indicators/tangent.h"
 
 #include <float.h>
@@ -22,27 +21,26 @@
 #include "core/theory/coefficients.h"
 
 struct gm_tangent {
-    struct gm_arena *arena; /* of all that is pointed to but the runs */
+    struct gm_arena *arena; /* owns all memory but the runs */
     struct gm_run *run;
-    struct gm_run *probe; /* for differences, with a workspace of its own; NULL: none were taken yet */
+    struct gm_run *probe; /* a second run for differences; NULL: not needed yet */
     size_t n, memory;
-    size_t stages;         /* 0: differences are all there is */
+    size_t stages;         /* number of stages; 0: differences only */
     double *a[GM_SIDES];   /* stages * stages by rows */
     double *b[GM_SIDES];   /* stages */
-    int *side;             /* of each component */
-    size_t *from, *to;     /* of each stage: the components whose slopes are asked for */
-    bool running;          /* each stage knows those before it with their final weights, as in splittings */
+    int *side;             /* the side of each component */
+    size_t *from, *to;     /* per stage: the range of components whose slopes are needed */
+    bool running;          /* the stages before have their final weights, as in splittings */
     double *k, *w;         /* stages * n each */
     double *y, *dy;        /* n each: the sums over the stages that are done */
-    double *base, *d_base; /* stages * n each: of a block, what the stages before it give */
-    double *at;            /* stages * n: the states of its stages */
-    double *jacobians;     /* of its stages, n * n each */
-    double *scratch;       /* of Newton's method for them */
-    double *kicked,
-        *kick; /* n each: where the Jacobian of the last stage was taken, if that was a kick, and its k */
+    double *base, *d_base; /* n per stage of a block: the sums over the stages before the block */
+    double *at;            /* n per stage of a block: the states */
+    double *jacobians;     /* n * n per stage of a block */
+    double *scratch;       /* scratch of Newton's method */
+    double *kicked, *kick; /* n each: the last stage's state and k, if it was a kick */
     double *before, *plus, *minus, *slope; /* n + memory each */
-    bool together;  /* the stages have led where the scheme did, to the last bit, so far */
-    void *snapshot; /* of the run, to which it goes back where they did not */
+    bool together;                         /* the stages have reproduced the scheme to the last bit so far */
+    void *snapshot;                        /* the run's state before these steps, restored if not */
 };
 
 const char *gm_tangent_word(const struct gm_scheme *scheme)
@@ -54,7 +52,7 @@ const char *gm_tangent_word(const struct gm_scheme *scheme)
 
 /* ---- opening ---- */
 
-/* Where the block ends that begins with this stage: no stage in it asks for one behind. */
+/* Returns the end of the block that starts with this stage: its stages need no later one. */
 static size_t end_of_block(const struct gm_tangent *tangent, size_t first)
 {
     const size_t s = tangent->stages;
@@ -68,7 +66,7 @@ static size_t end_of_block(const struct gm_tangent *tangent, size_t first)
     return end;
 }
 
-/* Whether the slopes of a stage are asked for on that side. */
+/* Returns true if the slopes of a stage are needed on that side. */
 static bool is_asked(const struct gm_tangent *tangent, size_t stage, size_t side)
 {
     const size_t s = tangent->stages;
@@ -79,8 +77,7 @@ static bool is_asked(const struct gm_tangent *tangent, size_t stage, size_t side
     return asked;
 }
 
-/* A kick needs the slopes of p alone, a drift those of q, which are those of the first half; the time moves
-   with q. */
+/* A kick needs the slopes of p alone, a drift the slopes of q, the first half; the time moves with q. */
 static void choose_components(struct gm_tangent *tangent)
 {
     const size_t n = tangent->n;
@@ -110,7 +107,7 @@ static double *doubles(const struct gm_tangent *tangent, size_t count)
     return gm_arena_take(tangent->arena, count, sizeof(double));
 }
 
-/* What the stages need. */
+/* Allocates the coefficients and the scratch of the stages. */
 static void open_stages(struct gm_tangent *tangent, const struct gm_coefficients *coefficients)
 {
     const size_t n = tangent->n, s = (size_t)coefficients->stages;
@@ -224,8 +221,8 @@ static struct gm_run *open_run(const struct gm_tangent *tangent, const double *y
     return gm_run_open(run->problem, run->scheme, &run->settings, run->t, run->dt, y);
 }
 
-/* By which multiple of v states are moved: beyond it the terms of order 5 count, below it round-off does.
-   What a scheme remembers may be small beside the state, as a step is. */
+/* Returns the multiple of v by which states are moved: beyond it the terms of order 5 count, below it
+   round-off does. A scheme's memory, for example a step, may be small against the state. */
 static double distance(const struct gm_tangent *tangent, const double *v)
 {
     double largest = 1e-3, most = 0;
@@ -247,7 +244,7 @@ static void take_before(const struct gm_tangent *tangent)
     }
 }
 
-/* Where `before`, moved by so many v, is after a step; false where that leads to no number. */
+/* Makes a step from `before` + factor v; false if the result is not finite. */
 static bool move(const struct gm_tangent *tangent, const double *v, double factor, double *to)
 {
     struct gm_run *probe = tangent->probe;
@@ -263,10 +260,10 @@ static bool move(const struct gm_tangent *tangent, const double *v, double facto
     return good;
 }
 
-/* What becomes of `before`, moved by so many v. */
+/* A function of `before` + factor v; false on failure. */
 typedef bool moved(const struct gm_tangent *tangent, const double *v, double factor, double *to);
 
-/* v[i] := the derivative along v of what becomes of number i, from `first` on. */
+/* v[i] := the derivative along v of entry i of the function, from `first` on. */
 static bool extrapolate(const struct gm_tangent *tangent, double *v, size_t first, moved *become)
 {
     const double near = distance(tangent, v) / 2, far = 2 * near;
@@ -292,8 +289,7 @@ static bool by_differences(struct gm_tangent *tangent, double *v)
     return tangent->probe && extrapolate(tangent, v, 0, move);
 }
 
-/* What the scheme remembers at the start of a run in `before`, moved by so many v; false where there is
-   none. */
+/* Computes the scheme's initial memory at `before` + factor v; false if a run cannot start there. */
 static bool recall(const struct gm_tangent *tangent, const double *v, double factor, double *to)
 {
     for (size_t c = 0; c < tangent->n; c++) {
@@ -314,7 +310,7 @@ bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
         return true;
     }
     take_before(tangent);
-    /* what is not known yet has no say in how far states are moved */
+    /* unknown entries must not affect the distance by which states are moved */
     memset(v + tangent->n, 0, tangent->memory * sizeof *v);
     return extrapolate(tangent, v, tangent->n, recall);
 }
@@ -330,7 +326,7 @@ static void evaluate(const struct gm_tangent *tangent, const double *y, double *
     loops->jacobian(problem, y, jacobian);
 }
 
-/* w of a stage, as far as it is asked for. */
+/* Computes the needed components of a stage's w. */
 static void multiply(const struct gm_tangent *tangent, const double *jacobian, const double *dy, size_t stage)
 {
     const size_t n = tangent->n;
@@ -392,8 +388,8 @@ static bool linear(void *data, const double *states, double *residual, double *m
     return true;
 }
 
-/* The stages of a block, and their derivatives; false where Newton's method does not find them. A change that is as
-   small leaves an error of its square. */
+/* Solves for the stages of a block and their derivatives; false if Newton's method fails. The last, small
+   change leaves an error of its square. */
 static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t count)
 {
     const size_t n = tangent->n, all = count * n;
@@ -418,7 +414,7 @@ static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t c
     return true;
 }
 
-/* What the stages before the block give to its stage i. */
+/* Sums the stages before the block for its stage i. */
 static void find_base(const struct gm_tangent *tangent, const double *v, size_t first, size_t i)
 {
     const size_t n = tangent->n, s = tangent->stages;
@@ -429,8 +425,8 @@ static void find_base(const struct gm_tangent *tangent, const double *v, size_t 
     add_slopes(tangent, weights, 0, first, tangent->base + i * n, tangent->d_base + i * n);
 }
 
-/* k and w of a stage that asks for none but those before it. Where H = T + V a drift of unit mass needs
-   nobody, and a kick where the last one was, as the first of a step, has that one's force. */
+/* Computes k and w of a stage that depends on earlier ones only. If H = T + V, a drift of unit mass needs no
+   evaluation, and a kick at the last kick's place, such as the first of a step, has the same force. */
 static void find_slopes(const struct gm_tangent *tangent, size_t stage, const double *y, const double *dy)
 {
     const size_t n = tangent->n, half = n / 2, from = tangent->from[stage], to = tangent->to[stage];
@@ -479,8 +475,8 @@ static bool by_stages(const struct gm_tangent *tangent, const double *v)
     return true;
 }
 
-/* Whether that is the state to which the scheme came; where equations have several solutions it may not
-   be. */
+/* Returns true if the stages' result is the scheme's state; equations with several solutions may give
+   another. */
 static bool is_there(const struct gm_tangent *tangent)
 {
     const double *y = gm_run_state(tangent->run), close = 1e-9;
@@ -507,7 +503,7 @@ bool gm_tangent_step(struct gm_tangent *tangent, double *v)
 
 /* ---- many steps ---- */
 
-/* Gives v the length 1; returns the one that it had, 0 where that is none. */
+/* Scales v to length 1; returns its previous length, 0 if that is 0 or not finite. */
 static double normalise(const struct gm_tangent *tangent, double *v)
 {
     double square = 0;
@@ -525,7 +521,7 @@ static double normalise(const struct gm_tangent *tangent, double *v)
     return length;
 }
 
-/* Steps by the stages alone, from the run's state on to the one in `before`. */
+/* Makes steps with the stages alone, from the run's state to the one in `before`. */
 static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
 {
     const struct gm_run *run = tangent->run;
@@ -543,8 +539,7 @@ static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, s
     return good;
 }
 
-/* The same, and the run after them; where it does not come to the same state, to the last bit, all is as
-   before. */
+/* Makes steps with the stages, then the run; unless both agree to the last bit, restores all. */
 static bool advance_together(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
 {
     const size_t bytes = tangent->n * sizeof *v;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
 
-/* What Runge-Kutta methods take of the components at once: in a single run two, in one register, where n is even, and
-   where q and p have a half each that is even. Left alone the compiler takes some singly and others together, and a
-   register waits for what was stored singly. So it does where a kernel's numbers have no place in registers: of more
-   than 8 components they are taken singly (measured: of 12 a quarter of the time gained or lost). */
+/* Components that Runge-Kutta methods process at once: in a single run two, in one register, if n is even,
+   and if q and p have an even half each. Without this the compiler takes some singly and others together, and
+   a register waits for the values stored singly. It waits too if a kernel's numbers do not fit into
+   registers: above 8 components they are taken singly (measured: of 12 a quarter of the time gained or lost).
+   */
 #undef GM_AT_ONCE
 #undef some
 #ifdef GM_SEPARABLE
@@ -61,21 +62,21 @@ enum {
 
 struct K(block) {
     real y[GM_COMPONENTS];
-    real carry[GM_COMPONENTS]; /* what rounding lost from y, for compensated summation */
-    real force[GM_COMPONENTS]; /* splitting: of the last kick, while q has not moved since */
+    real carry[GM_COMPONENTS]; /* the rounding errors of y, for compensated summation */
+    real force[GM_COMPONENTS]; /* splitting: the last kick's force, while q has not moved since */
     bool force_known;
 };
 
-/* What the steps cost, summed over the lanes that are members. */
+/* The cost of the steps, summed over the lanes that are members. */
 struct K(counts) {
     int lanes;      /* members in this block */
     bool continued; /* these are not the run's first steps */
     unsigned long evaluations, solves, iterations;
-    struct gm_unsolved unsolved; /* of the last lane that was not solved */
+    struct gm_unsolved unsolved; /* the last lane that was not solved */
 };
 
-/* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. `whole` says
-   of a group of blocks that none does: asked once, what moves them is a row of instructions without a branch. */
+/* Loads members from `first` on; a block beyond the last member repeats it, which changes nothing. `whole`:
+   no block of a group does, so that members are moved by instructions without a branch. */
 GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task, size_t first,
                              bool compensated, bool whole)
 {
@@ -127,11 +128,11 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
     }
 }
 
-/* Asks memory for what lies so far beyond a block: where an ensemble is larger than the caches, more components are
-   read side by side than the machine follows of itself. Beyond the last member nothing is read. */
+/* Prefetches the numbers 256 members ahead: if an ensemble is larger than the caches, more components are
+   read side by side than the machine prefetches. Nothing beyond the last member is read. */
 GM_INLINE void K(block_ask_ahead)(const struct gm_task *task, size_t first)
 {
-    enum { AHEAD = 256, CACHES = 1 << 22 }; /* numbers */
+    enum { AHEAD = 256, CACHES = 1 << 22 }; /* in numbers */
     const size_t m = task->problem->m;
     for (size_t c = 0; GM_COMPONENTS * m > CACHES && c < GM_COMPONENTS; c++) {
         __builtin_prefetch(task->y + c * m + first + AHEAD);
@@ -156,7 +157,7 @@ GM_ADD(add, real)
 GM_ADD(add_some, some)
 #undef GM_ADD
 
-/* What K(somewhere_beyond) asks of a block: how far its numbers are from 0, by their bits. */
+/* Returns, for K(somewhere_beyond), the distance of a block's numbers from 0, by their bits. */
 GM_INLINE mask K(block_distance)(const struct K(block) * block, double limit)
 {
     mask farthest = K(distance)(block->y[0], limit);

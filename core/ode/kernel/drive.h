@@ -5,13 +5,13 @@
        GM_STEP      name of its step, which returns the lanes that were solved:
                         mask step(const GM_ROW *, struct block *, double h, const void *parameters,
                                   bool compensated, bool stiff, struct counts *)
-       GM_ABREAST   so many blocks make their steps side by side: their chains of operations do not wait for
-                    each other
-       GM_PRIME     where there is one, what a block is told before its first step:
+       GM_ABREAST   number of blocks that make their steps side by side, so that their chains of operations
+                    do not wait for each other
+       GM_PRIME     optional: the preparation of a block before its first step:
                         void prime(struct block *, const void *parameters, struct counts *)
-       GM_QUICK     defined where a step is short: few steps of an ensemble have a way of their own
-   Each block makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the
-   burst is made again step by step, so the step that failed is found exactly, whoever called how often. */
+       GM_QUICK     defined if a step is short: few steps of an ensemble then have their own function
+   Each block makes all steps in registers. Failures are tested every GM_BURST steps only; then the burst is
+   repeated step by step, so the step that failed is found exactly, however the calls divide the run. */
 
 #ifndef GM_PRIME
 #define GM_PRIME(block, parameters, counts)
@@ -20,8 +20,8 @@
 #define GM_DRIVE_NAME_(drive, part) GM_DRIVE_NAME__(drive, part)
 #define GM_DRIVE_NAME__(drive, part) drive##_##part
 
-/* A group of blocks from member `first` on; shortens progress where one fails. Blocks beyond the last member
-   repeat it and are not stored. */
+/* Advances a group of blocks from member `first` on; shortens progress if one fails. Blocks beyond the last
+   member repeat it and are not stored. */
 GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                     size_t first, struct gm_progress *progress)
 {
@@ -52,7 +52,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         for (int b = 0; b < GM_ABREAST; b++) {
             counts_before[b] = counts[b];
         }
-        /* what the first burst begins with is in memory as it is: single steps are spared a copy */
+        /* the start of the first burst is still in memory: single steps need no copy */
         if (done > 0) {
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
@@ -99,7 +99,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 }
 
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
-/* A whole group from member `first` on makes its steps, at least one, and is not stored. */
+/* Makes the steps of a whole group from member `first` on, at least one, and does not store it. */
 GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                   size_t first, struct K(block) * block, struct K(counts) * counts,
                                   mask *solved, mask *farthest)
@@ -131,11 +131,11 @@ GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, 
     }
 }
 
-/* All groups, for no more steps than a burst: what is kept for a second try takes several times as long as a step.
-   The last group has members of the one before it as well, so it is made first, and stored when that is done: the
-   steps may be made in place. After an odd number of steps stretches of groups are taken from the end, each forth, as
-   memory is asked for ahead: of single steps each reads first what the last one left in the cache. False: a member
-   failed, and what is stored is void. */
+/* Advances all groups, by at most a burst of steps: a copy for a second try takes several times as long as a
+   step. The last group shares members with the one before it, so it is made first and stored last: the steps
+   may be made in place. After an odd number of steps, stretches of groups are taken from the end, each
+   forwards, as memory is prefetched: each single step first reads the data that the last one left in the
+   cache. Returns false if a member failed; the stored data are then void. */
 GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
                                       struct gm_progress *progress)
 {
@@ -173,7 +173,7 @@ GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *
         if (GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {
             return progress;
         }
-        if (task->out == task->y) { /* nothing is left to look for the step in: who asked goes back */
+        if (task->out == task->y) { /* the start is overwritten: the caller repeats the steps */
             return (struct gm_progress){.status = GM_BLOW_UP};
         }
     }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of formulas over the lane type, for kernels that are written from formulas: K(value_SIN)(a,
-   b). Each is the C of core/expression/operations.def, by which the interpreter computes as well, lane by lane;
-   those that registers have are one operation. Included for each pass. */
+   b). Each is the C of core/expression/operations.def, which the interpreter uses too, lane by lane; one
+   operation if registers have it. Included for each pass. */
 #include "core/expression/arithmetic.h"
 
-/* Of registers they are functions: lane by lane in each place they are most of a compiler's time. */
+/* With registers they are functions: inlined, lane by lane, they take most of a compiler's time. */
 #undef GM_OF_LIBRARY
 #ifdef GM_PASS_SCALAR
 #define GM_OF_LIBRARY GM_INLINE

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which instruction set this machine has, asked when the program runs: one binary serves all. */
+/* The instruction set of this machine, detected at run time: one binary serves all. */
 #include "core/ode/kernel/loops.h"
 
 enum gm_isa gm_isa_best(void)

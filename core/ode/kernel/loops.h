@@ -10,23 +10,24 @@
 /* The families that have a loop over kernels: gm_family.over_kernels. */
 enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_OVER_COUNT };
 
-/* What core/ode/compiled/over_kernels.c makes of a problem's kernels for one instruction set. */
+/* The functions that core/ode/compiled/over_kernels.c makes of a problem's kernels for one instruction set.
+   */
 struct gm_loops {
     /* f(y) of the active components of m members */
     void (*field)(const struct gm_problem *problem, const double *y, double *f, size_t m);
-    /* Where n is chosen at run time and H = T(p) + V(q): q' and p' (n / 2 * m each) of the whole state y,
-       whose last component may be t. NULL otherwise. */
+    /* q' and p' (n / 2 * m each) of the whole state y, whose last component may be t, if n is chosen at run
+       time and H = T(p) + V(q); else NULL. */
     void (*velocity)(const struct gm_problem *problem, const double *y, double *velocity, size_t m);
     void (*force)(const struct gm_problem *problem, const double *y, double *force, size_t m);
-    /* the Jacobian of one member, n * n row by row; NULL: there is none */
+    /* the Jacobian of one member, n * n row by row; NULL: not available */
     void (*jacobian)(const struct gm_problem *problem, const double *y, double *jacobian);
     /* The velocities of `count` passive particles at (x, y), carried by the active components `active`; if
        strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
     void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,
                     double *velocity_x, double *velocity_y, double *strain, size_t count);
-    /* x_piece := x_piece + h times its rate, which holds the other components alone; NULL: it is not compiled */
+    /* x_piece := x_piece + h times its rate, which holds the other components alone; NULL: not compiled */
     void (*shear)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
-    /* H where it is a sum as long as the field's; NULL: only the Hamiltonian knows it */
+    /* H if it is a sum as long as the field's; NULL: only the Hamiltonian evaluates it */
     double (*energy)(const struct gm_problem *problem, const double *y);
     gm_loop *over_kernels[GM_OVER_COUNT]; /* NULL: the problem lacks what the family needs */
 };
@@ -34,7 +35,7 @@ struct gm_loops {
 #define GM_LOOPS_NAME(problem, isa) GM_LOOPS_NAME_(problem, isa)
 #define GM_LOOPS_NAME_(problem, isa) gm_loops_##problem##_##isa
 
-/* Declares, and lists, a problem's loops; GM_LOOPS_X86 is set where the build made the wider ones. */
+/* Declares and lists a problem's loops; GM_LOOPS_X86 is set if the build made the wider ones. */
 #ifdef GM_LOOPS_X86
 #define GM_LOOPS_DECLARE(problem)                                                                            \
     extern const struct gm_loops gm_loops_##problem##_baseline, gm_loops_##problem##_avx2,                   \
@@ -59,12 +60,12 @@ struct gm_compiled_kernel {
 };
 #define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)
 #define GM_COMPILED_NAME_(problem) gm_compiled_##problem
-/* Those of the program whose kernel has this text; NULL: there are none. They are for single runs. */
+/* Returns the program's loops for single runs whose kernel has this text; NULL: not compiled in. */
 const struct gm_loops *gm_compiled_loops(const char *text);
-/* Whether there are some of a system with so many components. */
+/* Returns true if the program has loops of a system with this number of components. */
 bool gm_compiled_has(size_t components);
 
-/* f(y) of the active components of m members, whichever way the problem gives it. */
+/* Writes f(y) of the active components of m members, for every form in which the problem gives it. */
 void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
 
 /* The best instruction set of this machine and build: an index into gm_ode_of(problem)->loops. */

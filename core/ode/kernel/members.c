@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What families need that take one member after the other: the loop, Jacobians, energies. */
+/* The tools of families that advance one member after the other: the loop, Jacobians, energies. */
 #include "core/ode/kernel/members.h"
 
 #include <math.h>

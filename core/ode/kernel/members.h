@@ -17,33 +17,33 @@ struct gm_members {
     size_t n, remembered;
     double *y;       /* n */
     double *memory;  /* remembered */
-    double *carry;   /* n, what compensated summation carries over; NULL: plain */
-    double *scratch; /* as many doubles as were asked for */
-    void *family;    /* the family's, who closes it; NULL */
+    double *carry;   /* n, the compensation of the sums; NULL: plain */
+    double *scratch; /* scratch of the requested size */
+    void *family;    /* data that the family opens and closes; or NULL */
     double storage[];
 };
 
-/* Room for a member of the problem with `remembered` doubles of memory and `scratch` doubles of scratch.
-   NULL: out of memory. Closed by free. */
+/* Returns a workspace for one member with `remembered` doubles of memory and `scratch` doubles of scratch;
+   the caller frees. NULL when out of memory. */
 struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch);
 
-/* One step of one member: changes members->y and members->memory in place. What it returns says why it
-   failed. */
+/* Makes one step of one member: changes members->y and members->memory in place. Returns the reason of a
+   failure. */
 typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_members *members,
                                       struct gm_progress *progress);
 
-/* Such a family. */
+/* A family that advances a problem member by member. */
 struct gm_member_family {
     gm_member_step *step;
     size_t remembered; /* doubles of memory of a member, for gm_members_memory */
-    size_t vectors;    /* the scratch is so many states */
-    /* The scratch in doubles; NULL: it is vectors. */
+    size_t vectors;    /* the scratch is this number of states */
+    /* the scratch in doubles; NULL: vectors * n */
     size_t (*room)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     bool evaluated_at_start; /* the start evaluates a force, which the first steps count */
 };
 
-/* All steps of all members, as the scheme's family makes them; the workspace is a gm_members. Memory is
-   [double * m + member], as the state. */
+/* Makes all steps of all members with the step of the scheme's family; the workspace is a gm_members. Memory
+   is [double * m + member], like the state. */
 struct gm_progress gm_members_loop(const struct gm_task *task);
 size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
@@ -59,11 +59,11 @@ void *gm_members_workspace(const struct gm_problem *problem, const struct gm_sch
     .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
 #define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
 
-/* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a
+/* Writes the Jacobian of f at y, n * n by rows; false if the problem has none, or it would be too large a
    matrix. */
 bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian);
 
-/* H(y) of one member. */
+/* Returns H(y) of one member. */
 double gm_energy(const struct gm_problem *problem, const double *y);
 
 #endif

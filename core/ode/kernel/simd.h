@@ -22,8 +22,8 @@ enum { GM_WIDTH = 2 };
 #endif
 typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
 typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
-/* Lanes in the state, where they are aligned as a double is. They are moved by one instruction: memcpy makes two
-   halves of them, for which the register then has to wait. */
+/* Lanes in the state, aligned like doubles. One instruction moves them: memcpy makes two halves of them, for
+   which the register then has to wait. */
 typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
 
 /* Two components of one member, side by side in the state, in one register. */
@@ -144,10 +144,10 @@ GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
 }
-/* What K(somewhere_beyond) asks of the magnitudes of all x so far: their bits are ordered as they are, NaN last. A
-   comparison of numbers would go by the registers of masks, where each waits for the last. Where there is an
-   instruction for it, the largest bits, which GCC makes of this loop alone; otherwise lanes that are negative once
-   a magnitude was beyond the positive limit. */
+/* Combines, for K(somewhere_beyond), the magnitudes of all x so far: their bits are ordered like the numbers,
+   NaN last. A comparison of numbers would use the registers of masks, where each waits for the last. With an
+   instruction for it, the largest bits, which GCC makes of this loop alone; otherwise lanes that are negative
+   once a magnitude was beyond the positive limit. */
 GM_INLINE gm_lanes_mask K(farther)(gm_lanes_mask a, gm_lanes_mask b)
 {
 #ifdef __AVX512F__
@@ -173,7 +173,7 @@ GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
 #ifdef __AVX512F__
     farthest = (gm_lanes_mask)K(constant)(limit) - farthest;
 #else
-    (void)limit; /* K(distance) has asked it */
+    (void)limit; /* K(distance) has compared with it */
 #endif
     int64_t any = 0;
     for (int i = 0; i < GM_WIDTH; i++) {
@@ -240,7 +240,8 @@ GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b)
 
 #endif
 
-/* What a kernel may ask of the mathematical library: its own numbers in both passes, lane by lane. */
+/* The functions of the mathematical library that kernels may call: the same numbers in both passes, lane by
+   lane. */
 GM_OF_EACH(root, sqrt)
 GM_OF_EACH(sine, sin)
 GM_OF_EACH(cosine, cos)

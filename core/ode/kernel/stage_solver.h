@@ -12,11 +12,12 @@ struct gm_stage_solver {
     double *z, *scratch;
 };
 
-/* How many doubles a solver of so many stages works in, and one that works in them. */
+/* The scratch of a solver of `count` stages, in doubles, and a solver that works in it. */
 size_t gm_stage_solver_room(const struct gm_problem *problem, size_t count);
 struct gm_stage_solver gm_stage_solver_lay(const struct gm_problem *problem, size_t count, double *scratch);
 
-/* Solve for z from 0. False: progress says why; where no matrix is made Newton's method fails. */
+/* Solve for z from 0. On failure return false, and progress holds the reason; Newton's method fails if n is
+   too large for a matrix. */
 bool gm_stages_by_sweeps(struct gm_stage_solver *solver);
 bool gm_stages_by_newton(struct gm_stage_solver *solver);
 

@@ -18,8 +18,8 @@ struct gm_stages {
     double h;
     const double *y;
     const double (*a)[GM_TABLEAU_STAGES], *b;
-    const double (*c)[GM_TABLEAU_STAGES], *d; /* of components from n / 2 on, in place of a and b */
-    /* f at the state of stage j, and its Jacobian by rows unless that is NULL; false where there is none */
+    const double (*c)[GM_TABLEAU_STAGES], *d; /* c and d replace a and b for components from n / 2 on */
+    /* writes f at the state of stage j, and its Jacobian by rows unless that is NULL; false: not defined */
     bool (*slope)(void *data, size_t j, const double *state, double *f, double *jacobian);
     void *data;
     double *f, *state, *jacobian; /* scratch: count * n, n and n * n */
@@ -96,9 +96,9 @@ gm_stages_linear(void *data, const double *z, double *residual, double *matrix, 
     return true;
 }
 
-/* The weights w of z = h A f by which sum w_k z_k = h sum b_i f_i: A' w = b; of a stiffly accurate method z_s itself.
-   After Newton's method steps are made of z: f(y + z) would multiply what is left of its last change by h J. False
-   where A is singular, or so by rounding. */
+/* Finds the weights w with sum w_k z_k = h sum b_i f_i, z = h A f: A' w = b; a stiffly accurate method has
+   z_s itself. After Newton's method steps are made of z: f(y + z) would multiply the rest of its last change
+   by h J. Returns false if A is singular, or nearly so. */
 static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLEAU_STAGES], const double *b,
                                         double *weights)
 {
@@ -117,7 +117,8 @@ static inline bool gm_weights_of_stages(size_t stages, const double a[][GM_TABLE
     return gm_eliminate(stages, matrix, weights) && gm_sum_of(weights, stages) < 0x1p10;
 }
 
-/* increment := h sum b_i f_i, where it can be made of z, which Newton's method has found; NULL: of f alone. */
+/* increment := h sum b_i f_i; if z, from Newton's method, is not NULL, it is made of z when the weights
+   allow. */
 static inline void gm_stages_increment(const struct gm_stages *stages, const double *z, double *increment)
 {
     const size_t n = stages->n;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tiles of an ensemble: gathered, advanced, scattered; a tile that is the whole ensemble lies where it is. */
+/* Tiles of an ensemble: gathered, advanced, scattered; a tile that is the whole ensemble stays in place. */
 #include "core/ode/kernel/tiles.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ enum { MOST_MEMBERS = 248, IN_CACHE = 4096, LINE = 64 };
 
 /* The rows of a tile begin where lines of the cache do: else every register that is loaded lies in two of them. */
 struct tiles {
-    size_t members; /* of a tile */
+    size_t members; /* members of a tile */
     double *y, *carry, *scratch, *shared;
     _Alignas(LINE) double storage[];
 };
@@ -43,8 +43,7 @@ void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t sha
     return tiles;
 }
 
-/* Members [first, first + count) of a component-major array, from one that has m a component to one that has
-   `width`. */
+/* Copies `count` members of a component-major array with m members per component into one with `width`. */
 static void copy(const double *from, size_t m, double *to, size_t width, size_t n, size_t count)
 {
     for (size_t c = 0; c < n; c++) {
@@ -52,8 +51,8 @@ static void copy(const double *from, size_t m, double *to, size_t width, size_t 
     }
 }
 
-/* Whether all are finite and at most limit (a NaN compares false): counted as wide as a number is, so that many are
-   compared at once. */
+/* Returns true if all are finite and at most limit (a NaN compares false); the counter is as wide as a
+   number, so that many are compared at once. */
 GM_CLONES static bool are_within(const double *y, size_t count, double limit)
 {
     int64_t within = 0;

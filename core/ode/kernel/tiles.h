@@ -6,44 +6,44 @@
 #include "core/ode/ode.h"
 
 /* The loop of families over a problem whose n is chosen at run time, through its field: a tile of members,
-   few enough to lie in the cache, makes all its steps before the next one is begun.
+   few enough to lie in the cache, makes all its steps before the next one starts.
 
-   Of a single run the state may end with a passive block. A passive particle that cannot be carried on - the
-   implicit equations have no solution where a vortex turns it by more than a radian a step - is lost: NaN
-   from then on; the run goes on. Scratch is for the stages of the active components, and those of a few
-   passive particles at a time, so a million of them need no more than a hundred. */
+   The state of a single run may end with a passive block. A passive particle whose implicit equations have no
+   solution (a vortex turns it by more than a radian per step) is lost: NaN from then on; the run continues.
+   Scratch is for the stages of the active components, and those of a few passive particles at a time, so a
+   million of them need no more than a hundred. */
 
 struct gm_tile {
-    const struct gm_loops *loops; /* the problem's */
-    const void *row;              /* the scheme's, as the family made it for this call */
-    size_t members;               /* in it */
+    const struct gm_loops *loops; /* the problem's loops */
+    const void *row;              /* the scheme's row, which the family made for this call */
+    size_t members;               /* number of members in the tile */
     double *y;                    /* n * members, [component * members + member] */
-    double *carry;                /* likewise, of compensated summation; NULL: plain */
-    double *scratch;              /* as many doubles for each member as were asked for, */
-    double *shared;               /* and for all together */
-    bool known; /* false at first: whether scratch holds what the last step left for this one */
+    double *carry;                /* n * members compensations of the sums; NULL: plain */
+    double *scratch;              /* scratch per member, of the requested size */
+    double *shared;               /* scratch for all members together */
+    bool known;                   /* true: scratch holds the last step's results of this tile */
 };
 
 enum { GM_PASSIVE_BLOCK = 64 };
 
-/* How many components are active. */
+/* Returns the number of active components. */
 static inline size_t gm_tile_components(const struct gm_problem *problem)
 {
     return problem->n - 2 * problem->passive;
 }
 
-/* Room for tiles with so many doubles of scratch for each member, and for all of them together. NULL: out of
-   memory. Closed by free. */
+/* Returns room for tiles with `scratch` doubles per member and `shared` doubles for all of them; the caller
+   frees. NULL when out of memory. */
 void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t shared);
 
-/* One step of all members of a tile, in place. What it returns says why it failed. */
+/* Makes one step of all members of a tile, in place. Returns the reason of a failure. */
 typedef enum gm_status gm_tile_step(const struct gm_task *task, struct gm_tile *tile,
                                     struct gm_progress *progress);
 
-/* All steps of all members; the workspace is gm_tiles_open's. */
+/* Makes all steps of all members; the workspace is gm_tiles_open's. */
 struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row, gm_tile_step *step);
 
-/* y[i] += factor x[i]; where carry is not NULL with compensation (Kahan) */
+/* y[i] += factor x[i], with compensation (Kahan) if carry is not NULL */
 static inline void gm_tile_add(double *y, double factor, const double *x, double *carry, size_t count)
 {
     for (size_t i = 0; i < count && !carry; i++) {

@@ -4,7 +4,7 @@
 
 #include "core/ode/ode.h"
 
-/* Problems with fixed structure; a scene copies one and sets m (and parameters, where it says so). */
+/* Problems with fixed structure; a scene copies one and sets m, and parameters if it has them. */
 
 extern const struct gm_problem gm_problem_oscillator; /* (q, p), H = p^2/2 + q^2/2 */
 extern const struct gm_problem gm_problem_pendulum;   /* (q, p), H = p^2/2 - cos q */
@@ -23,8 +23,8 @@ extern const struct gm_problem gm_problem_ring;
 /* Point vortices of equal strength *(const double *)parameters (not 0), (x_1..x_N, y_1..y_N). _four: N = 4,
    with kernels. _reduced: four with z3 = -z1, z4 = -z2 built in, (x1, x2, y1, y2), with kernels. The others
    have no kernels and may carry passive particles: set n = 2 N + 2 passive, with N any number, and N = 2
-   for _reduced_carrying. _multipole: ((const double *)parameters)[1] is the tolerance, 1e-15 .. 1e-2: a velocity
-   errs by at most so much of the sum of the speeds that the others give it one by one, and by round-off. */
+   for _reduced_carrying. _multipole: ((const double *)parameters)[1] is the tolerance, 1e-15 .. 1e-2: the
+   error of a velocity is at most this part of the sum of the others' speeds at it, and round-off. */
 extern const struct gm_problem gm_problem_vortices;
 extern const struct gm_problem gm_problem_vortices_multipole;
 extern const struct gm_problem gm_problem_vortices_four;

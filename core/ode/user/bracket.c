@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a bracket and an energy let schemes do: whether the bracket is that of angular momenta, and how the energy falls
-   into pieces whose flows are exact. */
+/* The structure of a Poisson system: a bracket of angular momenta, if it is one, and the pieces of the energy
+   whose flows are exact. */
 #include "core/ode/user/bracket.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static bool is_zero(const struct gm_user_system *system, gm_node_id node)
     return gm_is_constant(&system->graph, node, 0);
 }
 
-/* Whether {y_i, y_j} is this variable, or with `negative` what is opposite to it. */
+/* Returns true if {y_i, y_j} is this variable, or with `negative` its negative. */
 static bool is_entry(struct gm_user_system *system, size_t row, size_t column, size_t variable, bool negative)
 {
     struct gm_formula *graph = &system->graph;
@@ -26,8 +26,8 @@ static bool is_entry(struct gm_user_system *system, size_t row, size_t column, s
            (negative ? gm_formula_apply(graph, GM_OPERATION_NEGATE, positive, 0) : positive);
 }
 
-/* Whether {y_i, y_j} = sign y_k and {y_i, z_j} = sign z_k for i, j, k = 1, 2, 3 and cyclic, where the six components are
-   y and z, and all else is 0. */
+/* Returns true if {y_i, y_j} = sign y_k and {y_i, z_j} = sign z_k for i, j, k = 1, 2, 3 and cyclic; the six
+   components are y and z, and all else is 0. */
 static bool is_top(struct gm_user_system *system, bool negative)
 {
     bool same = system->n == 6;
@@ -46,7 +46,7 @@ static bool is_top(struct gm_user_system *system, bool negative)
     return same;
 }
 
-/* The same of vectors alone, whose components are three lists. */
+/* Returns true if all components are angular momenta, in three lists; `negative` chooses the sign. */
 static bool are_spins(struct gm_user_system *system, bool negative)
 {
     const size_t n = system->n, spins = n / 3;
@@ -76,7 +76,7 @@ static void find_turning(struct gm_user_bracket_model *model, struct gm_user_sys
 
 /* ---- what the slopes of the energy are made of ---- */
 
-/* holds[i * n + j]: whether dH/dy_i holds component j. */
+/* holds[i * n + j]: true if dH/dy_i holds component j */
 static void find_parts(struct gm_arena *arena, struct gm_user_system *system, const gm_node_id *gradient,
                        bool *holds)
 {
@@ -94,7 +94,7 @@ static void find_parts(struct gm_arena *arena, struct gm_user_system *system, co
     }
 }
 
-/* Whether the slopes over y hold no component but their own, those over z none of y. */
+/* Returns true if the slope over y_i holds y_i only, and the slopes over z hold no y. */
 static bool is_sum_over_axes(size_t n, const bool *holds)
 {
     bool good = n == 3 || n == 6;
@@ -129,9 +129,9 @@ static bool commute(const struct gm_user_system *system, const size_t *group, si
     return good;
 }
 
-/* The components of which the energy is no sum belong together, and so do those that commute, as few groups as come
-   about in order. group[i] is the first of them, or NONE where the energy does not hold component i. False where those
-   of one group do not commute. */
+/* Groups the components: i and k share a group if the slope dH/dy_i holds k; then groups that commute are
+   merged, in order. group[i] is the first member of i's group, or NONE if the energy does not hold component
+   i. Returns false if the members of a group do not commute. */
 static bool find_groups(const struct gm_user_system *system, const gm_node_id *gradient, const bool *holds,
                         size_t *group)
 {
@@ -160,7 +160,7 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
     return true;
 }
 
-/* The rates of one group. False: they are not linear in the components that move. */
+/* Opens the rates of one group. Returns false if they are not linear in the components that move. */
 static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
                        struct gm_user_system *system, const size_t *group, size_t which)
 {

@@ -6,29 +6,29 @@
 #include "core/model/system.h"
 #include "core/tape.h"
 
-/* A piece of the energy: of components that commute, {y_i, y_j} = 0, and so rest in its flow. What the others do is
-   linear in them. */
+/* A piece of the energy, a function of components that commute, {y_i, y_j} = 0, and so are fixed in its flow.
+   The others move linearly. */
 struct gm_user_piece {
     gm_node_id *nodes;       /* the rates, n, and the slopes */
-    struct gm_sparse slopes; /* d rates[row] / d y of the others; of what rests alone */
+    struct gm_sparse slopes; /* d rates[row] / d y of the moving components, functions of the fixed ones */
 };
 
-/* What follows from it once. */
+/* The formulas of a bracket, derived once for all values of the parameters. */
 struct gm_user_bracket_model {
     const struct gm_user_system *system;
-    gm_node_id *gradient; /* dH/dy, n; NULL: it is no Poisson system, or holds the time */
-    double turning;       /* and so on as in struct gm_poisson */
+    gm_node_id *gradient; /* dH/dy, n; NULL: not a Poisson system, or H holds the time */
+    double turning;       /* turning, spins and axes are the fields of struct gm_poisson */
     size_t spins;
     bool axes;
     struct gm_user_piece *pieces;
-    size_t piece_count; /* 0: the energy does not fall into such pieces */
+    size_t piece_count; /* 0: the energy does not split into such pieces */
 };
-/* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
-   below. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its
+   body when out of memory. */
 void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
                                 struct gm_user_system *system);
 
-/* The same with the values of parameters; the model outlives it. */
+/* The tapes of a bracket for given values of parameters; the model outlives it. */
 struct gm_user_bracket {
     const struct gm_user_bracket_model *model;
     struct gm_tape energy, gradient, matrix;

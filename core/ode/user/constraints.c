@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Constraints as one tape: themselves, their slopes, and what these change by. */
+/* Constraints as one tape: their values, slopes, and second derivatives. */
 #include "core/ode/user/constraints.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ void gm_user_constraints_open(struct gm_arena *arena, struct gm_user_constraints
 void gm_user_constraints_values(const struct gm_user_constraints *constraints, const double *q,
                                 const double *multipliers, double *g, double *slopes, double *curvature)
 {
-    enum { FEW = 2048 }; /* of more constraints they are allocated */
+    enum { FEW = 2048 }; /* more values are allocated */
     const struct gm_user_constraints_model *model = constraints->model;
     const size_t half = model->half, count = constraints->tape.outputs;
     double few[FEW], *values = count <= FEW ? few : malloc(count * sizeof *values);

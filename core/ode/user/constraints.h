@@ -6,20 +6,20 @@
 #include "core/model/system.h"
 #include "core/tape.h"
 
-/* What follows from them once. */
+/* The formulas of the constraints, derived once for all values of the parameters. */
 struct gm_user_constraints_model {
     const struct gm_formula *graph;
     size_t half, count;
     gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
     struct gm_sparse slopes; /* dg[row] / dq */
-    struct gm_sparse second; /* of the slopes: row is one of their entries */
+    struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
 };
-/* The graph of the system grows; without constraints `count` is 0. What it is made of lies in the arena, whose body is
-   left where memory is short; so it is below. */
+/* Derives the formulas; the graph of the system grows, and `count` is 0 without constraints. The arena owns
+   them; both open functions leave its body when out of memory. */
 void gm_user_constraints_model_open(struct gm_arena *arena, struct gm_user_constraints_model *model,
                                     struct gm_user_system *system);
 
-/* The same with the values of parameters; the model outlives it. */
+/* The tape of the constraints for given values of parameters; the model outlives it. */
 struct gm_user_constraints {
     const struct gm_user_constraints_model *model;
     struct gm_tape tape;
@@ -27,7 +27,7 @@ struct gm_user_constraints {
 void gm_user_constraints_open(struct gm_arena *arena, struct gm_user_constraints *constraints,
                               const struct gm_user_constraints_model *model, const double *values);
 
-/* gm_action.constrain; NaN where memory is short, which is noted */
+/* gm_action.constrain; NaN when out of memory, which is noted */
 void gm_user_constraints_values(const struct gm_user_constraints *constraints, const double *q,
                                 const double *multipliers, double *g, double *slopes, double *curvature);
 

@@ -21,12 +21,12 @@
 
 enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS + 2 };
 
-/* What a call works in. */
+/* The scratch of one call. */
 struct room {
     struct gm_modes modes;
-    double *inputs;                 /* of the tapes, [input * points + node] */
-    double *state, *rates;          /* fields * points: of one member */
-    double complex *waves, *slopes; /* likewise */
+    double *inputs;                 /* the tapes' inputs, [input * points + node] */
+    double *state, *rates;          /* one member: fields * points */
+    double complex *waves, *slopes; /* one member's waves */
 };
 
 struct own {
@@ -40,14 +40,14 @@ struct own {
     size_t fields, inputs;
     const char *names; /* "u[] v[]" */
     bool massive;
-    /* Between walls: 1 of a field that its mirror image goes on with, -1 of one whose negative does; 0: of none. */
+    /* the sign of each field's mirror image between walls: 1 or -1; all 0: the rates are not symmetric */
     double mirrored[GM_MOST_FIELDS];
-    bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
+    bool needed[ORDERS * GM_MOST_FIELDS]; /* derivatives that occur */
     struct gm_tape rates, rests, *densities;
-    double complex *symbols; /* of L, [mode][row][column] */
+    double complex *symbols; /* the matrices of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
-    struct gm_arena *arena; /* in which all this lies */
+    struct gm_arena *arena; /* owns all of this */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -61,7 +61,7 @@ struct deriving {
     struct gm_user_evolution *evolution;
     struct gm_user_system *system;
     struct gm_arena *arena;
-    gm_node_id *others; /* what stands for the system's variables */
+    gm_node_id *others; /* replacements of the system's variables */
 };
 
 static void number_inputs(struct deriving *deriving)
@@ -217,7 +217,7 @@ static void give_back(struct own *self, struct room *room)
 
 /* ---- derivatives ---- */
 
-/* What the derivative of that order multiplies the wave by. */
+/* Returns the factor of a wave under a derivative of this order. */
 static double complex factor_of(const struct own *self, size_t order, size_t mode)
 {
     const double points = (double)self->line.points, dx = self->line.dx,
@@ -251,7 +251,7 @@ static void differences(const struct own *self, const double *u, size_t order, d
     }
 }
 
-/* The inputs of tapes from a state. */
+/* Writes the inputs of tapes from a state. */
 static void derive(const struct own *self, struct room *room, const double *y)
 {
     const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
@@ -279,7 +279,7 @@ static void derive(const struct own *self, struct room *room, const double *y)
     }
 }
 
-/* The rates, or what is left of them without L, of one member. */
+/* Computes one member's rates, or their rest without L. */
 static void evaluate(struct own *self, const struct gm_tape *tape, const double *y, double *rates)
 {
     const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
@@ -349,7 +349,7 @@ static void open_tape(const struct own *self, struct gm_tape *tape, const gm_nod
                  gm_tape_open(tape, &self->evolution->system->graph, nodes, count, self->inputs, values));
 }
 
-/* The coefficients of what is linear: its values where one input is 1 and the others are 0. */
+/* Computes the coefficients of a linear formula: its values if one input is 1 and the others are 0. */
 static void find_coefficients(const struct own *self, const gm_node_id *nodes, const double *values,
                               double *coefficients)
 {
@@ -391,7 +391,7 @@ static void make_symbols(struct own *self, const double *values)
     }
 }
 
-/* Whether a mirrored field, of those signs, has the mirrored rate, at places that are as good as any. */
+/* Returns true if a mirrored field, with those signs, has the mirrored rate, at 5 generic states. */
 static bool is_mirrored(const struct own *self, const double *signs)
 {
     enum { TRIALS = 5 };
@@ -419,7 +419,7 @@ static bool is_mirrored(const struct own *self, const double *signs)
     return true;
 }
 
-/* Of each field the sign of its mirror image: 1 of the first where it can be, then of the second .. */
+/* Finds the sign of each field's mirror image; the first fields are 1 if they can be. */
 static void find_mirror(struct own *self)
 {
     for (size_t odd = 0; odd < (size_t)1 << self->fields; odd++) {
@@ -434,7 +434,7 @@ static void find_mirror(struct own *self)
     }
 }
 
-/* Which derivatives the rates and densities hold. */
+/* Marks the derivatives that the rates and densities hold. */
 static void find_needed(struct own *self)
 {
     const struct gm_user_evolution *evolution = self->evolution;

@@ -11,43 +11,43 @@
 
 enum gm_derivatives { GM_SPACE_DIFFERENCES, GM_SPACE_FOURIER };
 
-/* Its formulas, of its system's graph. Their variables are anew: field i's derivative k of n fields is number
-   k n + i, then come x and t, then the parameters. */
+/* The formulas of the rates, in the graph of the system. They have new variables: derivative k of field i of
+   n fields is number k n + i, then come x and t, then the parameters. */
 struct gm_user_evolution {
     const struct gm_user_system *system;
-    gm_node_id rates[GM_MOST_FIELDS]; /* R = line + rest, */
-    gm_node_id lines[GM_MOST_FIELDS]; /* the first linear with constant coefficients */
+    gm_node_id rates[GM_MOST_FIELDS]; /* R = line + rest */
+    gm_node_id lines[GM_MOST_FIELDS]; /* the parts of R that are linear with constant coefficients */
     gm_node_id rests[GM_MOST_FIELDS];
     gm_node_id linear[GM_MOST_FIELDS]; /* the lines, in the system's own variables */
     gm_node_id masses[GM_MOST_FIELDS]; /* M u */
     struct gm_line_formulas formulas;
-    gm_node_id *densities; /* of the items that are invariants or observed, in their order */
+    gm_node_id *densities; /* one of each invariant or observed item, in their order */
     size_t density_count;
-    gm_node_id
-        kink;      /* what is not smooth in a rate, of fields and their derivatives; GM_NO_NODE: nothing is */
-    size_t kinked; /* in which */
+    gm_node_id kink; /* the term of a rate, in fields and derivatives, that is not smooth; GM_NO_NODE: none */
+    size_t kinked;   /* the number of that rate */
     struct gm_arena *arena;
 };
 
-/* Derives them; false where memory was refused. The graph grows. To be closed in both cases. */
+/* Derives the formulas; the graph grows. Returns false when out of memory. The caller closes in both cases.
+   */
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system);
 void gm_user_evolution_close(struct gm_user_evolution *evolution);
 
-/* The problem with these values of all variables (gm_equations_start) on that ring. False where memory was
-   refused. To be closed in both cases. */
+/* Opens the problem with these values of all variables (gm_equations_start) on this ring. Returns false when
+   out of memory. The caller closes in both cases. */
 bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space);
 void gm_user_evolution_shut(struct gm_problem *problem);
 
-/* Whether there are a start that is finite and closes on the ring, as fields of core/field/user/potential.h
-   do, or rates that are the same in the mirror where there are walls, each field or its negative, and rates that
-   are finite there, and masses that vanish for no wave. A sentence if not. */
+/* Returns true if the start is finite and closes (as fields of core/field/user/potential.h do), the rates are
+   finite there, and no wave's mass vanishes; with walls each field or its negative must have the mirrored
+   rate. Otherwise fills the sentence. */
 bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
-/* The state at t = 0. */
+/* Writes the state at t = 0. */
 void gm_user_evolution_start(const struct gm_problem *problem, double *y);
 
-/* The integral of a density, or of its magnitude. */
+/* Returns the integral of a density, or of its magnitude. */
 double gm_user_evolution_integral(const struct gm_problem *problem, size_t density, bool magnitude,
                                   const double *y);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From tapes to the text of kernels. */
+/* The text of kernels, written from tapes. */
 #include "core/ode/user/kernel.h"
 #include "core/basics.h"
 
@@ -17,8 +17,8 @@ enum { INLINED = 150, MOST = 4000 };
 
 static const struct {
     const char *name, *arguments;
-    bool momenta; /* its array begins with them */
-    bool alone;   /* for a double, not for registers */
+    bool momenta; /* true: its array starts with the momenta */
+    bool alone;   /* true: it takes doubles, not registers */
 } functions[GM_KERNEL_FUNCTIONS] = {
     [GM_KERNEL_FIELD] = {"K(field)", "const real *y, real *f", false, false},
     [GM_KERNEL_VELOCITY] = {"K(velocity)", "const real *y, real *f", true, false},
@@ -28,7 +28,7 @@ static const struct {
     [GM_KERNEL_POTENTIAL] = {"K(potential)", "const double *y, double *f", false, true},
 };
 
-/* Of an operation: what stands before, between and behind its operands. */
+/* Writes the text before, between and after an operation's operands. */
 static bool spell(enum gm_operation operation, const char *words[3])
 {
     static const char *const others[GM_OPERATIONS] = {
@@ -92,7 +92,7 @@ struct writing {
     const struct gm_tape *tape;
     size_t parameters;        /* inputs from this one on */
     size_t statements, first; /* the input that the array begins with */
-    size_t *made;             /* by which statement a register was written last */
+    size_t *made;             /* per register: the last statement that wrote it */
 };
 
 static void put_register(const struct writing *writing, uint32_t place)
@@ -127,7 +127,7 @@ static bool put_statement(struct writing *writing, uint32_t operation, uint32_t 
     return true;
 }
 
-/* Operations that are repeated stand one by one. */
+/* Writes repeated operations one by one. */
 static bool put_code(struct writing *writing)
 {
     struct gm_tape_place at = {0};
@@ -150,7 +150,7 @@ static size_t statements_of(const struct gm_tape *tape)
     return count;
 }
 
-/* What a function's constants and parameters are called. */
+/* Names a function's constants and parameters. */
 static void put_constants(FILE *out, const struct gm_kernel_source *source, enum gm_kernel_function which)
 {
     const struct gm_tape *tape = source->tapes[which];
@@ -168,7 +168,7 @@ static void put_constants(FILE *out, const struct gm_kernel_source *source, enum
     fputs("    (void)c;\n    (void)y;\n", out);
 }
 
-/* False: it holds what cannot be written. */
+/* Writes a function. Returns false if an operation cannot be written. */
 static bool put_function(FILE *out, const struct gm_kernel_source *source, enum gm_kernel_function which,
                          size_t *made)
 {
@@ -203,7 +203,7 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
     return good;
 }
 
-/* What loops and the program hand each other is laid out alike, or it does not compile. */
+/* Compilation fails if structs that loops and program share differ in layout. */
 static void put_layout(FILE *out)
 {
 #define GM_LAID_OUT(type)                                                                                    \
@@ -225,7 +225,7 @@ static void put_layout(FILE *out)
     }
 }
 
-/* Whether code reads one of the inputs [first, last). */
+/* Returns true if the tape reads one of the inputs [first, last). */
 static bool reads(const struct gm_tape *tape, size_t first, size_t last)
 {
     struct gm_tape_place at = {0};
@@ -246,7 +246,7 @@ bool gm_kernel_splits(const struct gm_kernel_source *source)
 
 char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
 {
-    /* what moves with the time is a field to these loops, as it is to the interpreter's */
+    /* a system that depends on the time is a field in these loops, as in the interpreter */
     const bool separable = source->tapes[GM_KERNEL_FORCE] && source->components % 2 == 0;
     bool wanted[GM_KERNEL_FUNCTIONS] = {
         [GM_KERNEL_FIELD] = !separable,

@@ -19,24 +19,22 @@ enum gm_kernel_function {
 
 struct gm_kernel_source {
     size_t components;
-    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS]; /* NULL: there is none */
-    const struct gm_sparse *jacobian;                 /* what the Jacobian's outputs are */
-    bool
-        jacobian_wanted; /* else it is left out where it is not there, or with it the text would be too large */
-    /* Where constants are written out, and not led to by as many pointers as there are functions, problems
-       lead by `parameters` to numbers: those inputs of the tapes from this one on. */
+    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS]; /* NULL: the function is missing */
+    const struct gm_sparse *jacobian;                 /* the entries that the Jacobian's outputs are */
+    bool jacobian_wanted; /* true: no text without it; false: omitted if too large */
+    /* true: constants are written out and `parameters` points to numbers, the tapes' inputs from this one on.
+       false: `parameters` points to one array of constants per function. */
     bool written_out;
     size_t parameters;
 };
 
-/* Whether, of what has a velocity and a force, p alone moves q and q alone moves p also as they are
-   written. */
+/* Returns true if, as written, p alone moves q and q alone moves p; velocity and force must be given. */
 bool gm_kernel_splits(const struct gm_kernel_source *source);
 
-/* The text: a statement for every instruction of the tapes, in their order, so that the bits are those of the
-   interpreter. It depends on how the tapes are made alone, not on constants that are led to, and no word of
-   the system's text is in it. H = T(p) + V(q) where there is a force. malloc'ed; NULL with *lacks: why there
-   is none, or NULL where memory is short. */
+/* Returns the text: a statement for every instruction of the tapes, in their order, so that the bits are
+   those of the interpreter. It depends only on the structure of the tapes, not on constants behind pointers,
+   and holds no word of the system's text. H = T(p) + V(q) if there is a force. The caller frees. Returns NULL
+   with the reason in *lacks, which is NULL when out of memory. */
 char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks);
 
 #endif

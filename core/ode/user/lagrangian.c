@@ -23,7 +23,7 @@ static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, boo
     return linear;
 }
 
-/* whether it is one of the mass matrix */
+/* returns true if the entry belongs to the mass matrix */
 static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struct gm_sparse_entry *entry)
 {
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
@@ -88,11 +88,11 @@ static void no_numbers(double *values, size_t count)
     }
 }
 
-/* One state whose velocities are looked for. */
+/* One state and the search for its velocities. */
 struct transform {
     const struct gm_user_lagrangian *lagrangian;
     double *at;      /* q, v, t */
-    double *outputs; /* of the tape of momenta */
+    double *outputs; /* the outputs of the tape of momenta */
     double *wanted;  /* p */
     double *scratch;
 };
@@ -144,8 +144,8 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
     return true;
 }
 
-/* The velocities of member l of m; transform->at is that state with them. They begin at 0, so that every
-   state has one field. Not finite: there are none. */
+/* Solves for the velocities of member l of m; transform->at is that state with them. They start at 0, so that
+   every state has one field, and are not finite if the solver fails. */
 static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
 {
     const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
@@ -169,8 +169,8 @@ static void find_velocities(struct transform *transform, const double *y, size_t
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
 }
 
-/* The m states with velocities in place of the momenta, or with 0; malloc'ed. NULL where memory is short: then the
-   `count` numbers that were to come of them are none. */
+/* Returns a copy of the m states whose momenta are replaced by velocities, or by 0 if `found` is false. The
+   caller frees it; NULL when out of memory, and the `count` numbers are then NaN. */
 static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
                              bool found, double *numbers, size_t count)
 {
@@ -203,7 +203,7 @@ void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const
         memcpy(f, at + half * m, half * m * sizeof *f);
         gm_tape_values(&lagrangian->rates, at, f + half * m, m);
         for (size_t i = 2 * half * m; i < n * m; i++) {
-            f[i] = 1; /* of t */
+            f[i] = 1; /* the rate of t */
         }
     }
     free(at);
@@ -275,7 +275,7 @@ void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, cons
     }
 }
 
-/* From dL/dv(q, v, t) = p: M dv = dp - B dq - b dt. */
+/* dL/dv(q, v, t) = p gives M dv = dp - B dq - b dt. */
 void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y, double *matrix)
 {
     const struct gm_user_lagrangian_model *model = lagrangian->model;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How a Lagrangian system moves in its coordinates and momenta: at each state the velocities solve dL/dv = p,
+/* The motion of a Lagrangian system in coordinates and momenta: at each state the velocities solve dL/dv = p,
    with the mass matrix d2L/dv2 factored there; then q' = v and p' = dL/dq + F. */
 #ifndef GM_CORE_ODE_USER_LAGRANGIAN_H
 #define GM_CORE_ODE_USER_LAGRANGIAN_H
@@ -8,23 +8,23 @@
 #include "core/ode/ode.h"
 #include "core/tape.h"
 
-/* What follows from L once, as formulas of q, v (in the place of the momenta) and t. */
+/* The formulas of L, derived once: functions of q, v (stored instead of the momenta) and t. */
 struct gm_user_lagrangian_model {
     const struct gm_formula *graph;
-    size_t half, components; /* coordinates; of the state: twice as many and, where it is timed, t */
+    size_t half, components; /* half: coordinates; components: 2 half, and one more if the system is timed */
     bool linear;             /* dL/dv is linear in v: one solve finds it */
     gm_node_id *nodes;       /* dL/dv, p' (half each), L */
-    struct gm_sparse slopes; /* of dL/dv and p' over q, v, t */
+    struct gm_sparse slopes; /* the slopes of dL/dv and p' over q, v, t */
     gm_node_id *slope_nodes;
     gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
     size_t momenta_count;
 };
-/* The graph of the system grows. What it is made of lies in the arena, whose body is left where memory is short; so it is
-   below. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its
+   body when out of memory. */
 void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
                                    struct gm_user_system *system);
 
-/* The same with the values of parameters; the model outlives it, and threads share it. */
+/* The tapes of L for given values of parameters; the model outlives them, and threads share them. */
 struct gm_user_lagrangian {
     const struct gm_user_lagrangian_model *model;
     struct gm_tape momenta;
@@ -32,13 +32,13 @@ struct gm_user_lagrangian {
     struct gm_tape value; /* L */
     struct gm_tape slopes;
 };
-/* values are those of the system's variables. */
+/* `values` are the values of the system's variables. */
 void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
                              const struct gm_user_lagrangian_model *model, const double *values);
 
-/* Of m states y (components * m): their rates (components * m), q' and p' alone (half * m), where L = T(v) -
-   V(q), and the energy p v - L (m). They are not finite where the transform is singular, or where memory is
-   short, which is noted (core/memory.h). A member's bits do not depend on m. */
+/* These write, for m states y (components * m), the rates (components * m), q' and p' alone (half * m) if L =
+   T(v) - V(q), and the energy p v - L (m). They are not finite if the transform is singular or out of memory,
+   which is noted (core/memory.h). A member's bits do not depend on m. */
 void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
                               size_t m);
 void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, const double *y,
@@ -50,7 +50,7 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
 /* gm_action.motion, of at most GM_NEWTON_LARGEST components */
 void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, const double *at,
                                const struct gm_motion *motion);
-/* The Jacobian of the field at one state, by rows: of dL/dv(q, v, t) = p by the implicit function theorem. */
+/* The Jacobian of the field at one state, by rows: the implicit function theorem for dL/dv(q, v, t) = p. */
 void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y,
                                  double *matrix);
 

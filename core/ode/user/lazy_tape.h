@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tapes that are made when they are first asked for: few schemes ask for all, and of a large system they take longer
-   than all else. */
+/* Tapes that are made at first use: few schemes use all, and for a large system they take longer than all
+   else. */
 #ifndef GM_CORE_ODE_USER_LAZY_TAPE_H
 #define GM_CORE_ODE_USER_LAZY_TAPE_H
 
@@ -8,7 +8,8 @@
 
 #include "core/tape.h"
 
-/* Of `count` nodes, as gm_tape_open takes them; graph, nodes and values outlive it, and do not change. */
+/* A tape of `count` nodes, the arguments of gm_tape_open; graph, nodes and values outlive it, and do not
+   change. */
 struct gm_late_tape {
     const struct gm_formula *graph;
     const gm_node_id *nodes;
@@ -17,9 +18,9 @@ struct gm_late_tape {
     _Atomic(struct gm_tape *) tape; /* NULL: not yet */
 };
 
-/* The tape, made by whichever thread asks first. NULL: out of memory. */
+/* Returns the tape, which the first thread makes. NULL: out of memory. */
 const struct gm_tape *gm_late_tape(struct gm_late_tape *late);
-/* As gm_tape_values and gm_tape_block; NaN where memory is short. */
+/* The counterparts of gm_tape_values and gm_tape_block; NaN when out of memory. */
 void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m);
 void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t inputs_apart, double *outputs,
                         size_t outputs_apart, size_t m);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A program that the build runs: of a problem that is a system's file it writes the kernel file, as the one
-   that is compiled of somebody's own system while the program runs, with its constants in it. Parameters of
-   the file are the numbers that the problem's `parameters` lead to, in their order. The energy, for
-   core/ode/compiled/over_energy.c, is the file's H, or what it observes or keeps by that name where it has
-   rates instead. Usage: write_kernel FILE.system FILE.kernel.h
-   With a third word, a system of share/ whose file has a line `compile:`: the kernel file that the program would write of
-   it, with the digest by which the program finds its loops. The word is `yes`, or PARAMETER=VALUE. */
+/* A program that the build runs. For a problem given by a system's file it writes the kernel file, in the
+   form used for user-defined systems that are compiled during the run, with the constants in it. The
+   problem's `parameters` points to the file's parameters, in their order. The energy, for
+   core/ode/compiled/over_energy.c, is the file's H, or its observable or invariant H if the file has rates.
+   Usage: write_kernel FILE.system FILE.kernel.h
+   With a third word, `yes` or PARAMETER=VALUE, for a system of share/ with a line `compile:`: the kernel file
+   that the program would write of it, with the digest by which the program finds its loops. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/model.h"
 
-/* GM_NO_NODE: the file tells none. */
+/* Returns GM_NO_NODE if the file gives no energy. */
 static gm_node_id energy_of(const struct gm_user_system *system)
 {
     gm_node_id energy = system->kind == GM_CANONICAL ? system->energy : GM_NO_NODE;
@@ -52,7 +52,7 @@ static bool potential_open(struct gm_tape *tape, struct gm_user_system *system)
     return gm_tape_open(tape, &system->graph, nodes, 3, 1, rest);
 }
 
-/* The energy once more as text, which struct gm_hamiltonian wants where there are no parameters. */
+/* Prepends the energy as text, which struct gm_hamiltonian needs if there are no parameters. */
 static char *with_formula(char *kernels, const struct gm_user_system *system, gm_node_id energy)
 {
     const struct gm_naming naming = gm_system_naming(system),
@@ -76,7 +76,8 @@ static char *with_formula(char *kernels, const struct gm_user_system *system, gm
 
 enum { TAPES = GM_KERNEL_JACOBIAN + 1 };
 
-/* The tapes of n rates and of their Jacobian, of so many inputs, as core/tape.h says. False: out of memory. */
+/* Opens the tapes of n rates and of their Jacobian, with this number of inputs (core/tape.h). Returns false
+   when out of memory. */
 static bool open_tapes(struct gm_tape tapes[TAPES], const struct gm_formula *graph,
                        const struct gm_user_rates *rates, size_t n, size_t inputs, const double *values)
 {
@@ -101,7 +102,8 @@ static void close_tapes(struct gm_tape tapes[TAPES])
     }
 }
 
-/* The text of the system's kernels; malloc'ed. NULL with what it lacks, or NULL for want of memory. */
+/* Returns the text of the system's kernels; the caller frees. NULL with the reason, which is NULL when out of
+   memory. */
 static char *kernel_of(struct gm_user_system *system, const char **lacks)
 {
     const size_t n = system->n;
@@ -149,8 +151,9 @@ static char *kernel_of(struct gm_user_system *system, const char **lacks)
     return text;
 }
 
-/* The text of the kernels of a system of share/, which the program writes as well (gm_user_problem_kernel): for all values of
-   the parameters, or for those of the system. As above. */
+/* Returns the text of the kernels of a system of share/, which the program writes as well
+   (gm_user_problem_kernel): for all values of the parameters, or for the system's values. Failures are those
+   of kernel_of. */
 static char *own_kernel_of(struct gm_user_system *system, bool general, const char **lacks)
 {
     struct gm_user_model model;

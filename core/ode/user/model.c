@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rates of a system, their Jacobian, and what is known of both. */
+/* The rates of a system, their Jacobian, and the facts about both. */
 #include "core/ode/user/model.h"
 
 #include <stdio.h>
@@ -30,7 +30,7 @@ bool gm_user_model_holds(const struct gm_user_model *model, const double *values
     return finding->asked && finding->holds && (same || finding->how == GM_ZERO_PROVED);
 }
 
-/* In the words of struct gm_ode; "": too many or too long to be told apart there. */
+/* Returns the names in the format of struct gm_ode; "": too many or too long to be distinguished there. */
 static char *names_of(const struct gm_user_system *system)
 {
     char *names = NULL;
@@ -39,8 +39,7 @@ static char *names_of(const struct gm_user_system *system)
     if (!stream) {
         return NULL;
     }
-    /* lists are named as such where they have one length, else all by their own names, as far as there is
-       room */
+    /* lists have one name each if their lengths agree, else every component has its own, if there is room */
     const size_t n = system->n + system->timed;
     size_t lists = 0, scalars = 0, longest = 0, shortest = SIZE_MAX, length = 0;
     bool fit = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a system that somebody wrote down before its parameters have values. */
+/* The formulas that follow from a user-defined system before its parameters have values. */
 #ifndef GM_CORE_ODE_USER_MODEL_H
 #define GM_CORE_ODE_USER_MODEL_H
 
@@ -11,8 +11,8 @@
 #include "core/ode/user/constraints.h"
 #include "core/ode/user/lagrangian.h"
 
-/* The rates of the components, and their Jacobian d rate[row] / d component where the model has one; for all values of
-   the parameters, or for the one that a line `compile:` gives to a parameter. */
+/* The rates of the components, and their Jacobian d rate[row] / d component if the model has one; for all
+   values of the parameters, or for the value that a line `compile:` gives to one. */
 struct gm_user_rates {
     gm_node_id *nodes;
     struct gm_sparse jacobian;
@@ -21,42 +21,43 @@ struct gm_user_rates {
     double value;
 };
 
-/* What follows from a system once, whatever its parameters. It does not change afterwards: runs and threads
-   share it. */
+/* The formulas of a system, for all values of its parameters. They do not change after opening: runs and
+   threads share them. */
 struct gm_user_model {
     const struct gm_user_system *system;
     struct gm_finding findings[GM_FACTS];
-    size_t components;           /* of the state: the system's and, where it is timed, t */
+    size_t components;           /* the system's components, and t if it is timed */
     struct gm_user_rates *rates; /* the first for all parameters, then those for a value of one */
     size_t rate_count;
-    bool has_jacobian;                          /* not where it would be too large a matrix */
-    struct gm_user_lagrangian_model lagrangian; /* of a Lagrangian, in place of rates and Jacobian */
+    bool has_jacobian;                          /* false if the matrix would be too large */
+    struct gm_user_lagrangian_model lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
     struct gm_user_constraints_model constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket_model bracket;
-    char *names; /* of the components, as in struct gm_ode */
+    char *names; /* the components' names, in the format of struct gm_ode */
     struct gm_arena *arena;
 };
 
-/* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */
+/* Opens the model; the system outlives it, and its graph grows. Returns false when out of memory. The caller
+   closes it in both cases. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
 void gm_user_model_close(struct gm_user_model *model);
 
-/* Why no scheme can advance such a system, "" where some can. */
+/* Returns why no scheme can advance such a system, "" if some can. */
 const char *gm_user_model_lacks(const struct gm_user_model *model);
 
-/* Whether a fact is known of it with these values of the system's variables: what was tested, not proved, holds for the
-   parameters that it was tested with. */
+/* Returns true if a fact is known with these values of the system's variables; a fact that was tested, not
+   proved, holds for the tested parameters. */
 bool gm_user_model_holds(const struct gm_user_model *model, const double *values, enum gm_fact fact);
-/* The rates for these values of the system's variables. */
+/* Returns the rates for these values of the system's variables. */
 const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *model, const double *values);
-/* Whether variational schemes know what to do with it. */
+/* Returns true if variational schemes can advance it. */
 bool gm_user_model_has_action(const struct gm_user_model *model);
-/* Whether a force of the file acts on a coordinate. */
+/* Returns true if a force of the file acts on a coordinate. */
 bool gm_user_model_is_forced(const struct gm_user_model *model);
-/* Whether velocity and force split its field, with these values. */
+/* Returns true if velocity and force split its field, with these values. */
 bool gm_user_model_splits(const struct gm_user_model *model, const double *values);
-/* Why there are no kernels of it; NULL: there may be. */
+/* Returns why no kernels can be written; NULL: they may be. */
 const char *gm_user_model_refuses_kernels(const struct gm_user_model *model);
 
 #endif

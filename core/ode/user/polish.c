@@ -18,14 +18,14 @@
 #include "core/memory.h"
 #include "core/theory/theory.h"
 
-/* The decimals, where they are now, and what is asked of them. */
+/* The decimals, their current values, and the conditions on them. */
 struct polishing {
     const struct gm_user_scheme_source *source;
     struct gm_polish *polish;
     struct gm_decimals decimals;
     struct gm_ball *x;
-    struct gm_row_sums sums; /* which have moved with them */
-    bool counted;            /* how many conditions there are */
+    struct gm_row_sums sums; /* the row sums of the moved decimals */
+    bool counted;            /* the number of conditions is known */
     struct gm_fault *fault;
 };
 
@@ -45,7 +45,7 @@ static void *no_memory(struct polishing *polishing)
     return NULL;
 }
 
-/* The scheme with x for its decimals; NULL with a fault. */
+/* Returns the scheme with x for its decimals; NULL with a fault. */
 static const struct gm_scheme *scheme_at(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;
@@ -55,7 +55,7 @@ static const struct gm_scheme *scheme_at(struct polishing *polishing)
     return gm_user_scheme_open(&source, polishing->fault);
 }
 
-/* F at x; malloc'ed, NULL with a fault. */
+/* Returns F at x; the caller frees. NULL with a fault. */
 static struct gm_ball *residuals(struct polishing *polishing)
 {
     struct gm_polish *polish = polishing->polish;
@@ -80,7 +80,7 @@ static struct gm_ball *residuals(struct polishing *polishing)
     return all;
 }
 
-/* The decimals are numbers here: what is in doubt of a residual is so for the rows that they stand beside. */
+/* Returns the largest residual; its doubt comes from the rows, as the decimals are exact here. */
 static double largest(struct gm_polish *polish, const struct gm_ball *all)
 {
     double size = 0;
@@ -96,7 +96,7 @@ static double largest(struct gm_polish *polish, const struct gm_ball *all)
     return size;
 }
 
-/* J, and rows of zeros below where there are more decimals than conditions. */
+/* Computes J, with rows of zeros below if there are more decimals than conditions. */
 static bool differentiate(struct polishing *polishing, const struct gm_ball *here, gsl_matrix *jacobian)
 {
     const double step = 1e-30;
@@ -195,7 +195,7 @@ static int by_place(const void *a, const void *b)
     return (x->place > y->place) - (x->place < y->place);
 }
 
-/* The text as far as its last word, behind which more may be said. */
+/* Returns the length of the text to which words may be added: without blanks and a word's last character. */
 static size_t end_of(const struct gm_user_scheme_source *source, bool is_word)
 {
     size_t end = source->length;
@@ -205,8 +205,8 @@ static size_t end_of(const struct gm_user_scheme_source *source, bool is_word)
     return is_word ? end - 1 : end;
 }
 
-/* The numbers that are written: x and the sums of rows, as they follow one another in the text. malloc'ed,
-   NULL with a fault. */
+/* Returns the numbers to write, x and the sums of rows, in the order of the text; the caller frees. NULL with
+   a fault. */
 static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
 {
     polishing->decimals.sums = &polishing->sums;
@@ -233,7 +233,7 @@ static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
     return all;
 }
 
-/* The text with these numbers, up to `end`. */
+/* Writes the text with these numbers, up to `end`. */
 static void put_numbers(FILE *stream, const char *text, size_t end, const struct gm_decimal *all,
                         size_t count, double doubt)
 {
@@ -242,7 +242,7 @@ static void put_numbers(FILE *stream, const char *text, size_t end, const struct
     for (size_t i = 0; i < count; i++) {
         char number[64];
         gm_ball_print(all[i].ball, digits, number, sizeof number);
-        /* what was subtracted stays so: a sign stands before the digits, not among them */
+        /* parentheses keep a subtraction before a negative number */
         const bool minus = number[0] == '-';
         fprintf(stream, "%.*s%s%s%s", (int)(all[i].place - from), text + from, minus ? "(" : "", number,
                 minus ? ")" : "");
@@ -284,7 +284,7 @@ static char *write(struct polishing *polishing, const struct gm_written_scheme *
     return text;
 }
 
-/* Gathers the decimals and what is asked of them. */
+/* Gathers the decimals and the conditions on them. */
 static bool gather(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;

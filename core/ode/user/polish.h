@@ -7,18 +7,18 @@
 #include "core/ode/user/scheme.h"
 
 struct gm_polish {
-    int order;            /* for which the conditions are solved: the scheme's */
-    unsigned claims;      /* whose algebra is solved with them */
-    size_t decimals;      /* that may move: what is no exact number */
-    size_t conditions;    /* of the order, and of the structure that is claimed */
+    int order;            /* the scheme's order, whose conditions are solved */
+    unsigned claims;      /* the claims whose equations are solved as well */
+    size_t decimals;      /* number of decimals that may move: not exact numbers */
+    size_t conditions;    /* number of conditions of the order and of the claimed structure */
     double before, after; /* the largest residual, as typed and as solved */
-    double change;        /* of the decimal that moves farthest */
-    double doubt;         /* of the residuals, for rows of parts that are known to 15 digits */
+    double change;        /* the largest change of a decimal */
+    double doubt;         /* radius of the residuals, from rows known to 15 digits */
 };
 
-/* The text of the scheme with its decimals to 30 digits, or to the 15 of the rows beside them, its order and its
-   claims said: of the solutions the one next to what was typed, so that a family's free parameters stay where they
-   are. malloc'ed. NULL with a fault, whose sentence is empty where memory was refused. */
+/* Returns the text of the scheme with its decimals to 30 digits (15 if rows beside them have 15), its order
+   and its claims. The solution nearest to the typed one is used, so that a family's free parameters stay. The
+   caller frees. Returns NULL with a fault, whose sentence is empty when out of memory. */
 char *gm_user_scheme_polish(const struct gm_user_scheme_source *source, struct gm_polish *polish,
                             struct gm_fault *fault);
 

@@ -19,37 +19,37 @@
 #include "core/quantity.h"
 #include "core/tape.h"
 
-/* What a problem's `parameters` and `facets` point to. */
+/* The data that a problem's `parameters` and `facets` point to. */
 struct own {
-    const double *constants[GM_KERNEL_FUNCTIONS]; /* where compiled kernels look for them */
+    const double *constants[GM_KERNEL_FUNCTIONS]; /* the constants of compiled kernels */
     struct gm_ode ode;
     struct gm_loops loops, interpreted, free; /* free: without constraints */
-    const struct gm_loops *taken;             /* whose some of `loops` are; NULL: all are interpreted */
-    void *note;                               /* of whoever compiles it */
+    const struct gm_loops *taken; /* the source of compiled functions in `loops`; NULL: all are interpreted */
+    void *note;                   /* the compiler's note */
     struct gm_split split;
     struct gm_hamiltonian hamiltonian;
     struct gm_volume volume;
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
     struct gm_lagrangian one_degree;
-    struct gm_late_tape slow_force;                     /* of q alone, and */
-    struct gm_tape attraction, perturbation, potential; /* as well */
-    double *frequencies;                                /* of coordinates */
+    struct gm_late_tape slow_force;                     /* a function of q alone */
+    struct gm_tape attraction, perturbation, potential; /* functions of q alone */
+    double *frequencies;                                /* one per coordinate */
     struct gm_late_tape field, velocity, force, energy, jacobian;
     struct gm_late_tape *pieces; /* the rates, one by one, where each component alone has an exact flow */
     struct gm_user_lagrangian lagrangian;
     struct gm_user_constraints constraints;
     struct gm_action action;
     double friction;
-    struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
+    struct gm_tape density, slopes; /* the monitor's Q, and Q with dQ/dy */
     struct gm_monitor monitor;
     struct gm_user_bracket bracket;
     struct gm_poisson poisson;
-    double matrix[9]; /* of a linear field of three components without divergence */
-    double *values;   /* of the system's variables */
+    double matrix[9]; /* the matrix of a linear field of three components without divergence */
+    double *values;   /* values of the system's variables */
     const struct gm_user_model *model;
     const struct gm_user_rates *rates; /* of the model */
-    struct gm_arena *arena;            /* in which all this lies */
+    struct gm_arena *arena;            /* owns all of this */
 };
 
 /* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
@@ -191,7 +191,7 @@ static void flow_of_piece(const struct gm_problem *problem, size_t piece, double
     gm_user_bracket_flow(&own_of(problem)->bracket, piece, h, y);
 }
 
-/* So that the first step takes no longer than others. */
+/* Makes tapes before the first step, so that it takes no longer than others. */
 static void prepare(const struct gm_problem *problem, unsigned needs)
 {
     struct own *self = own_of(problem);
@@ -259,7 +259,7 @@ static void kepler_solution(const struct gm_problem *problem, double t, const do
     }
 }
 
-/* Whether the forces at two nodes vanish wherever a system is, with these values of its parameters. */
+/* Returns true if the forces at two nodes vanish for all states, with these values of the parameters. */
 static bool vanish(struct gm_arena *arena, const struct gm_user_system *system, const gm_node_id nodes[2],
                    const double *values)
 {
@@ -327,7 +327,7 @@ static void open_mechanical(struct own *self, struct gm_problem *problem)
     }
 }
 
-/* What variational schemes need. */
+/* Opens the facet of variational schemes. */
 static void open_action(struct own *self)
 {
     const struct gm_user_model *model = self->model;
@@ -372,7 +372,7 @@ static void find_moments(struct own *self, const struct gm_problem *problem)
     }
 }
 
-/* What schemes for brackets need. */
+/* Opens the facet of schemes for brackets. */
 static void open_poisson(struct own *self, const struct gm_problem *problem)
 {
     const struct gm_user_bracket_model *model = &self->model->bracket;
@@ -392,7 +392,7 @@ static void open_poisson(struct own *self, const struct gm_problem *problem)
     find_moments(self, problem);
 }
 
-/* What schemes need that choose their step. */
+/* Opens the facet of adaptive schemes. */
 static void open_monitor(struct own *self)
 {
     const struct gm_user_model *model = self->model;
@@ -455,8 +455,8 @@ static void open_tapes(struct own *self)
     }
 }
 
-/* Whether the energy of rest is negative where these values of all variables have it start. Of a Hamiltonian the
-   formula itself is asked: no tape is made for one number. */
+/* Returns true if the energy at rest is negative at the start that these values give. A Hamiltonian's formula
+   itself is evaluated: no tape is made for one number. */
 static bool attracts(const struct own *self, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = self->model->system;
@@ -471,7 +471,7 @@ static bool attracts(const struct own *self, const struct gm_problem *problem)
     }
     const gm_node_id *parts =
         gm_arena_keep(self->arena, gm_formula_parts(&system->graph, energy, &count), free);
-    /* of the parts alone */
+    /* filled at the parts only */
     double *at = gm_arena_keep(self->arena, malloc((energy + (size_t)1) * sizeof *at), free);
     gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
     const bool negative = at[energy] < 0;
@@ -536,7 +536,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     }
     self->ode.forced = system->kind <= GM_LAGRANGIAN && gm_user_model_is_forced(model);
     if (system->kind <= GM_LAGRANGIAN && !self->ode.forced) {
-        /* what moves with the time generates no field of the whole state: it splits, and that is all */
+        /* a Hamiltonian with the time generates no field of the whole state: it only splits */
         self->split.nystrom = gm_user_model_holds(model, values, GM_FACT_NYSTROM);
         self->split.unit_mass = !lagrangian && is_unit_mass(self);
         self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;
@@ -575,7 +575,7 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
     return opened;
 }
 
-/* The tapes of which kernels are written; NULL: there is none. False: out of memory. */
+/* Makes the tapes from which kernels are written; NULL: a missing one. Returns false when out of memory. */
 static bool tapes_of_kernels(struct own *self, const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS])
 {
     struct gm_late_tape *const late[GM_KERNEL_FUNCTIONS] = {
@@ -630,8 +630,8 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
 
 void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
 {
-    /* They advance an ensemble member by member, which takes less time than the interpreter does for a few (Kepler by
-       verlet .9 of it for 13 members, and 3 times as long for 100). */
+    /* The compiled loops advance an ensemble member by member, which is faster than the interpreter for few
+       members (Kepler with scheme=verlet: 0.9 of its time for 13 members, 3 times as long for 100). */
     enum { FEW = 16 };
     const char *lacks;
     char *text = problem->m <= FEW && gm_compiled_has(problem->n)

@@ -28,7 +28,7 @@
 #include "core/schemes.h"
 #include "core/theory/theory.h"
 
-/* Schemes in schemes; stages that theory is asked about. */
+/* The most nested schemes; the most stages of a scheme in theory. */
 enum { DEEPEST = 8, MOST_STAGES = 256 };
 
 /* A row with its coefficients. */
@@ -36,7 +36,7 @@ struct own {
     struct gm_scheme row; /* first */
     struct gm_coefficients exact;
     void *coefficients;
-    struct gm_arena *arena; /* of the scheme that is opened: of all that it is made of */
+    struct gm_arena *arena; /* the opened scheme's: owns all its parts */
 };
 
 /* Coefficients, each with one decimal moved, which the scheme takes over. */
@@ -45,13 +45,13 @@ struct moved {
     int count;
 };
 
-/* The body of an arena, which a fault leaves; the sentence is empty where memory was refused. */
+/* The body of an arena, which a fault leaves; the sentence is empty when out of memory. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
     struct gm_arena *arena;
     int depth;
-    struct moved *moved; /* of the whole scheme; or NULL */
+    struct moved *moved; /* the whole scheme's; or NULL */
     struct own *made;    /* the whole scheme */
 };
 
@@ -66,7 +66,7 @@ _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct ma
     gm_arena_leave(making->arena);
 }
 
-/* What was opened, or refused memory. */
+/* Leaves the arena's body if `good` is false: out of memory. */
 static void opened(const struct making *making, bool good)
 {
     if (!good) {
@@ -96,7 +96,7 @@ void gm_user_scheme_close(const struct gm_scheme *scheme)
     close_user((struct own *)(void *)scheme);
 }
 
-/* Coefficients to be opened, so many. */
+/* Returns `count` coefficients, not yet opened, which the arena closes. */
 static struct gm_coefficients *take_coefficients(const struct making *making, size_t count)
 {
     struct gm_coefficients *taken = gm_arena_take(making->arena, count, sizeof *taken);
@@ -179,7 +179,7 @@ static struct own *make_runge_kutta(const struct making *making, const struct gm
     return of_tableau(making, &tableau);
 }
 
-/* The doubles and the balls of one that is in a loop of tableaus; false: it is none. */
+/* Reads the doubles and the balls of a scheme whose family has tableaus; false: it has no tableau. */
 static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficients *exact,
                        struct tableau *tableau)
 {
@@ -284,7 +284,7 @@ struct pieces {
     } at[GM_SPLITTING_PIECES];
 };
 
-/* Two pieces of one kind that meet are one. False: there are too many. */
+/* Adds a piece; neighbours of one kind are merged. Returns false if there are too many. */
 static bool add_piece(struct pieces *pieces, enum gm_piece piece, double value, struct gm_ball ball)
 {
     const int last = pieces->count - 1;
@@ -315,7 +315,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
     if (pieces->count > MOST_STAGES) {
         return self;
     }
-    /* the family says where each fraction stands, and which force is a step's first one again */
+    /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
     opened(making, gm_family_splitting.coefficients_open(&self->row, &self->exact));
     for (int j = 0; j < pieces->count; j++) {
         const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
@@ -337,7 +337,7 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
     for (int i = 0; i < all; i++, kick = !kick) {
         const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
         const bool only = i + 1 == all && pieces.count == 0;
-        if (number->value != 0 || only) { /* tables are filled up with zeros, which are no pieces */
+        if (number->value != 0 || only) { /* zeros that fill up tables are skipped */
             add_piece(&pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
         }
     }
@@ -380,7 +380,7 @@ static struct own *flatten(const struct making *making, const struct substeps *s
     return of_pieces(making, &pieces, needs);
 }
 
-/* What theory knows substeps by. Left alone where it knows nothing of one, or they are too many. */
+/* Composes the exact coefficients of substeps. Does nothing if a substep has none, or they are too many. */
 static void open_exact(const struct making *making, struct gm_coefficients *exact,
                        const struct substeps *substeps)
 {
@@ -404,7 +404,7 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
     opened(making, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
 }
 
-/* Faults are those of the place. */
+/* Makes a composition; faults are reported at `place`. */
 static struct own *compose(const struct making *making, const struct substeps *substeps, size_t place)
 {
     bool splittings = true, carrying = true;
@@ -479,7 +479,7 @@ static struct own *adjoint_tableau(const struct making *making, const struct tab
     return of_tableau(making, &adjoint);
 }
 
-/* As gm_coefficients_open_adjoint, in doubles. */
+/* The counterpart of gm_coefficients_open_adjoint in doubles. */
 static struct own *adjoint_nystrom(const struct making *making, const struct gm_scheme *scheme,
                                    const struct gm_coefficients *exact)
 {
@@ -534,7 +534,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
     return self;
 }
 
-/* The adjoint of what is made of coefficients alone. */
+/* Makes the adjoint of a scheme made of coefficients alone. */
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
     if (!scheme->exact && !scheme->family->coefficients_open) {
@@ -661,7 +661,7 @@ static const char *numbers_of(const struct gm_written_line *line, char text[64])
     return text;
 }
 
-/* A name for pictures where none is said. */
+/* Returns the title in pictures if the text gives none. */
 static char *title_of(const struct making *making, const struct gm_written_scheme *written,
                       const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
 {
@@ -735,8 +735,8 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
         reference->said ? keep_text(making, gm_span_words(written->text, reference->value)) : "brought along";
 }
 
-/* What is not said is what theory says; without theory the order is that of what it is made of. Of a scheme
-   that was brought along before, and says the same, it is known. */
+/* Fills order and claims that the text does not give from theory; without theory the order is that of the
+   parts. A scheme that is already open under this name with the same text passes on its order and claims. */
 static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
                    const char *name, const char *title,
                    const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
@@ -854,8 +854,8 @@ static struct own *open_source(const struct gm_user_scheme_source *source, struc
     return NULL;
 }
 
-/* The coefficients of the scheme with each of its decimals moved by half a unit of its last digit; of a
-   scheme with very many it is left alone. False with a fault. */
+/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
+   nothing if there are too many. False with a fault. */
 static bool open_moved(const struct gm_user_scheme_source *source, struct moved *moved,
                        struct gm_fault *fault)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scheme of one's own: what was written becomes a row like those of the families. */
+/* A user-defined scheme: its text becomes a row like those of the families. */
 #ifndef GM_CORE_ODE_USER_SCHEME_H
 #define GM_CORE_ODE_USER_SCHEME_H
 
@@ -7,19 +7,19 @@
 #include "core/theory/written_scheme.h"
 
 struct gm_user_scheme_source {
-    const char *text; /* a word, or what a file says */
+    const char *text; /* a word, or the content of a file */
     size_t length;
-    const char *name;  /* by which the scheme is found */
-    const char *title; /* where the text says none; NULL: it follows from the text */
-    bool part;         /* another scheme names it: its weights need not sum to 1, as those of a processor */
-    /* The scheme of a file that the text names; NULL with a sentence (GM_FAULT_SENTENCE bytes). */
+    const char *name;  /* the name that finds the scheme */
+    const char *title; /* the title if the text has none; NULL: it follows from the text */
+    bool part; /* true: another scheme names it, and its weights need not sum to 1, as in a processor */
+    /* Returns the scheme of a file that the text names; NULL with a sentence (GM_FAULT_SENTENCE bytes). */
     const struct gm_scheme *(*bring)(void *data, const char *path, char *sentence);
     void *data;
-    struct gm_decimals *decimals; /* of the text; NULL: nobody asks */
+    struct gm_decimals *decimals; /* the decimals of the text are written here; NULL: nowhere */
 };
 
-/* Makes the scheme. Where its order or its claims are not said, it claims what theory says. NULL with a
-   fault, whose sentence is empty where memory was refused. */
+/* Makes the scheme; theory fills an order or claims that the text does not give. Returns NULL with a fault,
+   whose sentence is empty when out of memory. */
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault);
 void gm_user_scheme_close(const struct gm_scheme *scheme);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A Lagrangian's momenta and forces with their derivatives: those that the problem gives, or those of a
-   Hamiltonian with quadratic kinetic energy. */
+/* A Lagrangian's momenta and forces with their derivatives, from the problem or from a Hamiltonian with
+   quadratic kinetic energy. */
 #include "core/ode/variational/action.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scra
     };
     if (!is_given(problem)) {
         action.known = own;
-        action.mass = own + 1; /* and as much to invert it in */
+        action.mass = own + 1; /* the matrix and the scratch of its inversion */
         action.drift = action.mass + 2 * square;
         action.state = action.drift + half;
         action.field = action.state + n;
@@ -66,7 +66,7 @@ struct gm_action_at gm_action_lay(const struct gm_problem *problem, double *scra
     return action;
 }
 
-/* A^-1 and b, which are the same everywhere at one time. */
+/* Computes A^-1 and b, which do not depend on the state at one time. */
 static bool find_mass(const struct gm_action_at *action, const double *at)
 {
     const size_t n = action->problem->n, half = action->half;

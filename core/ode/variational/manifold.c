@@ -124,7 +124,7 @@ static bool approach(void *data, const double *q, double *residual, double *matr
     return true;
 }
 
-/* From the unknowns that are there; unknowns are half coordinates or velocities, and multipliers. */
+/* Solves from the current unknowns: half coordinates or velocities, and multipliers. */
 static inline __attribute__((always_inline)) bool solve(const struct gm_manifold *manifold,
                                                         gm_linear_equations *linear, const double *p)
 {

@@ -10,31 +10,31 @@ struct gm_manifold {
     struct gm_action_at action;
     size_t constraints;
     double *at;                     /* q, v, t: n */
-    double *g, *slopes, *curvature; /* as struct gm_action says */
+    double *g, *slopes, *curvature; /* the values of gm_action.constrain */
     double *multipliers;            /* constraints */
     double *unknowns;               /* half + constraints */
-    double *right;                  /* what Newton's method for them works in */
+    double *right;                  /* scratch of Newton's method for the unknowns */
 };
 
-/* Doubles of room, zeros at first, as gm_action_room's. */
+/* Returns the scratch size in doubles, zeros at first (gm_action_room). */
 size_t gm_manifold_scratch_size(const struct gm_problem *problem);
 struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *scratch);
 
-/* Fills g and slopes at q; and curvature for the multipliers that are there. */
+/* Fills g and slopes at q, and curvature for the current multipliers. */
 void gm_manifold_constrain(const struct gm_manifold *manifold, const double *q);
 
-/* The velocities, in manifold->at, that belong to the state y, by Newton's method from those that are there;
-   its momenta, changed along G', are made such that G v = 0. False where none are found. */
+/* Finds the velocities of the state y, in manifold->at, by Newton's method from the current ones; changes the
+   momenta along G' such that G v = 0. Returns false if it finds none. */
 bool gm_manifold_settle(const struct gm_manifold *manifold, double *y);
 
-/* Of m states: f = (v, p'), p' = dL/dq + F + G' multipliers, with which g'' = 0; NaN where that is not
-   determined, or memory is short, which is noted. Problems with constraints are autonomous. */
+/* Writes f = (v, p') of m states, p' = dL/dq + F + G' multipliers such that g'' = 0; NaN if that is not
+   determined, or when out of memory, which is noted. Problems with constraints are autonomous. */
 void gm_manifold_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
 
-/* y := a state near to it that keeps both constraints; false where none is found or memory is short. */
+/* y := a nearby state that satisfies both constraints; false if none is found or when out of memory. */
 bool gm_manifold_project(const struct gm_problem *problem, double *y);
 
-/* The largest |g| and |G v| at one state; NaN as above. */
+/* The largest |g| and |G v| at one state; NaN if gm_manifold_field gives NaN. */
 struct gm_manifold_defects {
     double constraint, hidden;
 };

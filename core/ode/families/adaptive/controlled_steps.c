@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Any scheme Phi that knows nothing of the past, by steps h that follow the motion. The run's dt is ds.
 
-   controlled-...: the integrating controller. A monitor Q(y) > 0 is how dense steps are to be, ds = Q dt; the
-   density rho is integrated beside the motion,
+   controlled-...: the integrating controller. A monitor Q(y) > 0 is the wanted density of steps, ds = Q dt;
+   the density rho is integrated beside the motion,
        G(y)         = dQ/ds = grad Q . f / Q
        rho_{n+1/2}  = rho_n + ds/2 G(y_n),           rho_0 = Q(y_0)
        y_{n+1}      = Phi_h(y_n),   t_{n+1} = t_n + h,   h = ds / rho_{n+1/2}
        rho_{n+1}    = rho_{n+1/2} + ds/2 G(y_{n+1})
-   With a symmetric Phi that is a symmetric map of (y, rho), reversible where Phi is: of motions that come back
-   the energy errs, but does not drift. The order is that of Phi, and what each step of Phi keeps is kept.
+   With a symmetric Phi this is a symmetric map of (y, rho), reversible if Phi is: in motions that come back
+   the energy error does not drift. The order is Phi's, and the quantities that Phi conserves stay so.
    E. Hairer & G. Soderlind, SIAM J. Sci. Comput. 26 (2005) 1838; Hairer, Lubich & Wanner (2006), section
-   VIII.3.2. The memory is rho / Q, of which 0 is that of a new run, G, and what the sum of times carries over.
+   VIII.3.2. The memory is rho / Q (0: a new run), G, and the compensation of the sum of times.
 
-   error-controlled-verlet: what every other code does, an estimate of the local error held at ds^2,
+   error-controlled-verlet: the usual step size control, an estimate of the local error held at ds^2,
        h_{n+1} = h_n ds / |y_{n+1} - y_n - h_n f(y_n)|^(1/2),
-   and a step that errs by more than 2 ds^2 is made again. The step depends on where the motion came from, and
-   what is gained by a symplectic Phi is lost. The memory is h, 0, and what the sum of times carries over.
+   and a step with an error above 2 ds^2 is repeated. The step depends on the past of the motion, and the
+   advantage of a symplectic Phi is lost. The memory is h, 0, and the compensation of the sum of times.
    Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993), section II.4; Hairer, Lubich &
    Wanner (2006), section VIII.1. */
 #include <math.h>
@@ -37,9 +37,9 @@ struct row {
 enum { CONTROL, SLOPE, TIME_CARRY, REMEMBERED }; /* the memory; CONTROL is rho / Q, or h */
 
 struct workspace {
-    struct gm_scheme base;          /* Phi; */
-    struct gm_splitting_row pieces; /* where it is a composition, its pieces, made once */
-    void *base_workspace;           /* NULL: its loop needs none */
+    struct gm_scheme base;          /* Phi */
+    struct gm_splitting_row pieces; /* the pieces of Phi, made once, if it is a composition */
+    void *base_workspace;           /* workspace of Phi's loop; NULL: not needed */
     double *state, *carry;          /* 2 n each: before and after a step */
     double *field, *gradient;       /* n */
     double storage[];
@@ -88,7 +88,8 @@ static void workspace_reset(void *data)
     }
 }
 
-/* Q and G at y; false where Q is no density. Where Q is of places alone and q' = p no force is asked for. */
+/* Computes Q and G at y; false if Q is not a density. If Q depends on coordinates alone and q' = p, no force
+   is evaluated. */
 static bool look(const struct gm_problem *problem, const struct workspace *workspace, const double *y,
                  double *density, double *slope, struct gm_progress *progress)
 {
@@ -132,8 +133,8 @@ static double next_by_error(double h, double ds, double error)
 struct course {
     const struct gm_task *task;
     const struct workspace *workspace;
-    gm_loop *advance;    /* of Phi, */
-    struct gm_task step; /* and what it is asked to do */
+    gm_loop *advance;    /* the loop of Phi */
+    struct gm_task step; /* the task of that loop */
     double *memory;
     double density; /* Q at step.y; 0: it is not known */
     struct gm_progress progress;
@@ -159,7 +160,7 @@ static struct course begin(const struct gm_task *task)
     course.step.out = workspace->state + n;
     course.step.memory = course.step.memory_out = NULL;
     memcpy(workspace->state, task->y, n * sizeof(double));
-    if (task->carry) { /* a scheme that does not sum so leaves it as it is */
+    if (task->carry) { /* a scheme without compensation leaves it unchanged */
         course.step.carry = workspace->carry;
         course.step.carry_out = workspace->carry + n;
         memcpy(workspace->carry, task->carry, n * sizeof(double));
@@ -180,7 +181,7 @@ static enum gm_status make_step(struct course *course, double h)
     return made.done == 1 ? GM_OK : made.status;
 }
 
-/* The step that was made is the one to go on from. */
+/* The run continues from the step that was made. */
 static void take_step(struct course *course)
 {
     struct gm_task *step = &course->step;

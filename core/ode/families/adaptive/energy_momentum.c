@@ -4,12 +4,13 @@
    the momenta p_0 = -dL_d/dq_0, p_1 = dL_d/dq_1 the energy -dL_d/dtau of every step is that of the one before:
    the midpoint rule, whose step tau is such that in the middle H is E,
        z = y_0 + tau/2 f(z),   H(z) = E,   y_1 = 2 z - y_0
-   E is fixed by a first step of length tau0. Of one degree of freedom it is variational-midpoint. H(z) - H(y_0)
-   is about -tau^2/8 f' H'' f: where that changes its sign there is no root, and the run ends: step-collapse.
-   (The rectangle rule has none wherever the force does no work, and stays one of one degree of freedom.)
+   E is fixed by a first step of length tau0. With one degree of freedom it is variational-midpoint. H(z) -
+   H(y_0) is about -tau^2/8 f' H'' f: if that changes its sign no root exists, and the run ends:
+   step-collapse. (The rectangle rule has none wherever the force does no work, and stays one of one degree of
+   freedom.)
 
    C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353; Razafindralandy et al. (2018), eqs. 55 and
-   56. The run's dt gives the direction of time only; the memory is the next tau, 0 where there is none, and
+   56. The run's dt gives the direction of time only; the memory is the next tau, 0 if no root exists, and
    the energy. */
 #include <math.h>
 #include <stdlib.h>
@@ -24,7 +25,8 @@
 enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
 enum { ITERATIONS = 50 };
 
-/* The scratch: the middle, the field and its Jacobian there, a right side, and what Newton's method works in. */
+/* The scratch: the middle, the field and its Jacobian there, a right side, and the scratch of Newton's
+   method. */
 struct storage {
     double *middle, *field, *jacobian, *right, *scratch;
 };
@@ -56,7 +58,7 @@ static void fill(const struct gm_problem *problem, const struct storage *storage
     }
 }
 
-/* What the middle of a step is asked for. */
+/* The arguments of the equations for a step's middle. */
 struct half_step {
     const struct gm_problem *problem;
     const struct storage *storage;
@@ -97,8 +99,8 @@ static bool find_middle(const struct gm_problem *problem, const double *y, doubl
     return gm_jacobian(problem, storage->middle, storage->jacobian);
 }
 
-/* The step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is nested,
-   as both at once would find steps backwards. */
+/* Finds the step from y in whose middle H is E, by Newton's method from the last one; the scalar equation is
+   nested, as both at once would find steps backwards. */
 static bool find_step(const struct gm_problem *problem, const double *y, double energy, double *tau,
                       const struct storage *storage, struct gm_progress *progress)
 {
@@ -139,7 +141,7 @@ static bool find_step(const struct gm_problem *problem, const double *y, double 
     return false;
 }
 
-/* The step whose tau the memory holds; then the next tau, 0 if there is none. */
+/* Makes the step whose tau the memory holds, and stores the next tau, 0 if the search finds no root. */
 static enum gm_status midpoint_step(const struct gm_task *task, struct gm_members *members,
                                     struct gm_progress *progress)
 {
@@ -159,7 +161,7 @@ static enum gm_status midpoint_step(const struct gm_task *task, struct gm_member
     return GM_OK;
 }
 
-/* A run that turns round keeps its energy, and so comes back; the step of a new run is still zero. */
+/* A reversed run conserves its energy, and so comes back; the step of a new run is still zero. */
 static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Kepler problem in a fictitious time s, whose step ds is the run's dt: H = |p|^2/2 + V(q), V = -1/|q| +
    W(q) < 0, F_W = -grad W, B = -H at the start. A step is half a drift, a kick, half a drift. The memory is
-   B. For W = 0 every point lies on the exact orbit; only the time errs.
+   B. For W = 0 every point lies on the exact orbit; only the time has an error.
 
    levi-civita: with q = u^2 and w = 2 conj(u) p as complex numbers and dt = |q| ds,
        |q| (H + B) = |w|^2/8 + B |u|^2 - 1 + |u|^2 W(u^2),
@@ -29,7 +29,7 @@ static double square(double complex z)
     return creal(z) * creal(z) + cimag(z) * cimag(z);
 }
 
-/* By increments: the rounding of a factor near 1 would be the same in every step, and add up. */
+/* Adds increments: the rounding of a factor near 1 would be the same in every step, and add up. */
 static void drift_by_midpoint(double ds, double binding, double complex *u, double complex *w, double *t)
 {
     const double turn = ds * ds * binding / 8;
@@ -75,7 +75,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static enum gm_status start(const struct gm_task *task)
 {
-    /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
+    /* a reversed run has its B, and so comes back; a new run's B is still zero */
     double *binding = task->memory_out;
     *binding = *binding != 0 ? *binding : -gm_energy(task->problem, task->y);
     return GM_OK;

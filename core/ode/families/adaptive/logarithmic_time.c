@@ -2,14 +2,14 @@
 /* The logarithmic Hamiltonian, for attractions: H = T(p) + V(q), V < 0, B = -H at the start. In the phase
    space extended by t and its momentum B the motion of
        ln(T(p) + B) - ln(-V(q)),
-   where it is 0, is that of H in a fictitious time s, dt = ds / (-V): the deeper the potential, the shorter the
-   steps. Both its parts have exact flows,
+   where its value is 0, is that of H in a fictitious time s, dt = ds / (-V): the deeper the potential, the
+   shorter the steps. Both its parts have exact flows,
        drift   d = ds / (T(p) + B),   q += d dT/dp,   t += d
        kick    p += ds F(q) / (-V(q)),   F = -grad V
    so that half a drift, a kick and half a drift are explicit, symmetric and, in the extended phase space,
    symplectic; and so are their compositions with themselves, for which the s are the times. In Kepler's
-   problem every point lies on the exact orbit, and only the time errs. The run's dt is ds; the memory is B and
-   what the sum of times carries over.
+   problem every point lies on the exact orbit, and only the time has an error. The run's dt is ds; the memory
+   is B and the compensation of the sum of times.
 
    S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
    (1999) 2532. */
@@ -25,22 +25,22 @@
 
 enum { BINDING, TIME_CARRY, REMEMBERED };
 
-/* A step on its way: the place is (q, 0), at rest there, so that V is its energy and F its rates. */
+/* A step in progress: the place is (q, 0), at rest, so that V is its energy and F its rates. */
 struct passing {
     const struct gm_problem *problem;
-    double binding, time; /* B; what has passed */
-    double *place, *y;    /* n each; of y the momenta alone are right, but after what is called `moving` */
+    double binding, time; /* B; the time passed in this step */
+    double *place, *y;    /* n each; y has the right q only after moving() */
     double *rates;        /* n */
 };
 
-/* y, where the velocities are not the momenta */
+/* Returns y with its q, needed if velocities are not the momenta. */
 static const double *moving(const struct passing *at)
 {
     memcpy(at->y, at->place, at->problem->n / 2 * sizeof *at->y);
     return at->y;
 }
 
-/* False: T + B is not positive. */
+/* Drifts by ds. Returns false if T + B is not positive. */
 static bool drift(struct passing *at, double ds)
 {
     const struct gm_problem *problem = at->problem;
@@ -64,7 +64,7 @@ static bool drift(struct passing *at, double ds)
     return whole > 0;
 }
 
-/* False: the place is one where V is not negative. */
+/* Kicks by ds. Returns false if V is not negative at this place. */
 static bool kick(const struct passing *at, double ds)
 {
     const size_t half = at->problem->n / 2;
@@ -96,8 +96,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     }
     good = drift(&at, last / 2) && good;
     moving(&at);
-    const int drifts =
-        gm_ode_of(at.problem)->split->unit_mass ? 0 : composition->steps + 1; /* with a field */
+    const int drifts = gm_ode_of(at.problem)->split->unit_mass
+                           ? 0
+                           : composition->steps + 1; /* drifts that evaluate the field */
     progress->evaluations += (unsigned long)(composition->steps + drifts);
     const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
     if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
@@ -110,7 +111,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static enum gm_status start(const struct gm_task *task)
 {
-    /* a run that turns round keeps its B, and so comes back; that of a new run is still zero */
+    /* a reversed run has its B, and so comes back; a new run's B is still zero */
     double *binding = &task->memory_out[BINDING];
     *binding = *binding != 0 ? *binding : -gm_energy(task->problem, task->y);
     const struct gm_members *members = task->workspace;

@@ -22,7 +22,7 @@
 
 enum { ENERGY, TIME_CARRY, REMEMBERED };
 
-/* F(y), and 1/Q; false where Q is no density. */
+/* Computes F(y) and 1/Q; false if Q is not a density. */
 static bool slopes(const struct gm_problem *problem, double E, const double *y, double *gradient, double *F,
                    double *time)
 {
@@ -46,7 +46,7 @@ struct work {
     const struct gm_task *task;
     const struct gm_members *members;
     double *stage, *gradient, times[GM_IMPLICIT_STAGES];
-    bool collapsed; /* Q was no density */
+    bool collapsed; /* Q was not a density */
     struct gm_progress *progress;
 };
 
@@ -75,7 +75,7 @@ static bool sweep(void *data, const double *F, double *next, double *scale)
     return true;
 }
 
-/* By sweeps: in the time s the motion is gentle. */
+/* Makes a step by sweeps: in the time s the motion is gentle. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
@@ -114,7 +114,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static enum gm_status start(const struct gm_task *task)
 {
-    /* a run that turns round keeps its E, and so comes back; that of a new run is still zero */
+    /* a reversed run has its E, and so comes back; a new run's E is still zero */
     double *E = &task->memory_out[ENERGY], density;
     *E = *E != 0 ? *E : gm_energy(task->problem, task->y);
     gm_ode_of(task->problem)->monitor->density(task->problem, task->y, &density, NULL);

@@ -39,7 +39,7 @@ static double first_step(const struct gm_task *task)
     return copysign(task->settings->tau0, task->dt);
 }
 
-/* The root tau nearest to `near` in the logarithm, and its velocity; false if there is none. */
+/* Finds the root tau nearest to `near` in the logarithm, and its velocity; false if no root exists. */
 static bool find_root(enum rule rule, double v, double slope, double square, double near, double tau0,
                       double *tau, double *velocity)
 {
@@ -92,7 +92,7 @@ static enum gm_status rectangle_step(const struct gm_task *task, struct gm_membe
     return GM_OK;
 }
 
-/* What the midpoint rule needs at (q, p) with the step tau. */
+/* The midpoint rule's values at (q, p) with the step tau. */
 struct middle {
     double v, q;         /* velocity and midpoint */
     double potential[3]; /* V, V', V'' at the midpoint */
@@ -125,7 +125,7 @@ static bool solve_velocity(const struct gm_problem *problem, const double *y, do
     return false;
 }
 
-/* The step from y whose midpoint has the energy E, by Newton's method from the last one. */
+/* Finds the step from y whose midpoint has the energy E, by Newton's method from the last one. */
 static bool solve_step(const struct gm_problem *problem, const double *y, double energy, double *tau,
                        struct gm_progress *progress)
 {
@@ -157,7 +157,7 @@ static bool solve_step(const struct gm_problem *problem, const double *y, double
     return false;
 }
 
-/* The step whose tau the memory holds; then the next tau, 0 if there is none. */
+/* Makes the step whose tau the memory holds, and stores the next tau, 0 if the search finds no root. */
 static enum gm_status midpoint_step(const struct gm_task *task, struct gm_members *members,
                                     struct gm_progress *progress)
 {
@@ -195,8 +195,7 @@ static enum gm_status start(const struct gm_task *task)
         struct gm_progress ignored = {0};
         struct middle middle;
         if (last != 0) {
-            /* a run that turns round keeps its energy, and so comes back; the step of a new run is still
-               zero */
+            /* a reversed run conserves its energy, and so comes back; the step of a new run is still zero */
             task->memory_out[TAU] = copysign(last, task->dt);
             if (!solve_step(problem, task->y, task->memory_out[ENERGY], &task->memory_out[TAU], &ignored)) {
                 task->memory_out[TAU] = 0;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Splitting of y' = B(y) grad H(y), H = H_1 + ... + H_s, into the exact flows F_i of the pieces, symmetric,
        F = F_1(h/2) ... F_(s-1)(h/2) F_s(h) F_(s-1)(h/2) ... F_1(h/2)
-   and compositions F(g_1 h) F(g_2 h) ... of it. Each is a Poisson map, and keeps Casimirs at round-off. A piece is of
-   components that commute, and so do not move in its flow; the others follow a linear equation. A free rigid body falls
-   into three rotations, a heavy top into these and its potential, spins that are coupled into rotations about the axes,
-   hunters and their prey into two exponentials; where the bracket is that of coordinates and momenta this is Verlet's
-   scheme. R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; Hairer, Lubich & Wanner (2006), VII.4.2. */
+   and compositions F(g_1 h) F(g_2 h) ... of it. Each is a Poisson map, and conserves Casimirs to round-off. A
+   piece depends on components that commute, and so do not move in its flow; the others follow a linear
+   equation. A free rigid body splits into three rotations, a heavy top into these and its potential, coupled
+   spins into rotations about the axes, hunters and their prey into two exponentials; for the bracket of
+   coordinates and momenta this is Verlet's scheme. R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; Hairer,
+   Lubich & Wanner (2006), VII.4.2. */
 #include <stdlib.h>
 
 #include "core/basics.h"

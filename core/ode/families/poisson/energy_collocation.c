@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Collocation that keeps the energy of y' = B(y) grad H(y), B skew: sigma is the polynomial of degree s with
+/* Collocation that conserves the energy of y' = B(y) grad H(y), B skew. sigma is the polynomial of degree s,
        sigma(0) = y_0,   sigma'(c_i) = h B(sigma(c_i)) int_0^1 l_i(t)/b_i grad H(sigma(t)) dt,   y_1 = sigma(1),
    c_i Gauss' nodes, l_i Lagrange's polynomials on them, b_i = int l_i. Then H(y_1) - H(y_0) is a sum of
    g' B g = 0. Integrals are taken by Gauss' rule of five nodes, exact where H is a polynomial of degree 10 (s = 1)
-   or 5 (s = 2). Casimirs that are quadratic are kept as well. D. Cohen & E. Hairer, BIT 51 (2011) 91. */
+   or 5 (s = 2). It conserves quadratic Casimirs as well. D. Cohen & E. Hairer, BIT 51 (2011) 91. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,7 +56,7 @@ struct work {
     struct gm_progress *progress;
 };
 
-/* The brackets are those of one polynomial: slopes change when all are known. */
+/* Computes new slopes; all brackets belong to one polynomial, so slopes change together. */
 static bool sweep(void *data, const double *slopes, double *next, double *scale)
 {
     const struct work *work = data;

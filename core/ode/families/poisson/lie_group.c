@@ -22,7 +22,7 @@
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
 
-enum { STAGES = 5, VECTORS = 7 /* of scratch */ };
+enum { STAGES = 5, VECTORS = 7 /* vectors of scratch */ };
 
 struct crouch_grossman {
     int stages; /* 0: Munthe-Kaas */
@@ -37,7 +37,7 @@ static void drag(const double *axis, double *a)
     double once[3], twice[3], along = 0;
     if (angle > 0.5) {
         along = (angle - sin(angle)) / (square * angle);
-    } else { /* 1/6 - x^2/120 + ..., where the difference would cancel */
+    } else { /* 1/6 - x^2/120 + ..., if the difference would cancel */
         for (int k = 7; k >= 0; k--) {
             along = (1 - square * along) / ((2 * k + 2) * (2 * k + 3));
         }

@@ -4,9 +4,9 @@
    the rotation of a step as Cayley's of a vector c that is
        s h/2 (1 + |c|^2) y_0 = I c + c x I c
        y_1 = y_0 - 4/(s h) c x I c / (1 + |c|^2)
-   a Poisson map. Both y_0 and y_1 are multiples of I c + c x I c and I c - c x I c, to which c x I c and
-   I^-1 (c x I c) stand so that the energy and the Casimir |y|^2 are those of before: what moves is the time, by
-   a function of these two. Without 1 + |c|^2 it is the midpoint rule, which keeps both and is no Poisson map.
+   a Poisson map. Both y_0 and y_1 are multiples of I c + c x I c and I c - c x I c, with c x I c and
+   I^-1 (c x I c) such that the energy and the Casimir |y|^2 do not change: only the time moves, by a function
+   of these two. Without 1 + |c|^2 it is the midpoint rule, which conserves both but is not a Poisson map.
    J. Moser & A.P. Veselov, Commun. Math. Phys. 139 (1991) 217; R.I. McLachlan & A. Zanna, Found. Comput. Math.
    5 (2005) 87. */
 #include <math.h>
@@ -40,7 +40,7 @@ static bool linear(void *data, const double *c, double *residual, double *matrix
     return true;
 }
 
-/* By Newton's method from the rotation of a short step; beyond some step there is none. */
+/* Makes a step by Newton's method from the rotation of a short step; a large step has no solution. */
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {

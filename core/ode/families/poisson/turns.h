@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How vectors are turned, and how fast the bracket of angular momenta turns them:
+/* The rotation of vectors, and their angular velocity under the bracket of angular momenta:
        y' = s y x grad H(y) = omega(y) x y,   omega = -s grad H,  s = +-1
-   The state of several is three lists, the first, second and third component of all. */
+   The state of several vectors is three lists, the first, second and third component of all. */
 #ifndef GM_CORE_ODE_FAMILIES_POISSON_TURNS_H
 #define GM_CORE_ODE_FAMILIES_POISSON_TURNS_H
 
@@ -33,7 +33,7 @@ static inline void gm_turn(double factor, const double *a, double *y)
     }
 }
 
-/* Vector number i of so many in three lists, and back. */
+/* Reads vector number i of `count` from three lists, and writes it back. */
 static inline void gm_vector_take(const double *lists, size_t i, size_t count, double *vector)
 {
     for (size_t c = 0; c < 3; c++) {

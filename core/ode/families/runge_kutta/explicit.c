@@ -13,7 +13,7 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
-/* The loop where n is chosen at run time, through the problem's field. */
+/* The loop for an n chosen at run time, through the problem's field. */
 
 enum { STAGES = GM_EXPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK };
 

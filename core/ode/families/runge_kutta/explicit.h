@@ -6,7 +6,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
 
-/* Of a row of the list, and of any scheme. */
+/* The most stages of a row of the list, and of any scheme. */
 enum { GM_EXPLICIT_LISTED_STAGES = 4, GM_EXPLICIT_STAGES = 16 };
 
 struct gm_explicit_tableau {
@@ -22,22 +22,22 @@ struct gm_explicit_tableau {
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 
-/* Which row a scheme is: the order of the list. */
+/* The row of a scheme, in the order of the list. */
 enum gm_explicit_row {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
     GM_EXPLICIT_COUNT,
-    GM_EXPLICIT_USER = GM_EXPLICIT_COUNT /* none of it: a struct gm_explicit_user */
+    GM_EXPLICIT_USER = GM_EXPLICIT_COUNT /* not in the list: a struct gm_explicit_user */
 };
 
-/* A method that is brought along, whose tableau is known at run time alone. */
+/* A user-defined method, whose tableau is known at run time only. */
 struct gm_explicit_user {
     enum gm_explicit_row row; /* GM_EXPLICIT_USER */
     struct gm_explicit_tableau tableau;
 };
 
-/* The tableau of a scheme's coefficients: of a row of the list, or of one's own. */
+/* Returns the tableau of a scheme's coefficients: a row of the list, or a user-defined one. */
 const struct gm_explicit_tableau *gm_explicit_tableau_of(const enum gm_explicit_row *row);
 
 #endif

@@ -119,7 +119,7 @@ __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(co
 {
     const enum gm_explicit_row *row = task->scheme->coefficients;
     const struct gm_explicit_tableau *tableau =
-        NULL; /* that has no loop of its own, as compensated ones have none */
+        NULL; /* a tableau without a loop; compensated runs have none */
     switch (*row) {
 #define GM_EXPLICIT(identifier, ...)                                                                         \
     case GM_EXPLICIT_##identifier:                                                                           \

@@ -2,10 +2,10 @@
 /* Implicit Runge-Kutta methods, for the increments z_i of the stages:
        z_i = h sum_j a_ij f(y0 + z_j)
        y1  = y0 + h sum_i b_i f(y0 + z_i)
-   solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
-   Newton's method; of fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method is
-   symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration
-   (2006), sections II.1, VI.4, VIII.6. */
+   solved to round-off by fixed-point iteration, and if that does not contract, or the problem is stiff, by
+   Newton's method; for fields on a ring with a linear part by core/ode/families/runge_kutta/modes.c. A method
+   is symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical
+   Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/runge_kutta/implicit.h"
 
 #include <math.h>
@@ -29,13 +29,13 @@
 #undef GM_SCHEME_ROW
 #undef GM_SCHEME_TEXTS
 
-/* The loop where n is chosen at run time, through the problem's field, by the rules of the loop over kernels:
-   a member's bits depend neither on the others nor on which of the two loops it is. A passive particle whose
-   iteration does not contract, because a vortex turns it too fast, is solved by Newton's method. */
+/* The loop for an n chosen at run time, through the problem's field, by the rules of the loop over kernels: a
+   member's bits depend neither on the others nor on the loop. A passive particle whose iteration does not
+   contract, because a vortex turns it too fast, is solved by Newton's method. */
 
 enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150 };
 
-/* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
+/* A tile's scratch; in arrays over stages, stage i begins at i * n * members. */
 struct stage_scratch {
     double *at, *z, *slopes; /* states, increments, f: stages * n * members */
     double *state;           /* n * members */
@@ -43,7 +43,7 @@ struct stage_scratch {
     double *going, *solved; /* members: 1 or 0; solved is 2 by Newton's method */
 };
 
-enum { OVER_MEMBERS = 9 }; /* of these arrays */
+enum { OVER_MEMBERS = 9 }; /* number of arrays of the length `members` */
 
 static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, size_t members)
 {
@@ -101,8 +101,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-/* Components [from, to) of the increments, z := h a f, of the members that go on, and the sum of the changes:
-   a sum, because it hands a NaN on where a maximum may lose it. */
+/* Updates components [from, to) of the increments, z := h a f, of the members that still iterate, and the sum
+   of the changes: a sum passes a NaN on, a maximum may lose it. */
 GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, size_t members, size_t from,
                        size_t to, const struct stage_scratch *s, double *change)
 {
@@ -124,7 +124,7 @@ GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, si
     }
 }
 
-/* Components [from, to) of the slope of stage i, of the members that go on. */
+/* Copies components [from, to) of the slope of stage i, of the members that still iterate. */
 GM_OF_TILE void take(const struct stage_scratch *s, size_t n, size_t members, size_t i, size_t from,
                      size_t to)
 {
@@ -144,8 +144,8 @@ GM_OF_TILE void find_state(const struct stage_scratch *s, size_t n, size_t membe
     }
 }
 
-/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
-   is taken at the new q, which doubles the order in h that an iteration gains. */
+/* One iteration: new slopes at y + z, and new z from them. If q' depends on p alone and p' on q alone, p' is
+   taken at the new q, which doubles the order in h that an iteration gains. */
 GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops *loops,
                         const struct gm_implicit_row *row, double h, const double *y, size_t members,
                         const struct stage_scratch *s)
@@ -177,8 +177,8 @@ GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops 
     }
 }
 
-/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; where Newton's method can be asked
-   it has to contract well. */
+/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; if Newton's method is
+   available, it must contract well. */
 GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
                                size_t members, const struct stage_scratch *s, struct gm_progress *progress)
 {
@@ -229,7 +229,7 @@ static void set_stages(struct gm_stages *stages, const struct gm_implicit_row *r
     stages->progress = progress;
 }
 
-/* The same equations by Newton's method for member l. What the step adds to it is left in the first z. */
+/* Solves the equations by Newton's method for member l, and leaves its increment in the first z. */
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
@@ -274,7 +274,7 @@ static void block_slopes(const struct gm_problem *problem, const double *states,
     }
 }
 
-/* Where the active components are at the stages. */
+/* The states of the active components at the stages. */
 struct carriers {
     const struct gm_problem *problem;
     const double *states;
@@ -294,7 +294,7 @@ static bool carried_slope(void *data, size_t j, const double *state, double *f, 
     return true;
 }
 
-/* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
+/* Solves for one particle by Newton's method, from z = 0; leaves its slopes in the block. */
 static bool solve_one(const struct gm_problem *problem, const double *states,
                       const struct gm_implicit_row *row, double h, struct block *block, size_t k)
 {
@@ -325,8 +325,8 @@ static bool solve_one(const struct gm_problem *problem, const double *states,
     return solved;
 }
 
-/* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.
-   Those without a solution get NaN for slopes. */
+/* Solves for the particles of a block. Each freezes once it is solved, so that its bits do not depend on its
+   neighbours. Particles without a solution get NaN for slopes. */
 static void solve_block(const struct gm_problem *problem, const double *states,
                         const struct gm_implicit_row *row, double h, struct block *block)
 {
@@ -385,7 +385,7 @@ static void carry_along(const struct gm_problem *problem, double h, const double
     const struct gm_implicit_row *row = tile->row;
     const size_t active = gm_tile_components(problem), passive = problem->passive;
     for (size_t first = 0; first < passive; first += BLOCK) {
-        struct block block; /* of it as much is filled as there are stages and particles */
+        struct block block; /* filled up to the number of stages and particles */
         block.count = passive - first < BLOCK ? passive - first : BLOCK;
         const size_t at[2] = {active + first, active + passive + first};
         for (int side = 0; side < 2; side++) {
@@ -484,8 +484,8 @@ static const struct gm_scheme schemes[] = {
 #undef GM_SCHEME_TEXTS
 };
 
-/* A composition of steps g_k h is a method too, whose stages are those of all steps: a_ij of a step is g_k
-   a_ij, and g_l b_j of each earlier one. */
+/* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
+   g_l b_j of each earlier one. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const struct gm_implicit_row *row = scheme->coefficients;

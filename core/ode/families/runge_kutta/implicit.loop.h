@@ -3,8 +3,8 @@
 
 enum { K(IMPLICIT_ITERATIONS) = 150 };
 
-/* Components [from, to) of the increments, from the slopes: z := h a f in the lanes that are active. Returns
-   the sum of the changes: a sum, because it hands a NaN on where a maximum may lose it. */
+/* Updates components [from, to) of the increments, z := h a f in the active lanes. Returns the sum of the
+   changes: a sum passes a NaN on, a maximum may lose it. */
 GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages, int from, int to, double h,
                                   mask active, real f[][GM_COMPONENTS], real z[][GM_COMPONENTS])
 {
@@ -31,8 +31,8 @@ GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope
     }
 }
 
-/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
-   is taken at the new q, which doubles the order in h that an iteration gains. */
+/* One iteration: new slopes at y + z, and new z from them. If q' depends on p alone and p' on q alone, p' is
+   taken at the new q, which doubles the order in h that an iteration gains. */
 GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                    const void *parameters, mask active, real f[][GM_COMPONENTS],
                                    real z[][GM_COMPONENTS])
@@ -125,7 +125,7 @@ GM_INLINE bool implicit_slope(void *data, size_t stage, const double *state, dou
     return true;
 }
 
-/* The same equations by Newton's method, for one member, and what the step adds to it. */
+/* Solves the equations by Newton's method for one member, and writes its increment. */
 static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
                             const void *parameters, double *increment, struct gm_progress *progress)
 {
@@ -159,7 +159,7 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 
 #endif
 
-/* Lane by lane, for those in `which`. */
+/* Solves the lanes in `which`, one by one; returns the solved ones. */
 static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
                                                             const real *y, double h, const void *parameters,
                                                             real *increments, struct K(counts) * counts)
@@ -206,7 +206,7 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
             memset(f, 0, (size_t)stages * sizeof f[0]);
         }
         const mask rest = K(other)(solved);
-        if (K(somewhere)(rest)) { /* what these add is in z[0] then */
+        if (K(somewhere)(rest)) { /* Newton's method leaves its increment in z[0] */
             solved |= K(implicit_by_newton)(row, rest, block->y, h, parameters, z[0], counts);
         }
         good &= solved;

@@ -22,7 +22,7 @@ struct work {
     size_t stages, n;
     double *z, *next, *at, *rest;               /* increments h sum_j a_ij K_j of the stages, twice; n; n */
     double complex *state, *slopes, *increment; /* waves: of y; K, stages * n; n */
-    double complex *matrix;                     /* of a mode */
+    double complex *matrix;                     /* the equations of one mode */
 };
 
 void gm_implicit_modes_close(void *workspace)
@@ -61,7 +61,7 @@ void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_i
     return work;
 }
 
-/* K of one mode, from N and y: the waves of N lie where K is put. */
+/* Solves for K of one mode, from N and y; K overwrites the waves of N. */
 static bool solve_mode(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
                        struct work *work, size_t mode)
 {
@@ -106,12 +106,12 @@ static void combine(struct work *work, double h, const double *factors, double *
     gm_modes_back(&work->modes, work->increment, nodes);
 }
 
-/* One step, or one of those that it is made of. */
+/* One step, or one substep of a composition. */
 struct substep {
     const struct gm_task *task;
     struct work *work;
     const double *y;
-    double h, norm; /* of y */
+    double h, norm; /* norm: the sum of |y| */
     struct gm_progress *progress;
 };
 
@@ -147,7 +147,7 @@ static bool find_slopes(struct substep *substep)
 {
     struct work *work = substep->work;
     const size_t size = work->stages * work->n;
-    /* transforms round every value by what the largest have */
+    /* transforms round every value by the error of the largest */
     const struct gm_implicit_equations equations = {
         .size = size, .data = substep, .sweep = sweep, .roundoff = 16 * (double)work->stages * GM_EPSILON};
     substep->norm = gm_sum_of(substep->y, work->n);

@@ -5,14 +5,14 @@
 #include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/ode.h"
 
-/* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring, one member: the iteration solves the stiff linear
-   part, so that it converges where h N' is small, however large h L is. */
+/* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring, one member: the iteration solves the stiff
+   linear part, so that it converges if h N' is small, however large h L is. */
 
-/* NULL: out of memory. */
+/* Returns the workspace; NULL: out of memory. */
 void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_implicit_row *row);
 void gm_implicit_modes_close(void *workspace);
 
-/* All steps; the workspace is that of gm_implicit_modes_open. */
+/* Makes all steps; the workspace is that of gm_implicit_modes_open. */
 struct gm_progress gm_implicit_modes_advance(const struct gm_task *task);
 
 #endif

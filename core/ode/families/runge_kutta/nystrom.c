@@ -2,12 +2,12 @@
 /* Nystrom methods for q'' = g(q), so for H = T(p) + V(q) with a quadratic T, g = T'' F, F = -dV/dq:
        Q_i = q0 + c_i h q0' + h^2 sum_j a_ij g(Q_j)
        q1  = q0 +     h q0' + h^2 sum_i b_i  g(Q_i),   q1' = q0' + h sum_i bv_i g(Q_i)
-   T' is affine, so that all that is asked for is the velocity at a momentum, v(p0 + h sum_j a_ij F_j), and
-   the force:
+   T' is affine, so that only the velocity at a momentum, v(p0 + h sum_j a_ij F_j), and the force are
+   evaluated:
        Q_i = q0 + h [(c_i - 1) v(p0) + v(p0 + h sum_j a_ij F_j)]
-   Where a stage asks for itself or a later one, all are found by fixed-point iteration. A last component that
-   is the time moves with the stages. The rows of the list are none: they are brought along. E.J. Nystrom
-   (1925); E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
+   If a stage depends on itself or a later one, all are found by fixed-point iteration. A last component that
+   is the time moves with the stages. The family has no rows: they are user-defined. E.J. Nystrom (1925);
+   E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
 #include "core/ode/families/runge_kutta/nystrom.h"
 
 #include <stdlib.h>
@@ -90,7 +90,7 @@ static void place(const struct work *work, const double *forces, const double *w
     }
 }
 
-/* All forces once, each from those that are there by then. */
+/* Evaluates all forces once, each from the newest values of the others. */
 static bool sweep(void *data, const double *forces, double *next, double *scale)
 {
     const struct work *work = data;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of a Nystrom method: a and b are those of positions, bv those of velocities, c the times of the
-   stages. */
+/* The row of a Nystrom method: a and b for positions, bv for velocities, c the times of the stages. */
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
 

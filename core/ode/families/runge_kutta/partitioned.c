@@ -3,7 +3,7 @@
        Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i = p0 + h sum_j c_ij f_p(Q_j, P_j)
        q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  = p0 + h sum_i d_i  f_p(Q_i, P_i)
    symplectic if b = d and b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler
-   methods. Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method.
+   methods. Solved to round-off by fixed-point iteration, and if that does not contract by Newton's method.
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
 #include "core/ode/families/runge_kutta/partitioned.h"
 

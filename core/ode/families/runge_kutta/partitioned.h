@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of a partitioned Runge-Kutta method: a and b are those of q', c and d those of p'. */
+/* The row of a partitioned Runge-Kutta method: a and b for q', c and d for p'. */
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_PARTITIONED_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_PARTITIONED_H
 

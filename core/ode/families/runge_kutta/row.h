@@ -6,7 +6,7 @@
 #include "core/ode/families/compositions.h"
 #include "core/ode/kernel/stages.h"
 
-/* For up to so many stages there is a loop that knows how many they are; and the most. */
+/* The largest number of stages with a loop compiled for it, and the largest at all. */
 enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = GM_TABLEAU_STAGES };
 
 /* An implicit Runge-Kutta method, or a composition of one with itself. */

@@ -9,8 +9,8 @@
        tao2 = A(h/2) B(h/2) C(h) B(h/2) A(h/2),   tao4 = three of them (core/ode/families/compositions.h)
    The state is the first copy, the memory the other. M. Tao, Phys. Rev. E 94 (2016) 043303.
 
-   What binding omega stiff springs bear is measured, on the Fermi-Pasta-Ulam chain, with Omega = 20, 50 and
-   150 alike: up to these the energy stays to t = 100. Twice as much at h Omega = 0.5 and 0.25 loses it.
+   The largest stable binding omega for stiff springs, measured on the Fermi-Pasta-Ulam chain, the same with
+   Omega = 20, 50 and 150: the energy stays to t = 100. Twice as much at h Omega = 0.5 and 0.25 loses it.
        h Omega         0.5    0.25    0.15
        omega, tao2      5      20     40 at least
        omega, tao4      2      10     40 at least */

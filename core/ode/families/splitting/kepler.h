@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* The exact motion of H = |p|^2/2 - 1/|q| in the plane over the time h, in place: y = q1 q2 p1 p2. False where it is
-   not found, as at the origin. */
+/* Advances y = q1 q2 p1 p2 in place by the exact motion of H = |p|^2/2 - 1/|q| in the plane over the time h.
+   Returns false if it is not found, as at the origin. */
 bool gm_kepler_flow(double h, double y[4]);
 
 #endif

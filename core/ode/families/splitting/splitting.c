@@ -33,7 +33,8 @@ static const struct gm_scheme schemes[] = {
 #undef GM_SCHEME_TEXTS
 };
 
-/* Each piece is a stage, which knows those before it. A first force is the last one of the step before. */
+/* Writes each piece as a stage that depends on those before it. A first kick uses the last force of the step
+   before. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     struct gm_splitting made;
@@ -59,8 +60,8 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
-/* The loop where n is chosen at run time, as that over kernels: the force is kept from the last kick of a
-   step to the first of the next. A last component that is the time moves with q. */
+/* The loop for an n chosen at run time, like the loop over kernels: the force is stored from the last kick of
+   a step to the first of the next. A last component that is the time moves with q. */
 GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *tile,
                                   struct gm_progress *progress, size_t members)
 {

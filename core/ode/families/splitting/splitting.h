@@ -25,14 +25,14 @@ struct gm_three {
     double first, drift, last;
 };
 
-/* A row of the family: pieces, or a composition of Verlet's method (kick, drift, kick), where kicks that meet
-   are one. */
+/* A row of the family: pieces, or a composition of Verlet's method (kick, drift, kick) with neighbouring
+   kicks merged. */
 struct gm_splitting_row {
     struct gm_splitting splitting;
     const struct gm_composition *of_verlet; /* NULL: the splitting */
 };
 
-/* The pieces of a row; `made` is the place for those of a composition. */
+/* Returns the pieces of a row; a composition's pieces are written to `made`. */
 static inline const struct gm_splitting *gm_splitting_of(const struct gm_splitting_row *row,
                                                          struct gm_splitting *made)
 {

@@ -2,8 +2,8 @@
 /* The splitting family over a problem's kernels, for one pass; see core/ode/compiled/pass.h. The table is
    read at run time: a row is data. */
 
-/* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and
-   is counted once, even where a call ends in between and it is computed again. */
+/* The force is stored from the last kick of a step to the first of the next, if q has not moved between, and
+   is counted once, even if a call ends in between and it is computed again. */
 GM_INLINE mask K(splitting_step)(const struct gm_splitting *table, struct K(block) * block, double h,
                                  const void *parameters, bool compensated, bool stiff,
                                  struct K(counts) * counts)

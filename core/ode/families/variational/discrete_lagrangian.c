@@ -11,13 +11,13 @@
    Verlet's scheme, and Gauss points are those of collocation where r = s; here r = s + 1.
 
    With constraints g(q) = 0, at control points that are those of Lobatto's quadrature, G = dg/dq:
-       R_j + b_j G(Q_j)' mu_j in place of R_j,   g(Q_j) = 0  (0 < j <= s)
+       R_j + b_j G(Q_j)' mu_j instead of R_j,   g(Q_j) = 0  (0 < j <= s)
        p1 with the multiplier that makes G v = 0 there
-   which, where the mass matrix is constant, is RATTLE for s = 1, and for s = 2, 3 the Lobatto IIIA-IIIB pairs
+   which, if the mass matrix is constant, is RATTLE for s = 1, and for s = 2, 3 the Lobatto IIIA-IIIB pairs
    of L. Jay, SIAM J. Numer. Anal. 33 (1996) 368, of order 2 s. SHAKE takes the momenta with the last
    multiplier, and puts them into the tangent when the next step begins.
 
-   With a friction F = -c p the step without it stands between two halves of the friction's exact flow,
+   With a friction F = -c p the step without it is between two halves of the friction's exact flow,
        p := exp(-c h / 2) p
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
 #include "core/ode/families/variational/discrete_lagrangian.h"
@@ -32,18 +32,18 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
 
-/* The scratch: what the basis is at the points, unknowns, and their equations. */
+/* The scratch: the basis at the points, unknowns, and their equations. */
 struct step {
     const struct gm_variational_row *rule;
     const struct gm_task *task;
     struct gm_manifold manifold;
     size_t half, constraints, unknowns;
-    double friction, t;      /* of the state, where the equations hold it */
+    double friction, t;      /* t: the state's time, if the equations hold it */
     double *values, *slopes; /* l_j(c_i), l_j'(c_i): points * (degree + 1) */
     double *q, *p;           /* at the start */
     double *solution;        /* Q_j - q0, then mu_j, of the unknowns */
     double *scratch, *residual, *matrix;
-    double *impulse; /* what the momenta gain, but for the last multiplier */
+    double *impulse; /* the momenta's gain, without the last multiplier */
     struct gm_progress *progress;
 };
 
@@ -52,7 +52,7 @@ static size_t unknowns_of(const struct gm_problem *problem, const struct gm_vari
     return rule->degree * (problem->n / 2 + gm_action_constraints(problem));
 }
 
-/* The unknowns, and what Newton's method works in; the tables, and three vectors of coordinates. */
+/* The unknowns, and the scratch of Newton's method; the tables, and three vectors of coordinates. */
 static size_t room_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
 {
     const size_t unknowns = unknowns_of(problem, rule);
@@ -110,7 +110,7 @@ void *gm_variational_workspace(const struct gm_problem *problem, const struct gm
     return members;
 }
 
-/* without the friction, F + c p, where it is solved apart */
+/* leaves out the friction, F + c p, if it is solved apart */
 static void leave_friction(const struct step *step)
 {
     const struct gm_motion *motion = &step->manifold.action.motion;
@@ -171,7 +171,7 @@ static bool add_point(const struct step *step, const double *unknowns, size_t i)
     return true;
 }
 
-/* The constraints at control point j, whose weight is b. */
+/* Adds the constraints at control point j, whose weight is b. */
 static void add_constraints(const struct step *step, const double *unknowns, size_t j)
 {
     const struct gm_manifold *manifold = &step->manifold;
@@ -238,7 +238,7 @@ static bool linear(void *data, const double *unknowns, double *residual, double 
     return true;
 }
 
-/* The last change is one of the multipliers too, and so of what the momenta gain by them. */
+/* Adds the last change of the multipliers to the momenta's gain. */
 static void correct_impulse(const struct step *step)
 {
     const struct gm_manifold *manifold = &step->manifold;
@@ -257,8 +257,8 @@ static void correct_impulse(const struct step *step)
     }
 }
 
-/* Newton's method from rest, where the first step is the Legendre transform. The last change is below rounding, but of
-   one sign in all steps: left out it would add up. */
+/* Solves by Newton's method from rest, whose first step is the Legendre transform. The last change is below
+   rounding, but has one sign in all steps: left out it would add up. */
 static bool solve(struct step *step)
 {
     const struct gm_implicit_equations equations = {.size = step->unknowns,

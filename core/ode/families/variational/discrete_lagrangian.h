@@ -14,12 +14,12 @@ struct gm_variational_row {
     double b[GM_VARIATIONAL_POINTS], c[GM_VARIATIONAL_POINTS];
     bool late;   /* the momenta at the end are not put into the tangent of the constraints: SHAKE */
     bool damped; /* a friction -c p is solved apart */
-    /* Of a discrete Lagrangian that is not the action of a polynomial: l_j and l_j' at its points, for these
-       settings. The unknowns between q0 and q1 are then what the tables take them for. NULL: a polynomial. */
+    /* Writes l_j and l_j' at the points, for these settings, of a discrete Lagrangian that is not the action
+       of a polynomial; the tables define the unknowns between q0 and q1. NULL: a polynomial. */
     void (*tables)(const struct gm_settings *settings, double *values, double *slopes);
 };
 
-/* What every discrete Lagrangian that is its own mirror image keeps. */
+/* The claims of every discrete Lagrangian that is its own mirror image. */
 #define GM_VARIATIONAL_CLAIMS                                                                                \
     (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                    \
      GM_KEEPS_MOMENTUM_MAPS)

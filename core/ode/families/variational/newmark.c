@@ -2,8 +2,8 @@
 /* Newmark's method with gamma = 1/2 as a variational integrator. Of q'' = a(q) it makes
        Q_1 = Q_0 + h v_0 + h^2 [(1/2 - beta) a(Q_0) + beta a(Q_1)],   v_1 = v_0 + h/2 [a(Q_0) + a(Q_1)],
    which in x = Q - beta h^2 a(Q) is Verlet's scheme with the force at Q, and that has the potential
-   V(Q) + (Q - x)' M (Q - x) / (2 beta h^2). The state is x with its momenta: what is symplectic is the map of
-   these, and what a symmetry keeps is their momentum map.
+   V(Q) + (Q - x)' M (Q - x) / (2 beta h^2). The state is x with its momenta: their map is symplectic, and a
+   symmetry conserves their momentum map.
    C. Kane, J.E. Marsden, M. Ortiz & M. West, Int. J. Numer. Meth. Engng 49 (2000) 1295.
 
    For every Lagrangian, whose mass matrix M may be of Q: with Q = x + sqrt(beta) d, and d stationary,
@@ -17,7 +17,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
 
-/* Of x_0, d_0, d_1, x_1 at two points of each end. */
+/* Writes the tables over x_0, d_0, d_1, x_1 at two points of each end. */
 static void tables(const struct gm_settings *settings, double *values, double *slopes)
 {
     const double root = sqrt(settings->newmark_beta), along[] = {M_SQRT1_2, M_SQRT2, -M_SQRT1_2, -M_SQRT2};

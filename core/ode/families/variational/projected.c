@@ -16,7 +16,7 @@
 
 struct workspace {
     const struct gm_scheme *base; /* Phi */
-    void *base_workspace;         /* NULL: its loop needs none */
+    void *base_workspace;         /* workspace of the base's loop; NULL: not needed */
     double *state, *member;       /* n * m before a step, n */
     double storage[];
 };
@@ -72,7 +72,7 @@ static struct gm_progress loop(const struct gm_task *task)
     step.scheme = workspace->base;
     step.workspace = workspace->base_workspace;
     step.steps = 1;
-    step.carry = step.carry_out = NULL; /* what is projected is no sum */
+    step.carry = step.carry_out = NULL; /* a projected state is not a sum */
     for (; progress.done < task->steps; progress.done++) {
         const struct gm_progress made = advance(&step);
         progress.evaluations += made.evaluations;

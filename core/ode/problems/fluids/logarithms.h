@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-/* A sum of logarithms, one for many numbers: that of their product, while it is a number of note. */
+/* A sum of logarithms, evaluated as the logarithm of products as long as these are neither tiny nor huge. */
 struct gm_logarithms {
-    double sum, product; /* 0, 1 */
+    double sum, product; /* 0 and 1 at first */
 };
 
 static inline void gm_logarithms_add(struct gm_logarithms *logarithms, double number)

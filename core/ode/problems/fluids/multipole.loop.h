@@ -4,7 +4,7 @@
 
        F(z_i) = sum_{j != i} 1/(z_i - z_j),   E = sum_{i < j} ln |z_i - z_j|
 
-   For two cells that lie apart by d = c_target - c_source, w = 1/d, with P terms, z_j = c_source + s_j:
+   For two cells at the distance d = c_target - c_source, w = 1/d, with P terms, z_j = c_source + s_j:
 
        M_k = sum_j s_j^k                                        moments of the source,  k = 0 .. P-1
        b_l = (-1)^l w^(l+1) sum_k C(k+l, l) M_k w^k             F(c_target + t) = sum_l b_l t^l
@@ -16,8 +16,8 @@
 
        [(a/(D - b))^P + (b/(D - a))^P] / (D - a - b)
 
-   so that cells with D >= K max(a, b) + min(a, b) err by at most 2 K^-P (K + 3)/(K - 1) of 1/|d + t - s|, and
-   F(z_i) by as much of sum_j 1/|z_i - z_j|: P and K are made for that to be the tolerance.
+   so that cells with D >= K max(a, b) + min(a, b) have an error of at most 2 K^-P (K + 3)/(K - 1) of
+   1/|d + t - s|, and F(z_i) has this part of sum_j 1/|z_i - z_j|: P and K make it the tolerance.
 
    Moments and expansions are in units of their cell's radius. Part of vortices.loops.c, whose lanes it uses. */
 #ifndef GM_CORE_ODE_PROBLEMS_FLUIDS_MULTIPOLE_LOOP_H
@@ -28,30 +28,30 @@
 #include <string.h>
 
 enum {
-    LEAF = 80,      /* vortices that a cell of cells has more of */
-    MOST_TERMS = 40 /* which leave 3e-19 */
+    LEAF = 80,      /* the most vortices of a leaf */
+    MOST_TERMS = 40 /* the error is then 3e-19 */
 };
 
 struct cell {
-    double x, y, radius; /* of the least box around its vortices; all are within the radius */
-    size_t first, count; /* of its vortices, as the tree has them in order */
-    size_t at;           /* of a leaf: its place in the lists that are filled up to whole lanes */
-    size_t child;        /* the first of its cells, which follow each other */
+    double x, y, radius; /* centre of the smallest box around its vortices; all are within the radius */
+    size_t first, count; /* the range of its vortices in the order of the tree */
+    size_t at;           /* a leaf's first index in the lists that are filled up to whole lanes */
+    size_t child;        /* the first of its cells, which are consecutive */
     int children;        /* 0: it is a leaf */
 };
 
 struct tree {
     struct cell *cells;
     size_t count, capacity;
-    size_t filled; /* how long the lists are */
+    size_t filled; /* the length of the lists */
     double *x, *y; /* vortices */
     size_t *origin;
     double *lists;        /* filled_x, filled_y, sum_x, sum_y: filled each */
     size_t terms;         /* P, a multiple of LANES */
     double apart;         /* K */
-    double *coefficients; /* of each cell: real and imaginary parts of moments, then of b, P each */
+    double *coefficients; /* P per cell each: real and imaginary parts of moments, then of b */
     double matrix[MOST_TERMS * MOST_TERMS]; /* C(k+l, l), or C(k+l, l)/(k+l), by k */
-    struct logarithms near;                 /* of the energy */
+    struct logarithms near;                 /* the energy of near pairs */
     double far;
 };
 
@@ -97,7 +97,8 @@ static void exchange(struct tree *tree, size_t i, size_t j)
     tree->origin[j] = origin;
 }
 
-/* Those of first .. end - 1 whose coordinate is below the bound come first; returns where the others begin. */
+/* Moves the vortices of first .. end - 1 whose coordinate is below the bound to the front; returns where the
+   others begin. */
 static size_t part(struct tree *tree, const double *coordinate, double bound, size_t first, size_t end)
 {
     while (first < end) {
@@ -116,7 +117,8 @@ static double middle(double low, double high)
     return half > low ? half : high;
 }
 
-/* Its box, radius and cells. False: out of memory, or a place is not finite. */
+/* Computes a cell's box, radius and cells. Returns false when out of memory, or if a coordinate is not
+   finite. */
 static bool divide(struct tree *tree, size_t index)
 {
     struct cell *cell = &tree->cells[index];
@@ -174,7 +176,7 @@ static bool divide(struct tree *tree, size_t index)
     return true;
 }
 
-/* What fills up the lists lies so far away that it gives nothing to sums. */
+/* Fills the lists; the filling is so far away that it adds nothing to sums. */
 static void fill_lists(struct tree *tree)
 {
     const double nowhere = 1e150;
@@ -344,7 +346,7 @@ static inline void expand(double *expansion, const double *powers, const double 
     }
 }
 
-/* Two cells whose distance allows it act on each other by their moments. */
+/* Adds the effects of two distant cells on each other by their moments. */
 static void act(struct tree *tree, const struct cell *one, const struct cell *other, bool of_logarithms)
 {
     const size_t terms = tree->terms;
@@ -370,7 +372,7 @@ static void act(struct tree *tree, const struct cell *one, const struct cell *ot
     expand(expansion_of(tree, other), of_other, sums, -w_x, -w_y, terms);
 }
 
-/* The vortices of two leaves, or of one, act on each other one by one. */
+/* Adds the effects of the vortices of two leaves, or of one, on each other one by one. */
 static void act_singly(struct tree *tree, const struct cell *one, const struct cell *other,
                        bool of_logarithms)
 {
@@ -428,7 +430,7 @@ static void meet(struct tree *tree, const struct cell *one, const struct cell *o
     }
 }
 
-/* Expansions go down to the leaves, where they are evaluated at their vortices. */
+/* Shifts expansions down to the leaves, and evaluates them at the vortices there. */
 static void spread(const struct tree *tree)
 {
     const size_t terms = tree->terms;
@@ -471,7 +473,8 @@ static void close_tree(struct tree *tree)
     free(tree->coefficients);
 }
 
-/* False: out of memory, or a place is not finite. To be closed in both cases. */
+/* Opens a tree. Returns false when out of memory, or if a coordinate is not finite; the caller closes it in
+   both cases. */
 static bool open_tree(struct tree *tree, const double *state, size_t count, double tolerance,
                       bool of_logarithms)
 {

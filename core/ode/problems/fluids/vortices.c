@@ -2,7 +2,7 @@
 /* Point vortices of equal strength g = *(const double *)parameters in the plane,
        H = -(1/2 pi) sum_{i<j} g^2 ln r_ij :
    with q_i = g x_i, p_i = y_i these are Hamilton's equations. H. Aref, Annu. Rev. Fluid Mech. 15 (1983) 345;
-   Razafindralandy et al. (2018), eq. 30, whose factor and sense of rotation are mended. */
+   Razafindralandy et al. (2018), eq. 30, with corrected factor and sense of rotation. */
 #include <math.h>
 #include <stdio.h>
 
@@ -50,7 +50,7 @@ static void energy(const struct gm_problem *problem, const double *state, double
     }
 }
 
-/* Of one member, as the loops. */
+/* Writes the energy of one member, as loops have it. */
 static void energy_of_many(const struct gm_problem *problem, const double *state, double *value, size_t m)
 {
     (void)m;

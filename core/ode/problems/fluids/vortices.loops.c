@@ -10,7 +10,7 @@
 
 enum {
     LANES = 8,
-    STRETCH = 8 * LANES /* pairs whose logarithms are taken, or not, at once */
+    STRETCH = 8 * LANES /* number of pairs whose squares are multiplied at once */
 };
 typedef double lanes __attribute__((vector_size(LANES * 8)));
 typedef long long answers __attribute__((vector_size(LANES * 8))); /* -1: yes */
@@ -37,7 +37,7 @@ static double factor_of(const struct gm_problem *problem)
     return *(const double *)problem->parameters / (2 * M_PI);
 }
 
-/* What the vortices from j on, eight of them, give to one at (x_i, y_i), and it to them with the opposite sign. */
+/* Adds the effects between vortex i at (x_i, y_i) and the eight vortices from j on, with opposite signs. */
 static inline void give(double x_i, double y_i, const double *x, const double *y, size_t j, lanes *mine_x,
                         lanes *mine_y, double *sum_x, double *sum_y)
 {
@@ -66,8 +66,8 @@ static double logarithms_sum(struct logarithms *sum)
     return gm_logarithms_sum(&sum->singly);
 }
 
-/* Times the squares of the distances of (x_i, y_i) from those of j .. end - 1, whole lanes. False: a product came near
-   the numbers' ends, and nothing is changed. */
+/* Multiplies by the squares of the distances of (x_i, y_i) from vortices j .. end - 1, whole lanes. Returns
+   false, without a change, if a product is near underflow or overflow. */
 static inline bool multiply_squares(struct logarithms *sum, double x_i, double y_i, const double *x,
                                     const double *y, size_t j, size_t end)
 {
@@ -89,7 +89,7 @@ static inline bool multiply_squares(struct logarithms *sum, double x_i, double y
     return all;
 }
 
-/* ln of the squares of the distances of (x_i, y_i) from those of j .. end - 1 */
+/* Adds ln of the squares of the distances of (x_i, y_i) from vortices j .. end - 1. */
 static inline void add_logarithms(struct logarithms *sum, double x_i, double y_i, const double *x,
                                   const double *y, size_t j, size_t end)
 {
@@ -169,7 +169,7 @@ static void reduced(const struct gm_problem *problem, const double *state, doubl
     }
 }
 
-/* Velocities at (x, y), `count` of them, due to vortices at (at_x, at_y); where strain is not NULL also their
+/* Writes `count` velocities at (x, y), due to vortices at (at_x, at_y); if strain is not NULL also their
    derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
 static inline __attribute__((always_inline)) void carry(double factor, const double *at_x, const double *at_y,
                                                         size_t vortices, const double *x, const double *y,

@@ -48,7 +48,7 @@ static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], c
             const double square = dx * dx + dy * dy;
             const double a = factor * 2 * dx * dy / (square * square);
             const double b = factor * (dy * dy - dx * dx) / (square * square);
-            /* of the velocity (-dy, dx)/r^2 by (dx, dy): [a, b; b, -a] */
+            /* the derivative of the velocity (-dy, dx)/r^2 over (dx, dy): [a, b; b, -a] */
             for (int sign = 1; sign >= -1; sign -= 2) {
                 const int by = sign > 0 ? i : j;
                 jacobian[i][by] += sign * a;

@@ -13,7 +13,7 @@ GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
     const gm_packed *at = (const gm_packed *)state;
     gm_packed *out = (gm_packed *)f;
     const gm_packed x = at[0], y = at[1];
-    /* of the other one, and of the one opposite to it */
+    /* the distances from the other vortex, and from the one opposite to it */
     const gm_packed dx = {x[0] - x[1], x[0] + x[1]}, dy = {y[0] - y[1], y[0] + y[1]};
     const gm_packed turn = 1 / (dx * dx + dy * dy), own = 0.5 / (x * x + y * y);
     const gm_packed u = dy * turn, v = dx * turn;
