@@ -27,7 +27,7 @@ double gm_soliton_alpha(const struct gm_soliton *soliton);
 void gm_soliton_profile(const void *soliton, double x, double *value, double *slope, double *rate);
 
 /* The solution, exact but for what an image of the soliton behind a wall contributes there (about 1e-12); NaN
-   where none is known: of phi^4 once a kink has come near a wall or another kink. Their eq. 168. */
+   if none is known, as for phi^4 after a kink has come near a wall or another kink. Their eq. 168. */
 double gm_soliton_exact(const struct gm_soliton *soliton, double x, double t);
 
 /* The energy of the solitons on the line. */
