@@ -29,7 +29,7 @@ static inline const struct gm_heat *gm_heat_of(const struct gm_problem *problem)
 /* The exact value at time t, in the new frame, at the node that was at x at t = 0 and rests there (fixed) or
    moves. */
 double gm_heat_exact(const struct gm_heat *heat, bool fixed, double x, double t);
-/* By what a value at that node is divided to be the value of the original frame there. */
+/* The divisor of a value at the node of gm_heat_exact that gives the value in the original frame. */
 double gm_heat_factor(const struct gm_heat *heat, bool fixed, double x, double t);
 
 /* The caller sets parameters (struct gm_heat), line and n, the points. */

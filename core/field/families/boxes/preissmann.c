@@ -11,10 +11,10 @@
    lacks the averages.) For equations of first order in time see families/dispersive/box.c.
 
    The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by
-   dt^2/4 max |V''|. Where that is slow Newton's method goes on. The matrix of the equations of a step,
+   dt^2/4 max |V''|. If that is slow, Newton's method continues. The matrix of the equations of a step,
        A_x' (1/dt^2 + V''/4) A_x + D_x' D_x/4,
-   is that of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least one, maybe several,
-   beyond. */
+   is the Hessian of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least
+   one beyond. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

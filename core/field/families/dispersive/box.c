@@ -7,7 +7,7 @@
        Schroedinger            2   i   1    A     |psi|^2 psi   6
    U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255; A.L. Islas, D.A. Karpeev & C.M. Schober,
    J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by recursions; the rest is
-   iterated to round-off, and where that is slow or diverges solved by Newton's method. */
+   iterated to round-off, and solved by Newton's method if that is slow or diverges. */
 #include "core/field/families/dispersive/box.h"
 
 #include <complex.h>
