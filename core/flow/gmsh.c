@@ -16,7 +16,7 @@
 /* A Gmsh file on its way to a mesh: its text, and the tables that are made of
  * its sections. */
 
-/* At most so many nodes, elements and entities are read. */
+/* The largest number of nodes, elements or entities. */
 enum { MOST = 5000000 };
 
 struct node {
@@ -95,8 +95,8 @@ static void skip_blanks(struct reader *reader)
     }
 }
 
-/* The next word, at most size - 1 bytes of it; false, without a fault, at the
- * end or where it is longer. */
+/* The next word, at most size - 1 bytes of it; false, without a fault, at
+ * the end or if it is longer. */
 static bool take_word(struct reader *reader, char *word, size_t size)
 {
     skip_blanks(reader);
@@ -111,7 +111,7 @@ static bool take_word(struct reader *reader, char *word, size_t size)
     return length > 0;
 }
 
-/* Whether nothing but blanks is left. */
+/* Returns true if only blanks are left. */
 static bool at_end(struct reader *reader)
 {
     skip_blanks(reader);
@@ -152,7 +152,7 @@ static double take_number(struct reader *reader, const char *what)
     return value;
 }
 
-/* A whole number: of 4 bytes where they are raw. */
+/* A whole number, of 4 bytes in binary files. */
 static long take_whole(struct reader *reader, const char *what)
 {
     char word[32], *rest = NULL;
@@ -167,7 +167,7 @@ static long take_whole(struct reader *reader, const char *what)
     return value;
 }
 
-/* One that takes 8 bytes there: tags of nodes and elements. */
+/* A whole number of 8 bytes in binary files: a tag of a node or an element. */
 static long take_tag(struct reader *reader, const char *what)
 {
     const int64_t largest = 1000000000000000000;
@@ -210,7 +210,7 @@ static void expect_end(struct reader *reader)
 /* types of elements */
 enum { LINE = 1, TRIANGLE = 2, LINE_OF_3 = 8, TRIANGLE_OF_6 = 9, POINT = 15 };
 
-/* What follows the line's end is binary, if the file is. */
+/* Skips to the line's end, after which a binary file has binary data. */
 static void begin_raw(struct reader *reader)
 {
     while (reader->binary && reader->at < reader->end && *reader->at++ != '\n') {
@@ -276,8 +276,8 @@ static void add_curve(struct reader *reader, long tag, long physical)
         (struct curve){tag, labs(physical)}; /* the sign is an orientation */
 }
 
-/* What a part of an entity is of, in which parts of the mesh; a part of a curve
- * is in its groups, too. */
+/* Reads the entity that a part belongs to, and its parts of the mesh; a part of a curve is also in the
+   curve's groups. */
 static void read_parent(struct reader *reader, long tag, int dimension)
 {
     const long whole = take_whole(reader, "a dimension"), parent = take_whole(reader, "an entity's tag");
@@ -397,8 +397,8 @@ static void read_old_nodes(struct reader *reader, size_t total)
     }
 }
 
-/* What sections begin with: the numbers of blocks, but in 2.2, and of things,
- * and the range of their tags. */
+/* Reads the start of a section: the number of blocks (not in 2.2), the number of entries, and the range of
+   their tags. Returns the number of entries. */
 static size_t begin_blocks(struct reader *reader, long *blocks, const char *what)
 {
     *blocks = 0;
@@ -478,7 +478,7 @@ static void expect_type(struct reader *reader, long type, long line)
     }
 }
 
-/* Each returns how many elements it read, of so many that are left. */
+/* Reads a block of at most `left` elements, and returns their number; so does read_old_elements. */
 static size_t read_element_block(struct reader *reader, size_t left)
 {
     take_whole(reader, "a dimension");
@@ -494,8 +494,8 @@ static size_t read_element_block(struct reader *reader, size_t left)
 }
 
 /* Elements of version 2.2: tag, type, number of tags, those (the first is the
-   physical one) and nodes. In binary files type and numbers, of elements and of
-   tags, stand before the elements that they hold for. */
+   physical one) and nodes. In binary files the type and the numbers
+   of elements and tags precede their elements. */
 static size_t read_old_elements(struct reader *reader, size_t left)
 {
     long type = 0, count = 1, tags = 0;
@@ -594,7 +594,7 @@ static void read_sections(struct reader *reader)
     }
 }
 
-/* By tag; NULL if there is none. */
+/* Returns the node with this tag, or NULL. */
 static struct node *find_node(const struct reader *reader, long tag)
 {
     const struct node key = {.tag = tag};
@@ -605,7 +605,7 @@ static struct node *find_node(const struct reader *reader, long tag)
 
 /* The mesh. */
 
-/* A triangle's nodes, ascending, and where it stands. */
+/* A triangle's nodes, ascending, and its index. */
 struct corners {
     long nodes[3];
     size_t place;
@@ -678,8 +678,8 @@ static void add_normals(const struct reader *reader, double normal[3])
 }
 
 /* Axes of the plane of the triangles: the first is the coordinate axis with the
-   largest projection on it; seen so that triangles turn left. That of x and y
-   where z is the same everywhere. */
+   largest projection on it; seen so that triangles turn left. The plane of x
+   and y if z is the same everywhere. */
 static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
@@ -843,7 +843,7 @@ static void number_groups(struct reader *reader)
     }
 }
 
-/* Lines that are no edge of a triangle name nothing. */
+/* Names edges; lines that are not an edge of a triangle are ignored. */
 static void name_edges(struct reader *reader)
 {
     if (reader->curve_count > 0) {
@@ -948,7 +948,7 @@ void gm_triangulation_close(struct gm_triangulation *mesh)
     *mesh = (struct gm_triangulation){0};
 }
 
-/* Where the further tags of an edge begin. */
+/* The index of the first further tag of an edge. */
 static size_t first_of(const struct gm_triangulation *mesh, size_t edge)
 {
     size_t low = 0, high = mesh->more_count;

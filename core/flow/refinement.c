@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A finer mesh of the same polygon. Vertices keep their numbers, behind them stand the middles of the edges in their
-   order; the four triangles that one becomes are like it, so that angles stay. */
+/* A finer mesh of the same polygon. Vertices keep their numbers, followed by the middles of the edges in
+   their order. Each triangle becomes four similar ones, so that angles are preserved. */
 #include "core/flow/gmsh.h"
 
 #include <stdlib.h>

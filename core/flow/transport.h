@@ -14,7 +14,7 @@ struct gm_transport {
     double *ring;     /* 2 * edges: row v in ring_start[v] .. ring_start[v + 1] */
 };
 
-/* What stands on the diagonal of boundary cells, q = d0' F being the flux out of the domain. */
+/* The diagonal of boundary cells, q = d0' F being the flux out of the domain. */
 enum gm_backflow {
     GM_BACKFLOW_ZERO, /* max(q, 0): what flows back in brings 0 with it */
     GM_BACKFLOW_OWN,  /* q: it brings the boundary's own value */

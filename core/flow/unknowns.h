@@ -5,14 +5,14 @@
 #include "core/flow/flow.h"
 #include "core/linear/cholesky.h"
 
-/* Which vertices have an unknown psi: E takes unknowns to vertices. Those of a hole's wall have one together,
-   behind all others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
-   taken off afterwards. */
+/* The unknowns psi: E takes unknowns to vertices. All vertices of a hole's wall share one, after all
+   others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
+   subtracted afterwards. */
 struct gm_unknowns {
     size_t count;
-    int *start;  /* count + 1: where the vertices of an unknown begin */
-    int *vertex; /* of the unknowns */
-    int *index;  /* of a vertex; -1: psi is given */
+    int *start;  /* [count + 1], index of an unknown's first vertex */
+    int *vertex; /* vertices of the unknowns */
+    int *index;  /* unknown of a vertex; -1: psi is given */
     bool closed;
 };
 

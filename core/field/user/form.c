@@ -18,7 +18,7 @@ struct own {
     struct gm_form form;
     const struct gm_user_form *source;
     double k[GM_MOST_OF_FORM * GM_MOST_OF_FORM], l[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
-    double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* jumps; told: given by lines, or NAN */
+    double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* jumps; those in the lines (NAN: none) */
     const char *names[GM_MOST_OF_FORM];
     struct gm_form_potential potentials[GM_MOST_OF_FORM];
     struct gm_tape function, gradient, hessian;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of flows on complexes as the hall sees it: the families of schemes, and how those are
-   certified. */
+/* The kind of flows on complexes: its families of schemes and their certification. */
 #include "core/flow/flow.h"
 
 #include <math.h>
