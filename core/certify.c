@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all certificates have in common: the tolerances, the verdicts, and the call of the wing that
-   measures. */
+/* The common part of certificates: the tolerances, the verdicts, and the call of the kind's measurement. */
 #include "core/certify.h"
 
 #include <float.h>
@@ -213,7 +212,8 @@ struct solution {
 static bool solve(void *data)
 {
     const struct solution *solution = data;
-    /* small components beside large ones take part in the round-off of these: no step is short enough for less */
+    /* small components beside large ones take part in the round-off of these: no step is short enough for
+       less */
     double size = 0;
     for (size_t i = 0; i < solution->equations->dimension; i++) {
         size = fmax(size, fabs(solution->y[i]));
