@@ -31,10 +31,9 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
 struct gm_form {
     size_t dimension;    /* of s */
     const double *m, *k; /* dimension * dimension, row by row */
-    /* If the state is s itself, [component * points + node] at all nodes: S at one point, its
-       gradient and its second derivatives at `count` of them, [component * count + point] and [(row *
-       dimension + column) * count + point], and s(x + the ring) - s(x); NULL if elimination has reduced the
-       state. */
+    /* If the state is s itself, [component * points + node] at all nodes: S at one point, its gradient and
+       its second derivatives at `count` of them, [component * count + point] and [(row * dimension +
+       column) * count + point], and s(x + the ring) - s(x); NULL if elimination has reduced the state. */
     double (*function)(const void *parameters, const double *s);
     void (*gradients)(const void *parameters, const double *s, double *gradient, size_t count);
     void (*hessians)(const void *parameters, const double *s, double *hessian, size_t count);
@@ -78,8 +77,8 @@ struct gm_dispersive {
                        size_t count);
     /* V with V' = g */
     double (*potential)(const struct gm_problem *problem, double re, double im);
-    /* The residual of the local law of mass or charge over a step of the box from `now` to `next`, for every
-       cell (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are
+    /* The residual of the local law of mass or charge over a step of the box from `now` to `next`, for
+       every cell (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are
        scratch. */
     void (*content)(const struct gm_problem *problem, double dt, double *means, const double *now,
                     const double *next, struct gm_faces *faces, double *residual);
@@ -90,9 +89,9 @@ struct gm_dispersive {
                      const double *next, struct gm_faces *faces);
 };
 
-/* State of a wave problem, 2 points + 1 numbers: u at the current time t, u at another time, and the second
-   time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt,
-   at a start from two exact levels it is t + dt. */
+/* State of a wave problem, 2 points + 1 numbers: u at the current time t, u at another time, and the
+   second time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time
+   is t - dt, at a start from two exact levels it is t + dt. */
 static inline size_t gm_wave_size(size_t points)
 {
     return 2 * points + 1;

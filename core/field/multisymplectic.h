@@ -72,10 +72,10 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
                     const void *b);
 
 /* The residual of the scheme's multisymplectic law (core/field/multisymplectic.h) over the grid, with two
-   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of the
-   linearised scheme; the variables that elimination left out are found again from the scheme's equations.
-   `memory` is the scheme's own, if it has one. NaN if a scheme lacks such a law, when out of memory or when
-   the next step fails. */
+   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of
+   the linearised scheme; the variables that elimination left out are found again from the scheme's
+   equations. `memory` is the scheme's own, if it has one. NaN if a scheme lacks such a law, when out of
+   memory or when the next step fails. */
 double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, const double *memory);
 

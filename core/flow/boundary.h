@@ -52,10 +52,9 @@ enum gm_boundary_fault {
 };
 
 /* Sets the boundary of a room, instead of a previous one: side_of[b] is the side of edge
-   complex->boundary_edge[b]. A vertex belongs to an inlet (outlet) if both its boundary edges are of the same
-   piece. Outlet vertices are of the kind `outlet`.
-   psi is 0 on the wall from which the first outlet begins, counter-clockwise; on the walls of holes it is
-   unknown. */
+   complex->boundary_edge[b]. A vertex belongs to an inlet (outlet) if both its boundary edges are of the
+   same piece. Outlet vertices are of the kind `outlet`. psi is 0 on the wall from which the first outlet
+   begins, counter-clockwise; on the walls of holes it is unknown. */
 enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned char *side_of,
                                          const struct gm_side *sides, enum gm_vertex_kind outlet);
 

@@ -100,8 +100,8 @@ struct gm_flow {
 };
 
 /* The state of a run: blocks of one number per vertex, then the flow's step that led here and the tracers.
-   The values that a step used (psi_half: the stream function of its fluxes; previous values) are stored, so
-   that budgets and pressure are functions of the state alone. */
+   The values that a step used (psi_half: the stream function of its fluxes; previous values) are stored,
+   so that budgets and pressure are functions of the state alone. */
 enum gm_flow_block {
     GM_FLOW_PSI,
     GM_FLOW_OMEGA,
@@ -159,8 +159,8 @@ double gm_flow_star(const struct gm_complex *complex, const double *values, size
    is linear on the triangles, so that a layered fluid rests. */
 double gm_flow_lift(const struct gm_flow *flow, const double *temperature, size_t edge);
 /* Adds `scale` times the contribution of buoyancy to the circulations of dual cells, per unit of time.
-   Boundary cells are closed along the boundary, except on the wall of a hole, whose sum runs along the dual
-   edges around it. */
+   Boundary cells are closed along the boundary, except on the wall of a hole, whose sum runs along the
+   dual edges around it. */
 void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, double scale, double *rate);
 
 /* All fluxes; scratch: a number for each triangle. */
@@ -181,8 +181,8 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi);
    has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
 
-/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on
-   closed surfaces and with slip walls. Then omega is stepped. */
+/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
+   surfaces and with slip walls. Then omega is stepped. */
 bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
 
 /* Functionals of a state y. */
@@ -209,9 +209,9 @@ struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
    the last step: what holding the temperature there adds, or what is given. Summed up over all sides it is
    what warms the room. */
 double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
-/* An estimate of the temperature difference from the heat of walls: the value for conduction over the room's
-   size, less if air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice the
-   warming of the air that passes through. 0: walls give no heat. */
+/* An estimate of the temperature difference from the heat of walls: the value for conduction over the
+   room's size, less if air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice
+   the warming of the air that passes through. 0: walls give no heat. */
 double gm_flow_heated(const struct gm_flow *flow);
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y);
 
@@ -234,8 +234,8 @@ struct gm_sample {
 };
 bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
                     struct gm_sample *sample);
-/* The pressure p/rho at a point, after the last step: the total pressure fitted to the 24 nearest triangles,
-   less |u|^2/2. Returns false without a pressure. */
+/* The pressure p/rho at a point, after the last step: the total pressure fitted to the 24 nearest
+   triangles, less |u|^2/2. Returns false without a pressure. */
 bool gm_flow_pressure_at(const struct gm_flow *flow, const double *y, double x, double z, double *pressure);
 
 #endif

@@ -493,9 +493,8 @@ static size_t read_element_block(struct reader *reader, size_t left)
     return (size_t)count;
 }
 
-/* Elements of version 2.2: tag, type, number of tags, those (the first is the
-   physical one) and nodes. In binary files the type and the numbers
-   of elements and tags precede their elements. */
+/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
+   binary files the type and the numbers of elements and tags precede their elements. */
 static size_t read_old_elements(struct reader *reader, size_t left)
 {
     long type = 0, count = 1, tags = 0;
@@ -677,9 +676,8 @@ static void add_normals(const struct reader *reader, double normal[3])
     }
 }
 
-/* Axes of the plane of the triangles: the first is the coordinate axis with the
-   largest projection on it; seen so that triangles turn left. The plane of x
-   and y if z is the same everywhere. */
+/* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it;
+   seen so that triangles turn left. The plane of x and y if z is the same everywhere. */
 static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;

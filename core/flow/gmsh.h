@@ -20,15 +20,15 @@ struct gm_triangulation {
     } * group;
 };
 
-/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one
-   plane, and the lines that carry physical groups, are read, elements of the second order by their corners.
-   Repeated triangles are read once; points and unused nodes are dropped. Returns false with a fault, and
-   nothing to close, if the text is not a valid mesh. */
+/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one plane, and
+   the lines that carry physical groups, are read, elements of the second order by their corners. Repeated
+   triangles are read once; points and unused nodes are dropped. Returns false with a fault, and nothing to
+   close, if the text is not a valid mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
 /* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their
-   edges. Returns false with a fault, and the mesh unchanged, when out of memory or if the star is no longer
-   positive. */
+   edges. Returns false with a fault, and the mesh unchanged, when out of memory or if the star is no
+   longer positive. */
 bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
                             struct gm_triangulation_fault *fault);
 void gm_triangulation_close(struct gm_triangulation *mesh);

@@ -110,8 +110,8 @@ struct gm_room {
     double buoyancy, reference_temperature; /* NAN: without heat */
 };
 
-/* Reads a room's text; it is copied. Returns false with a fault, whose sentence is empty when out of memory;
-   the caller closes it in both cases. */
+/* Reads a room's text; it is copied. Returns false with a fault, whose sentence is empty when out of
+   memory; the caller closes it in both cases. */
 bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
                   size_t count, struct gm_fault *fault);
 void gm_room_close(struct gm_room *room);
@@ -140,13 +140,13 @@ double gm_room_value(const struct gm_room *room, const struct gm_room_line *line
 /* Writes the position of a source or a probe to `point`. */
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2]);
 
-/* The flow of the room on its mesh, which it takes; the room must outlive it. Returns NULL with a
-   fault; `boundary` names a fault of the flows. */
+/* The flow of the room on its mesh, which it takes; the room must outlive it. Returns NULL with a fault;
+   `boundary` names a fault of the flows. */
 struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault,
                              enum gm_boundary_fault *boundary);
 
-/* Writes the reason why the boundary is not valid at a time (struct gm_flow, give); the fault's sentence is
-   empty if it is valid, or if `boundary` has the reason. */
+/* Writes the reason why the boundary is not valid at a time (struct gm_flow, give); the fault's sentence
+   is empty if it is valid, or if `boundary` has the reason. */
 void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
                    enum gm_boundary_fault *boundary);
 

@@ -5,8 +5,8 @@
 #include <pthread.h>
 #include <stdbool.h>
 
-/* Work on another core, if there is one, else on the caller's. It writes nothing
-   that the caller uses in the meantime, so no bit depends on the core. */
+/* Work on another core, if there is one, else on the caller's. It writes nothing that the caller uses in
+   the meantime, so no bit depends on the core. */
 struct gm_beside {
     void (*work)(void *data);
     void *data;

@@ -46,14 +46,14 @@ bool gm_flow_solver_give(struct gm_flow_solver *solver, double t);
    existing ones are reused. Returns false if one is not positive definite, or when out of memory. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity);
 
-/* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0,
-   for the matrix in solver->transport: into solver->x. With GMRES, or with LU if that fails.
-   `size`: the scale of residuals. */
+/* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to
+   0, for the matrix in solver->transport: into solver->x. With GMRES, or with LU if that fails. `size`:
+   the scale of residuals. */
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations);
 
-/* Newton's correction of a steady state, into solver->x: includes the derivative of the
-   fluxes, with LU. omega, temperature (NULL without heat): of the state. The corrections of temperature
-   follow the others; their matrix is solver->heat, and their residual is made here. */
+/* Newton's correction of a steady state, into solver->x: includes the derivative of the fluxes, with LU.
+   omega, temperature (NULL without heat): of the state. The corrections of temperature follow the others;
+   their matrix is solver->heat, and their residual is made here. */
 bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, const double *temperature);
 
 #endif

@@ -216,8 +216,8 @@ static bool refresh(struct gm_mesh_solver *solver, double *memory)
     return factor(solver);
 }
 
-/* Makes the factors that the memory names, unless the solver has them. If they cannot be made, the step makes
-   new ones. */
+/* Makes the factors that the memory names, unless the solver has them. If they cannot be made, the step
+   makes new ones. */
 static void restore(struct gm_mesh_solver *solver, double *memory)
 {
     if (memory[MEMORY_STAMP] != solver->stamp) {

@@ -88,8 +88,8 @@ static void exact_heat(const struct gm_problem *problem, double x, double t, dou
     values[0] = gm_heat_exact(gm_heat_of(problem), false, x, t);
 }
 
-/* Frames of reference: the same solution from a moving one, the value at node i that the original frame sees
-   of a run, and the defect of one step under a symmetry, NaN without one. */
+/* Frames of reference: the same solution from a moving one, the value at node i that the original frame
+   sees of a run, and the defect of one step under a symmetry, NaN without one. */
 struct frames {
     const void *parameters;
     double (*seen)(const struct gm_run *run, size_t i);
@@ -302,8 +302,8 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
     return largest;
 }
 
-/* The difference between a run and one from the moving frame, or the defect of a step under a symmetry if it
-   is larger; INFINITY for a failure. */
+/* The difference between a run and one from the moving frame, or the defect of a step under a symmetry if
+   it is larger; INFINITY for a failure. */
 static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
                            const double *y)
 {

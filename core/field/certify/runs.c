@@ -180,8 +180,8 @@ struct refined {
     size_t count;
 };
 
-/* Adds a level and returns its state after the same time; the caller frees it. NULL when a step fails or when
-   out of memory. */
+/* Adds a level and returns its state after the same time; the caller frees it. NULL when a step fails or
+   when out of memory. */
 static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct refined *refined)
 {

@@ -32,9 +32,9 @@ bool gm_heat_fixed(const struct gm_heat *heat, const struct gm_scheme *scheme);
 /* The groups that a scheme claims to commute with. */
 unsigned gm_heat_keeps(const struct gm_scheme *scheme);
 
-/* The defect of one step of length k under a symmetry about the middle of the nodes: the step of the carried
-   state against the carried step, the largest over all nodes, divided by the value there. The carried nodes
-   move, which only invariant schemes take into account. */
+/* The defect of one step of length k under a symmetry about the middle of the nodes: the step of the
+   carried state against the carried step, the largest over all nodes, divided by the value there. The
+   carried nodes move, which only invariant schemes take into account. */
 double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                       const struct gm_heat_symmetry *symmetry, const double *u);
 

@@ -29,8 +29,8 @@ bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_sche
                           const double *y, double *boosts);
 
 /* The defect of one step of length k under a symmetry: the step of the carried state against the carried
-   step, in units of the carried u, the largest over all nodes. NaN for schemes without frames,
-   and if a step is not solved. */
+   step, in units of the carried u, the largest over all nodes. NaN for schemes without frames, and if a
+   step is not solved. */
 double gm_kdv_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                      const struct gm_kdv_symmetry *symmetry, const double *y);
 

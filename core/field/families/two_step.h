@@ -18,13 +18,13 @@ struct gm_two_step_work {
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
 
-/* One step of length dt: the next level from the past and the current one, both with their end points; status
-   GM_OK. */
+/* One step of length dt: the next level from the past and the current one, both with their end points;
+   status GM_OK. */
 typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                    struct gm_progress *progress);
 
-/* The next level, at t + dt, from the current one and the past one, which is at t + gap here; gap is neither
-   dt nor -dt. */
+/* The next level, at t + dt, from the current one and the past one, which is at t + gap here; gap is
+   neither dt nor -dt. */
 typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                double gap);
 gm_two_step_start gm_wave_start;

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* The nodes of an equation in a frame with the velocity lambda: at rest in that
-   frame, or moving by lambda dt per step. */
+/* The nodes of an equation in a frame with the velocity lambda: at rest in that frame, or moving by lambda
+   dt per step. */
 enum gm_frame_nodes {
     GM_FRAME_EACH, /* moving for invariant schemes, fixed for the others */
     GM_FRAME_FIXED,

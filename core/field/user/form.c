@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A user-defined multisymplectic form: S, its gradient and its second derivatives are formulas. A component
-   that S does not contain and whose slope an equation without K gives is a potential: it is integrated from
-   the others, and its change around the ring is its jump. */
+/* A user-defined multisymplectic form: S, its gradient and its second derivatives are formulas. A
+   component that S does not contain and whose slope an equation without K gives is a potential: it is
+   integrated from the others, and its change around the ring is its jump. */
 #include "core/field/user/form.h"
 
 #include <stdio.h>

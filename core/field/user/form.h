@@ -16,14 +16,14 @@ struct gm_user_form {
 /* Derives the formulas into the system's graph, which grows. Returns false when out of memory. */
 bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system);
 
-/* The problem with these values of all variables (gm_equations_start) on that ring. Returns false when out of
-   memory; the caller closes it in both cases. */
+/* The problem with these values of all variables (gm_equations_start) on that ring. Returns false when out
+   of memory; the caller closes it in both cases. */
 bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
                        const struct gm_grid1 *grid);
 void gm_user_form_close(struct gm_problem *problem);
 
-/* The state at t = 0; potentials (gm_form) are integrated from their slopes, from their value at the left end
-   on. */
+/* The state at t = 0; potentials (gm_form) are integrated from their slopes, from their value at the left
+   end on. */
 void gm_user_form_start(const struct gm_problem *problem, double *y);
 
 /* Returns true if neither matrix is 0, the start is finite and closes on the ring up to its jumps and a

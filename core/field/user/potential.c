@@ -71,9 +71,8 @@ static const double abscissas[HALF] = {0.238619186083196908630501721680712,
 static const double weights[HALF] = {0.467913934572691047389870343989551, 0.360761573048138607569833513837716,
                                      0.171324492379170345040296142172733};
 
-/* The mean of a formula between a and b, on `pieces` pieces; if `weighted`, with the weight
-   s, which is 1 at a and 0 at b. *size is the largest value. Without weight, exchanging a and b changes no
-   bit. */
+/* The mean of a formula between a and b, on `pieces` pieces; if `weighted`, with the weight s, which is 1
+   at a and 0 at b. *size is the largest value. Without weight, exchanging a and b changes no bit. */
 static double mean_of(const struct gm_tape *tape, double a, double b, size_t pieces, bool weighted,
                       double *size)
 {

@@ -198,8 +198,8 @@ static void correct(const struct gm_flow_solver *solver, double *y)
     gm_flow_vorticity(flow, y, omega);
 }
 
-/* The step for psi, and for omega at vertices without a formula. The first guess extrapolates the
-   last step. */
+/* The step for psi, and for omega at vertices without a formula. The first guess extrapolates the last
+   step. */
 static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
                            const double *psi_before, struct gm_progress *progress)
 {

@@ -140,11 +140,11 @@ static double energy_drift(const struct gm_mesh_subject *subject, const struct g
     return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
 }
 
-/* The order, from differences between runs with halved steps; return after a reversed step; the change of dy
-   dp_y + dX dp_X over a step, on the states that the mesh constraint allows; the energy; and the defect of
-   the local law of the trapezoidal discrete Lagrangian, or on a uniform mesh of that of the midpoint rule if
-   that is less, over all stretches of three nodes (not where the step varies). Defects are of numbers of a
-   size, or of products of two. */
+/* The order, from differences between runs with halved steps; return after a reversed step; the change of
+   dy dp_y + dX dp_X over a step, on the states that the mesh constraint allows; the energy; and the defect
+   of the local law of the trapezoidal discrete Lagrangian, or on a uniform mesh of that of the midpoint
+   rule if that is less, over all stretches of three nodes (not where the step varies). Defects are of
+   numbers of a size, or of products of two. */
 static void measure(struct gm_certificate *certificate, const struct gm_mesh_subject *subject, double dt,
                     double size, const char *name)
 {

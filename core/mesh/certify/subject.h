@@ -25,8 +25,8 @@ struct gm_mesh_step {
     double dt;
 };
 
-/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory. The
-   subject holds its parameters, so it must not be moved. */
+/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory.
+   The subject holds its parameters, so it must not be moved. */
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points);
 
 /* Opens a subject on a problem of at most `points` nodes, with its own start. */

@@ -139,9 +139,9 @@ static void weigh(struct own *self, const struct gm_user_mesh *chosen)
         strongest = fmax(strongest, fabs(at[0]));
         before = u;
     }
-    /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from drawing
-       all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a rise of 2 pi
-       in a box of 25 */
+    /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
+       drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
+       rise of 2 pi in a box of 25 */
     const double usual =
         variation > 0 && steepest > 0 ? fmin(1.5 / steepest, M_PI / 10 * mesh->length / variation) : 0;
     self->alpha = isnan(chosen->alpha) ? usual : chosen->alpha;

@@ -17,8 +17,8 @@ struct gm_user_mesh {
    less in u, else 10. */
 size_t gm_user_mesh_order(const struct gm_user_wave *wave);
 
-/* The problem with these values of all variables (gm_equations_start). Returns false when out of memory; the
-   caller closes it in both cases. */
+/* The problem with these values of all variables (gm_equations_start). Returns false when out of memory;
+   the caller closes it in both cases. */
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen);
 void gm_user_mesh_close(struct gm_problem *problem);

@@ -94,8 +94,8 @@ static size_t recall(struct gm_collocation *work, const double *memory)
     return (size_t)memory[KNOWN];
 }
 
-/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them: from
-   values at the nodes they would differ by an error of the grid, which would change its sign at every
+/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them:
+   from values at the nodes they would differ by an error of the grid, which would change its sign at every
    step. */
 static void integrate_potentials(struct gm_collocation *work)
 {
@@ -169,9 +169,9 @@ static void guess(struct gm_collocation *work, size_t known)
 
 /* If a potential ties components without a rate to rates of others, waves of the branches that no smooth
    field has are too fast for a step: two stages leave them unchanged, three change their sign, and such a
-   component is 1/dt of them, which two stages add up step after step. This removes them from the start: the
-   stages of a step forward and of one back have almost nothing of them, and the polynomial through both, even
-   in time, is s at the start up to dt^(2 r). */
+   component is 1/dt of them, which two stages add up step after step. This removes them from the start:
+   the stages of a step forward and of one back have almost nothing of them, and the polynomial through
+   both, even in time, is s at the start up to dt^(2 r). */
 static void settle(struct gm_collocation *work, double dt)
 {
     const size_t points = work->points, r = work->r;

@@ -883,8 +883,8 @@ void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, 
     }
 }
 
-/* The weights that turn stage values into the value at the node, exact for waves that are equal at the nodes:
-   waves of the angles angle, angle -+ 2 pi .. are 1 there. The alternating wave has two angles. */
+/* The weights that turn stage values into the value at the node, exact for waves that are equal at the
+   nodes: waves of the angles angle, angle -+ 2 pi .. are 1 there. The alternating wave has two angles. */
 static void node_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
 {
     const size_t points = work->points, r = work->r;

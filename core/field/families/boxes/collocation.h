@@ -68,8 +68,8 @@ void gm_collocation_close(void *workspace);
 /* One step from `low` to `high`, with the guess in z and y, which become the solution. GM_NO_CONVERGENCE. */
 enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress);
 
-/* Linearises the equations at z, for steps of tangents from `low` to `high`, z and y. Returns false if they
-   are singular, or when out of memory. */
+/* Linearises the equations at z, for steps of tangents from `low` to `high`, z and y. Returns false if
+   they are singular, or when out of memory. */
 bool gm_collocation_linearise(struct gm_collocation *work, double dt);
 void gm_collocation_tangent(struct gm_collocation *work, double dt);
 /* Fills in the faces of a step of tangents. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws of the box for equations of first order in time. The multisymplectic one: two tangents are
    advanced by a step, and the variables that elimination left out follow from the box equations that hold
-   them (gm_dispersive). The laws of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36): the
-   product of the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in space but
-   for S, and of S but for what is not quadratic in it, V. */
+   them (gm_dispersive). The laws of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36):
+   the product of the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in
+   space but for S, and of S but for what is not quadratic in it, V. */
 #include "core/field/families/dispersive/form.h"
 
 #include <math.h>

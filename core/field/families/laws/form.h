@@ -11,9 +11,10 @@
    and what is left of them on a grid where the state is s. A f = (f_i + f_{i+1})/2, D f = (f_{i+1} -
    f_i)/dx. */
 
-/* The integrals of S(s) - s' K s_x / 2 and s' M s_x / 2 at the stages of the cells, with the slopes that the
-   boxes have there: of one stage dx sum [S(A s) - (A s)' K D s / 2] and dx sum (A s)' M D s / 2. `memory`
-   belongs to a run with the scheme, a row of gm_family_any_form. NaN if it is NULL, or when out of memory. */
+/* The integrals of S(s) - s' K s_x / 2 and s' M s_x / 2 at the stages of the cells, with the slopes that
+   the boxes have there: of one stage dx sum [S(A s) - (A s)' K D s / 2] and dx sum (A s)' M D s / 2.
+   `memory` belongs to a run with the scheme, a row of gm_family_any_form. NaN if it is NULL, or when out
+   of memory. */
 double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory);
 double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
                         const double *memory);

@@ -19,8 +19,8 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 
-/* Measures the residual of the scheme's local law of energy or of momentum at every node, or in every cell of
-   the box. Returns false if the scheme has other laws, when out of memory or when the next step fails. */
+/* Measures the residual of the scheme's local law of energy or of momentum at every node, or in every cell
+   of the box. Returns false if the scheme has other laws, when out of memory or when the next step fails. */
 bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual);
 
