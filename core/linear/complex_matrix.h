@@ -5,11 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Small complex matrices, row by row: what waves of one number make of several fields. */
+/* Small complex matrices, row by row, for waves of one wave number in several fields. */
 enum { GM_COMPLEX_LARGEST = 4, GM_PHI_MOST = 4 };
 
-/* Solves a x = r by elimination with partial pivoting, of any n. a is destroyed, x overwrites r. False: a is
-   singular. */
+/* Solves a x = r by elimination with partial pivoting, of any n. a is destroyed, x overwrites r. Returns
+   false if a is singular. */
 bool gm_complex_eliminate(size_t n, double _Complex *a, double _Complex *r);
 
 /* phi_0 .. phi_(count - 1) of z, n * n each, one behind the other:

@@ -153,7 +153,7 @@ void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *i
             im[at] = x_im;
         }
     }
-    /* what is left: z^shift f = x, times the factor */
+    /* the rest: z^shift f = x, times the factor */
     memcpy(scratch, re, n * sizeof *re);
     memcpy(scratch + n, im, n * sizeof *im);
     const double f_re = creal(factor), f_im = cimag(factor);
