@@ -47,7 +47,7 @@ enum gm_mesh_reach { GM_REACH_FULL, GM_REACH_LIMITED, GM_REACH_TEMPERED };
 
 struct gm_mesh {
     size_t points;
-    double first, length; /* where it begins */
+    double first, length; /* left end and length */
     double left, right;   /* the field at both ends */
     double alpha, curvature;
     enum gm_mesh_reach reach;
@@ -89,8 +89,8 @@ enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme);
 
 /* Writes the canonical state of a profile on a mesh of that kind: nodes by continuation from the uniform
-   mesh, velocities consistent with the constraint (their section 5.2). False: no mesh was found, or out of
-   memory. */
+   mesh, velocities consistent with the constraint (their section 5.2). Returns false if no mesh was found,
+   or when out of memory. */
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state);
 

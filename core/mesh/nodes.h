@@ -44,10 +44,10 @@ static inline double gm_jump(const double *elements, size_t k)
     return elements[k] - elements[k - 1];
 }
 
-/* Moves the nodes' places, in stage->x, until the constraint holds, by Newton's method with backtracking. The
-   field at the nodes is given in stage->y where profile is NULL; otherwise it is the profile's value at the
-   node, and stage->u and stage->v receive the profile's slope and rate there (at the ends: 0). Uses `matrix`
-   (N, band 1) and `change` (N). False: no such mesh was found nearby. */
+/* Moves the nodes' places, in stage->x, until the constraint holds, by Newton's method with backtracking.
+   The field at the nodes is given in stage->y if profile is NULL; otherwise it is the profile's value at
+   the node, and stage->u and stage->v receive the profile's slope and rate there (at the ends: 0). Uses
+   `matrix` (N, band 1) and `change` (N). Returns false if no such mesh was found nearby. */
 bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                              const void *context, struct gm_banded *matrix, double *change);
 
@@ -59,7 +59,8 @@ bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix,
        3:  u, V, lambda   of M (u, V) + Dg^T lambda = p,  Dg (u, V) = 0
        2:  u, V           of the same if p has no part in X, which Dg (u, V) = 0 alone determines
        1:  u              of M u = p on a fixed mesh
-   `stage` has been evaluated and constrained; the matrix has the band 2 * unknowns - 1. False: singular. */
+   `stage` has been evaluated and constrained; the matrix has the band 2 * unknowns - 1. Returns false if it
+   is singular. */
 bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix, size_t unknowns,
                       double *motion);
 

@@ -273,7 +273,7 @@ static enum outcome iterate(struct gm_mesh_solver *solver, double *memory, struc
         progress->iterations++;
         const double change = move(solver, solver->residual, 1);
         const double ratio = change / before;
-        /* what is left after this change is about ratio / (1 - ratio) of it */
+        /* the error after this change is about ratio / (1 - ratio) of it */
         const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(solver);
         if (stands || change < enough(solver) ||
             (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {

@@ -18,11 +18,9 @@ struct gm_mesh_solver;
 
 struct gm_mesh_strategy {
     enum gm_mesh_kind kind;
-    size_t unknowns; /* at a node, of each stage */
-    size_t
-        projected; /* unknowns at a node in the projection of momenta to velocities, as gm_nodes_project has
-                      them */
-    /* of a change of an unknown of a node in the test of convergence; NULL: 1 */
+    size_t unknowns;  /* unknowns per node and stage */
+    size_t projected; /* unknowns per node in gm_nodes_project */
+    /* weight of a change of a node's unknown in the test of convergence; NULL: 1 */
     double (*weight)(size_t stages, size_t unknown, double step);
     /* the unknowns of a scheme that has no past */
     void (*guess)(const struct gm_mesh_solver *solver, double *unknowns);
@@ -48,7 +46,7 @@ struct gm_mesh_solver {
     struct gm_mesh mesh;
     const struct gm_mesh_row *row;
     size_t stages, per_node;
-    /* of the step that is solved: its length, its start, and the momenta there, y and X node by node */
+    /* the current step: its length, its start, and the momenta there, y and X node by node */
     double h;
     const double *state;
     double *momenta;
@@ -56,13 +54,13 @@ struct gm_mesh_solver {
     struct gm_elements stage[GM_STAGES];
     struct gm_banded matrix, projection;
     struct gm_banded places; /* N, for the mesh at the end */
-    double stamp;            /* of the factors it holds; 0: none */
+    double stamp;            /* identifies the factors; 0: none */
     double noise;            /* change of the unknowns that round-off alone makes */
     double weights[3 * GM_STAGES];
     double *unknowns, *residual, *trial;
     double *motion;                   /* at the end: momenta, then velocities */
     double *forces[GM_STAGES];        /* y and X, node by node */
-    double *slack, *share[GM_STAGES]; /* of the elements, of unknowns at the nodes (gm_nodes_spread) */
+    double *slack, *share[GM_STAGES]; /* arrays of elements, from unknowns at the nodes (gm_nodes_spread) */
 };
 
 /* The largest of these unknowns of a node, numbered from 0. */

@@ -9,7 +9,7 @@
    its motions. */
 
 enum {
-    GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
+    GM_MESH_SUBJECT_POINTS = 7, /* most nodes of the mesh */
     GM_MESH_SUBJECT_STATE = 4 * GM_MESH_SUBJECT_POINTS,
 };
 
@@ -41,8 +41,9 @@ bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct
 typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
                              double *values);
 
-/* The derivatives of `count` such numbers by component `direction` of dy and then d(dy/dt), X and dX/dt
-   following as the constraint says, by differences (core/linear/differences.h). False if a run fails. */
+/* The derivatives of `count` observed numbers by component `direction` of dy and then d(dy/dt), where X
+   and dX/dt follow from the constraint, by differences (core/linear/differences.h). Returns false if a run
+   fails. */
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
 
