@@ -29,7 +29,7 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
 }
 
 struct gm_form {
-    size_t dimension;    /* of s */
+    size_t dimension;    /* dimension of s */
     const double *m, *k; /* dimension * dimension, row by row */
     /* If the state is s itself, [component * points + node] at all nodes: S at one point, its gradient and
        its second derivatives at `count` of them, [component * count + point] and [(row * dimension +

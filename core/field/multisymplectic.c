@@ -76,7 +76,7 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
 
 struct flow {
     const struct gm_law *law;
-    size_t state, memory; /* their sizes */
+    size_t state, memory; /* sizes of the state and the memory */
 };
 
 /* gm_map: a state, and the memory behind it, to the same a step later. */

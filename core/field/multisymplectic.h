@@ -79,8 +79,8 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
 double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, const double *memory);
 
-/* The same with tangents that are extrapolated differences of the scheme's own steps, so that the law
-   tests only the step itself; accurate to about 1e-9. */
+/* The residual of the law with tangents that are extrapolated differences of the scheme's own steps, so
+   that the law tests only the step itself; accurate to about 1e-9. */
 double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                       const double *y, const double *memory);
 

@@ -169,10 +169,10 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
    measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
     const struct gm_problem *problem;
-    const char *file; /* of share/subjects, a multisymplectic form, in the place of that */
+    const char *file; /* file of share/subjects with a multisymplectic form, instead of `problem` */
     const void *parameters;
     void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
-    size_t numbers; /* of the exact solution at a node; 0: one, of which the state holds two levels */
+    size_t numbers; /* numbers of the exact solution at a node; 0: one, with two levels in the state */
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;
     double dt, until;
@@ -264,7 +264,7 @@ static struct gm_problem problem_of(const struct equation *equation, const void 
     return problem;
 }
 
-/* The exact state at 0, or the levels 0 and dt, malloc'ed; NULL where memory is short. */
+/* The exact state at 0, or the levels 0 and dt, which the caller frees; NULL when out of memory. */
 static double *start_of(const struct equation *equation, const struct gm_problem *problem, double dt)
 {
     const size_t points = problem->line.points;
@@ -393,7 +393,7 @@ struct read {
     struct gm_problem problem;
 };
 
-/* False: out of memory. To be closed in both cases. */
+/* Returns false when out of memory; the caller closes it in both cases. */
 static bool open_file(struct read *read, struct equation *equation)
 {
     const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, equation->file);
@@ -457,8 +457,8 @@ static const char *no_steps(struct gm_field_subject *subject, const double *y)
     return good ? NULL : "a run of steps of this dt fails: take a shorter one";
 }
 
-/* The order, and what an equation has that is not one of this program's: symmetry and the multisymplectic
-   law, the energy, and what the system says that it keeps. */
+/* Measures the order and the properties of a user-defined equation: symmetry and the multisymplectic law,
+   the energy, and the conserved quantities that the system lists. */
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {

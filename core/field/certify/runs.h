@@ -14,7 +14,7 @@ struct gm_field_subject {
     struct gm_problem problem;
     const struct gm_scheme *scheme;
     double dt;
-    struct gm_run *run; /* of gm_field_begin, to be closed */
+    struct gm_run *run; /* opened by gm_field_begin; the caller closes it */
 };
 
 /* The number of values of the field in a state: u, or all components, without those that only a two-step

@@ -34,7 +34,7 @@
 #include "core/linear/settled.h"
 
 enum {
-    REACH = 2 /* of D3 */,
+    REACH = 2 /* radius of D3 */,
     PAD = 3,
     KNOWN = 6 /* nodes that P goes through */
 };

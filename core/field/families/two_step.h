@@ -11,9 +11,9 @@ struct gm_two_step_work {
     size_t points;
     double *level[3];              /* past, present, next */
     double *force;                 /* points + 2, from [-1] */
-    double *right, *guess, *cells; /* of implicit schemes */
-    double *change;                /* from the past to the present level, of schemes that keep it */
-    double *rate[3];               /* of the levels, likewise */
+    double *right, *guess, *cells; /* arrays of implicit schemes */
+    double *change;                /* from the past to the current level, of schemes that store it */
+    double *rate[3];               /* rates of the levels, of schemes that store them */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };

@@ -17,7 +17,7 @@
 #include "core/field/problems/wave.h"
 #include "core/tape.h"
 
-enum { ROOM = 128 }; /* of slopes that a tape computes together */
+enum { ROOM = 128 }; /* slopes that a tape computes together */
 
 struct own {
     struct gm_user_line line; /* first */

@@ -16,8 +16,8 @@ double gm_any_form_law(const struct gm_law *law);
    them. The scheme's coefficients are a gm_collocation_tableau. */
 const double *gm_any_form_stages(const double *memory);
 
-/* The integral of a density of s and the slopes of the state's components, by Gauss's rule at the stages of
-   the cells; NaN where memory is short, or is NULL. */
+/* The integral of a density of s and the slopes of the state's components, with Gauss's rule at the stages
+   of the cells; NaN when out of memory, or if `memory` is NULL. */
 double gm_any_form_integral(const struct gm_problem *problem, const struct gm_scheme *scheme,
                             const double *memory,
                             double (*density)(const struct gm_problem *problem, const double *s,

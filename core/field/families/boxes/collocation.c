@@ -25,7 +25,7 @@
 
 /* ---- the workspace ---- */
 
-/* NULL: memory is short; while a workspace is opened, that leaves the body. */
+/* Returns an array, or NULL when out of memory; while a workspace is opened, that leaves the body. */
 static double *take(const struct gm_collocation *work, size_t count)
 {
     return gm_arena_take(work->arena, count, sizeof(double));
@@ -256,7 +256,7 @@ GM_CLONES static void add(double *restrict to, const double *restrict from, doub
     }
 }
 
-/* to += factor times what is in the next cell, which of the last is the first, further by the jump */
+/* to += factor times `from` of the next cell; after the last cell comes the first, plus the jump */
 static void add_next(double *restrict to, const double *restrict from, double factor, double jump,
                      size_t points)
 {
@@ -398,8 +398,8 @@ static size_t place_of(const struct gm_collocation *work, size_t component)
     return place;
 }
 
-/* The constant of a potential is free, and that it closes around the ring follows from the other equations:
-   in its place, in the last cell, its first side is what the guess says. */
+/* The constant of a potential is free, and its closure around the ring follows from the other equations.
+   Instead of that equation, the first side in the last cell keeps the guess. */
 static void hold_potentials(const struct gm_collocation *work, double *matrix)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
@@ -713,7 +713,7 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }
-        /* what further iterations would change, which contract as the last one did */
+        /* the change by further iterations, if they contract like the last one */
         const double rate = change / last, rest = k > 0 && rate < 0.5 ? change * rate / (1 - rate) : INFINITY;
         /* or what is left of the equations is rounding: a component without a rate still moves by 1/dt of
            that */
@@ -922,8 +922,8 @@ static void node_weights(const struct gm_collocation *work, size_t mode, double 
     }
 }
 
-/* The same of the left side of a cell, whose right one is that of the next. Where the sides' own part is
-   free, it is what gives the slopes no part in it. */
+/* The weights of stage values for the left side of a cell; its right side is the next cell's left one. If
+   the sides' own part is free, it is chosen so that slopes have no part in it. */
 static void side_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
 {
     const double complex rise = cexp(I * angle_of(mode, work->points)) - work->rest;

@@ -58,7 +58,7 @@ struct gm_collocation {
     double constant_dt;                             /* 0: `constant` is not made */
     bool needs_newton;      /* `constant` did not serve a step; for steps of their own memory */
     double *scratch;        /* [side], and two more */
-    struct gm_arena *arena; /* of all of it */
+    struct gm_arena *arena; /* owner of all arrays */
 };
 
 /* Opens a workspace for gm_family; returns NULL when out of memory. */

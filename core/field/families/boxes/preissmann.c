@@ -76,12 +76,12 @@ GM_CLONES static double largest_change(const double *restrict a, const double *r
 }
 
 /* The equations of a step: F = C u + V' - right with the circulant C, the force of the cells around a node
-   and what the past contributes. */
+   and the contribution of the past levels. */
 struct equations {
     struct gm_two_step_work *work;
     const struct gm_problem *problem;
     const double *now;
-    double diagonal, off; /* of C */
+    double diagonal, off; /* entries of C */
 };
 
 static void residual_at(void *context, const double *u, double *residual)
@@ -124,7 +124,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
 {
     const double *past = work->level[0], *now = work->level[1];
     double *next = work->level[2];
-    enum { MOST = 30 }; /* which cost what Newton's method does, 5 solves: reached for dt > 1 */
+    enum { MOST = 30 }; /* sweeps, at the cost of Newton's method, 5 solves: reached for dt > 1 */
     const size_t points = work->points;
     const double dx = problem->line.dx, jump = problem->line.jump;
     const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);

@@ -303,7 +303,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
         memcpy(now, next, 2 * size);
         progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
         if (!equation->complex_valued) {
-            /* what rounding leaves of an imaginary part */
+            /* the imaginary part is rounding */
             memset(next + points, 0, size);
         }
         if (!gm_field_stepped(task, &progress, next, 2 * points)) {

@@ -23,9 +23,9 @@
 struct work {
     size_t points;
     struct gm_fourier *fourier;
-    /* of each mode, `points` numbers */
+    /* arrays of `points` numbers, one per mode */
     double complex *modes, *turn, *square, *stage, *rate[4];
-    double *number; /* k; 0 of the mode that alternates */
+    double *number; /* k; 0 for the mode that alternates */
     double *level[2];
 };
 

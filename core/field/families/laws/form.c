@@ -68,7 +68,7 @@ double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme
     return gm_any_form_integral(problem, scheme, memory, momentum_density);
 }
 
-/* The level after a step; NULL: memory is short, or it fails. */
+/* The level after a step; NULL if it fails, or when out of memory. */
 static double *next_level(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y)
 {
