@@ -405,7 +405,7 @@ static void set_walls(const struct maker *maker)
         flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
         const struct gm_side *scalar = winner(before, side, !before->theta_free, !side->theta_free),
                              *warm = winner(before, side, !before->temperature_free, !side->temperature_free);
-        /* what inlets let in depends on s, which their openings know */
+        /* the values of inlets depend on s, which only openings have */
         hold(flow, v, scalar && !is_open(scalar) ? scalar : NULL, 0);
         hold_temperature(maker, v, warm && !is_open(warm) ? warm : NULL, 0);
         if (side->kind == GM_EDGE_LID) {

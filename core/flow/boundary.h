@@ -48,7 +48,7 @@ enum gm_boundary_fault {
     GM_BOUNDARY_UNBALANCED, /* all flows are given, and what enters does not leave */
     GM_BOUNDARY_PROFILE,    /* the net flow of an inlet's profile is not positive */
     GM_BOUNDARY_BACKWARDS,  /* an outlet would have to let air in */
-    GM_BOUNDARY_OVERFLOW,   /* what enters or leaves is too much for a number */
+    GM_BOUNDARY_OVERFLOW,   /* the flow overflows a double */
 };
 
 /* Sets the boundary of a room, instead of a previous one: side_of[b] is the side of edge

@@ -18,7 +18,7 @@ static const double shortest_dual = 1e-9;
 
 /* A complex that is being built of triangles. */
 struct building {
-    struct gm_arena *arena; /* of the complex; what is needed to build it comes last, and goes at the end */
+    struct gm_arena *arena; /* arena of the complex; temporary arrays come last and are released at the end */
     struct gm_complex *complex;
     const struct gm_triangles *from;
     struct gm_triangulation_fault *fault;

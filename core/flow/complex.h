@@ -33,7 +33,7 @@ enum gm_triangulation_fault_kind {
 
 struct gm_triangulation_fault {
     enum gm_triangulation_fault_kind kind;
-    long line;     /* of the file, from 1 */
+    long line;     /* line of the file, from 1 */
     long triangle; /* from 1, in the order of the file */
     long nodes[3]; /* tags of a file's nodes, from 1 otherwise */
     double value;  /* an angle in degrees */
@@ -63,7 +63,7 @@ struct gm_complex {
     struct gm_arena *arena; /* holds the complex and its arrays */
     size_t vertices, edges, triangles;
     double *point;              /* 2 a vertex */
-    double period[2];           /* of a torus; 0: none */
+    double period[2];           /* periods of a torus; 0: none */
     int *triangle;              /* 3 vertices */
     int *triangle_edge;         /* 3 edges: t0 t1, t1 t2, t2 t0 */
     signed char *triangle_sign; /* 3: +1 where the triangle runs the edge from low to high (the matrix d1) */
@@ -74,21 +74,21 @@ struct gm_complex {
     int *ring_edge;             /* 2 * edges: the edge to that neighbour */
     int *edge_ring;       /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
     size_t boundary;      /* number of boundary edges */
-    int *boundary_edge;   /* in counter-clockwise order, loop after loop */
+    int *boundary_edge;   /* boundary edges, counter-clockwise, loop after loop */
     int *boundary_vertex; /* the vertex where each begins */
     size_t loops;         /* connected pieces of the boundary */
     size_t *loop_start;   /* loops + 1: where each begins in boundary_edge */
-    enum gm_star star;    /* that was taken */
+    enum gm_star star;    /* star that is used */
     double star_least;    /* the least entry of the circumcentric star1 */
     size_t obtuse;        /* triangles with an angle above 90 degrees */
-    double *length;       /* of the edges */
-    double *area;         /* of the triangles */
+    double *length;       /* length of each edge */
+    double *area;         /* area of each triangle */
     double *weight;       /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
     double *star0;        /* area of the dual cells */
     /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
-    double smallest_angle, largest_angle; /* in degrees */
+    double smallest_angle, largest_angle; /* degrees */
     /* The origin in a file: x and y axes in its coordinates, 0 if they are the same; and the number of
        repeated triangles. */
     struct gm_complex_origin {
@@ -104,7 +104,7 @@ struct gm_triangles {
     size_t vertices;
     const int *corners; /* 3 vertices a triangle, in any orientation */
     size_t count;
-    double period[2]; /* of a torus, where triangles take the nearest images; 0: none */
+    double period[2]; /* periods of a torus, with nearest images of triangles; 0: none */
     enum gm_star star;
     const long *tags; /* names of the points for a fault; NULL: they are numbered from 1 */
 };

@@ -43,7 +43,7 @@ struct gm_flow_place {
 /* A piece of the boundary through which air enters or leaves. */
 struct gm_opening {
     size_t first, count; /* boundary edges, on from the first along its loop */
-    size_t side;         /* its side (core/flow/boundary.h) */
+    size_t side;         /* number of its side (core/flow/boundary.h) */
     bool inlet;
     double length, before, side_length; /* lengths of the opening, of its side's pieces before it, and of
                                            all of them */
@@ -137,14 +137,16 @@ const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm
 double gm_flow_step(const struct gm_flow *flow, const double *y);
 const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t tracer);
 
-/* A flow that owns the complex, everything free and 0. NULL (and the complex closed) when memory is short. */
+/* A flow that owns the complex, everything free and 0. Returns NULL, and closes the complex, when out of
+   memory. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
-/* The flow with a boundary of its own, for `give`; the complex and sources stay the other's. NULL when memory
-   is short. */
+/* The flow with a boundary of its own, for `give`; the complex and sources still belong to `flow`. Returns
+   NULL when out of memory. */
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
 void gm_flow_close_now(struct gm_flow *now);
-/* Lets it carry heat, nowhere held, everywhere at the reference temperature. False when memory is short. */
+/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. Returns false when out of
+   memory. */
 bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
 /* psi interpolated to the dual vertex of a triangle, and the flux through the dual of an edge. */
@@ -196,18 +198,18 @@ double gm_flow_scalar_total(const struct gm_flow *flow, const double *y);
 
 /* The scalar's budget over the last step; all rates per unit of the flow's own time. */
 struct gm_budget {
-    double rate;      /* of the total */
-    double convected; /* in through vertices with given theta */
-    double reaction;  /* what holding theta there adds */
-    double outflow;   /* through all other boundary vertices */
-    double sourced;   /* by sources, where theta is not given */
+    double rate;      /* rate of change of the total */
+    double convected; /* inflow at vertices with given theta */
+    double reaction;  /* source that holds theta at these vertices */
+    double outflow;   /* outflow at all other boundary vertices */
+    double sourced;   /* sources at vertices without given theta */
     double defect;    /* |rate - convected - reaction + outflow - sourced|, relative to the largest of them */
 };
 struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
 
 /* The heat, over density and heat capacity, that a side's vertices give to the air per unit of time, after
-   the last step: what holding the temperature there adds, or what is given. Summed up over all sides it is
-   what warms the room. */
+   the last step: the heat that holds the temperature there, or the given heat. The sum over all sides
+   warms the room. */
 double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
 /* An estimate of the temperature difference from the heat of walls: the value for conduction over the
    room's size, less if air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice
@@ -215,8 +217,9 @@ double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
 double gm_flow_heated(const struct gm_flow *flow);
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y);
 
-/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over
-   inner dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
+/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences
+   over inner dual edges are summed along a spanning tree. Returns false on a torus, and when out of
+   memory. */
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure);
 
 /* The circulation around a hole, from 1, counter-clockwise: along the dual edges around its wall. */
@@ -228,7 +231,7 @@ double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t h
 bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
 
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
-   exp(-2 (distance / largest)^2); value of theta the same way. False where the mesh is too small. */
+   exp(-2 (distance / largest)^2); theta likewise. gm_flow_sample returns false if the mesh is too small. */
 struct gm_sample {
     double psi, u, v, theta, omega, temperature; /* the last 0 without heat */
 };

@@ -29,7 +29,7 @@ struct node {
 struct element {
     long nodes[3];
     long line;
-    long entity; /* of a line; in 2.2 its physical tag */
+    long entity; /* entity of a line; in 2.2 its physical tag */
 };
 
 /* A row for each physical group of a curve. */
@@ -47,7 +47,7 @@ struct reader {
     bool parametric; /* ... whose nodes have parameters on curves and surfaces */
     bool binary;     /* the file */
     bool entities;   /* they were read */
-    bool raw;        /* what is read now: bytes as they are in memory */
+    bool raw;        /* the reader is in binary data */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -55,14 +55,13 @@ struct reader {
     size_t node_count, triangle_count, line_count, curve_count, group_count;
     struct gm_complex_origin origin;
     enum gm_star star;
-    struct gm_triangulation *mesh; /* that is made */
+    struct gm_triangulation *mesh; /* the result */
 };
 
-/* The text: words, numbers, counts. What is not as expected leaves the arena
-   with the reader's fault; `what` says in words what that is. Announced counts
-   are believed only as far as the text is long. */
+/* The text: words, numbers, counts. Unexpected text leaves the arena with the reader's fault; `what` is
+   the expected text. Announced counts are limited by the length of the text. */
 
-/* Sets the fault, at the present line, and leaves. */
+/* Sets the fault, at the current line, and leaves. */
 _Noreturn static void fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
 {
     *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->raw ? 0 : reader->line};
@@ -333,8 +332,8 @@ static void read_entities(struct reader *reader)
     read_all_entities(reader, false);
 }
 
-/* The same of a mesh in parts, which is one here; ghosts are elements of
- * neighbours. */
+/* Reads the entities of a mesh in parts, which becomes one mesh; ghosts are
+ * elements of neighbours. */
 static void read_partitioned_entities(struct reader *reader)
 {
     begin_raw(reader);

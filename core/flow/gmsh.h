@@ -7,7 +7,7 @@
 /* A mesh with names on its boundary. */
 struct gm_triangulation {
     struct gm_complex *complex;
-    long *tags;      /* of the vertices, increasing */
+    long *tags;      /* tags of the vertices, increasing */
     int *edge_group; /* a physical tag for every edge of the complex; 0: none */
     struct gm_triangulation_member {
         int edge, tag;
@@ -39,7 +39,7 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
 /* Returns true if an edge is in the group of a tag, which is not 0. */
 bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag);
 
-/* Puts an edge into a group, to be sorted when all are in theirs. False: memory is short. */
+/* Puts an edge into a group, which must be sorted afterwards. Returns false when out of memory. */
 bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag);
 void gm_triangulation_sort(struct gm_triangulation *mesh);
 

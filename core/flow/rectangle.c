@@ -80,7 +80,7 @@ static void add_triangle(struct pattern *pattern, long a, long b, long c)
     t[2] = (int)c;
 }
 
-/* where a row of the rectangle begins */
+/* The first vertex of a row of the rectangle. */
 static long row_begin(long n, long row)
 {
     return row / 2 * (2 * n + 1) + (row % 2) * (n + 1);

@@ -388,8 +388,8 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
     return read_pairs(room, line, value, fault);
 }
 
-/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or
-   flat-torus; ... False without a fault: the line names a file. */
+/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ...,
+   or flat-torus; ... Returns false without a fault if the line names a file. */
 static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
 {
     struct gm_rectangle *rectangle = &room->rectangle;
@@ -400,7 +400,7 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         const char *word;
         double *number;
         struct gm_room_range range;
-        char *key; /* of a whole number; NULL: it is any */
+        char *key; /* key of a parameter with a whole number; NULL: any number */
     } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
                    {"height", &rectangle->height, {1e-9, 1e9}, NULL},
                    {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
@@ -572,7 +572,7 @@ static bool check_line(const struct gm_room *room, struct gm_text_line line, siz
            gm_fail(fault, line.word.begin, "%s: says nothing", others[other]);
 }
 
-/* A line that says one thing; others are read by the scene that is made of the room. */
+/* Reads a line with a single value; other lines are read by the room's scene. */
 static bool read_single(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
@@ -1224,7 +1224,7 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
     }
 }
 
-/* Has the flow's boundary give what the room says at a time. */
+/* Sets the flow's boundary from the room's lines at the time t. */
 static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
 {

@@ -22,7 +22,8 @@ void gm_unknowns_close(struct gm_unknowns *unknowns);
 /* into[i] = the sum of values over the vertices of unknown i: E' values */
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into);
 
-/* The factor of K between unknowns, E' K E. NULL when memory is short or it is not positive definite. */
+/* The factor of K between unknowns, E' K E. Returns NULL when out of memory, or if it is not positive
+   definite. */
 struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns,
                                                const struct gm_flow *flow);
 

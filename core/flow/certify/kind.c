@@ -26,7 +26,7 @@ static struct gm_problem problem_of(const struct gm_flow *flow)
         .name = "flow", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
 }
 
-/* Swirls on an irregular torus, and the state that they start in; NULL where memory is short. */
+/* Swirls on an irregular torus, and their start; NULL when out of memory. */
 static struct gm_flow *open_torus(double viscosity, double *start)
 {
     const struct gm_rectangle torus = {

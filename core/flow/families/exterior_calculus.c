@@ -374,7 +374,7 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
                n * sizeof *y);
     }
     if (solver->now) {
-        return GM_NO_CONVERGENCE; /* what changes in time has no steady state */
+        return GM_NO_CONVERGENCE; /* a boundary that changes has no steady state */
     }
     if (carried[DONE] != 0) {
         return GM_OK;
