@@ -18,17 +18,17 @@ struct gm_arena *gm_arena_open(void);
 /* Closes what was kept and returns all memory, the last first. The arena may be NULL. */
 void gm_arena_close(struct gm_arena *arena);
 
-/* Calls the body. False if it was left: nothing that it took or kept is there any more, and gm_arena_reason
-   says why. An arena that is NULL was refused for lack of memory. */
+/* Calls the body. Returns false if it was left: all that it took or kept is closed, and gm_arena_reason
+   has the reason. A NULL arena means out of memory. */
 bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, void *data), void *data);
-/* The sentence with which the last body was left: "not enough memory", or that of gm_arena_refuse. */
+/* The sentence with which the last body was left: "not enough memory", or from gm_arena_refuse. */
 const char *gm_arena_reason(const struct gm_arena *arena);
 
 /* Zeros. Inside a body never NULL; outside of one NULL if memory is refused. */
 void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size);
 /* A block that was taken (or NULL), with another size; what is new is not set. */
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size);
-/* A text; refused where one of its values has no letters, as where memory is. */
+/* A formatted text; leaves the body if it cannot be encoded, or when out of memory. */
 __attribute__((format(printf, 2, 3))) char *gm_arena_print(struct gm_arena *arena, const char *format, ...);
 /* Closes the thing with the arena; at once, if the memory to note it is refused. A thing that is NULL was
    refused. */

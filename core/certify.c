@@ -145,7 +145,7 @@ static void set_state(struct gm_run *run, const double *y)
     gm_run_set_state(run, y, run->scheme->family->doubled ? y + count : NULL);
 }
 
-/* A run after its steps, or those before one that fails; NULL where memory is short. */
+/* A run after the trial's steps, or at the last one before a failure; NULL when out of memory. */
 static struct gm_run *make_steps(const struct gm_trial *trial, const double *start)
 {
     struct gm_run *run = gm_run_open(trial->problem, trial->scheme, trial->settings, 0, trial->dt, start);
@@ -259,7 +259,7 @@ static void ask_theory(struct gm_certificate *certificate)
                         (theory.at_least && (theory.at_most == 0 || scheme->order <= theory.at_most));
     certificate->theory_holds = proved && (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
                                 (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
-    /* what is measured beyond theory is special to a problem */
+    /* a measured order above the theoretical one is special to a problem */
     const int least = theory.order > scheme->order ? theory.order : scheme->order;
     certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
 }

@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 
 static _Thread_local unsigned long refusals;
-static _Thread_local jmp_buf *way_out; /* of GSL, while it is guarded */
+static _Thread_local jmp_buf *way_out; /* jump target of GSL's errors while it is guarded */
 static atomic_bool was_short;
 
 void gm_memory_refused(void)

@@ -381,7 +381,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     if (!is_possible(run, &then)) {
         return false;
     }
-    /* what it points to may belong to another run, or to a process that is gone */
+    /* its pointers may belong to another run, or to an ended process */
     then.problem = run->problem;
     then.scheme = run->scheme;
     then.workspace = run->workspace;

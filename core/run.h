@@ -20,7 +20,7 @@ struct gm_run {
     struct gm_unsolved unsolved;                   /* why a step was not solved */
     enum gm_status status;
     int current;      /* index of the block's half with the state */
-    size_t half_size; /* in bytes */
+    size_t half_size; /* bytes of half the block */
     void *workspace;  /* workspace of the scheme's family, not in snapshots */
     int64_t behind;   /* steps by which the other half is behind; 0: it has no state */
     bool looks_back;  /* set by callers of gm_run_before */

@@ -74,7 +74,7 @@ struct gm_scheme {
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* source of the scheme */
     const struct gm_family *family;
-    const void *coefficients; /* of a type that the family defines */
+    const void *coefficients; /* coefficients, of a type that the family defines */
     int order;                /* 0: variable order */
     unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */
@@ -82,7 +82,7 @@ struct gm_scheme {
     const struct gm_step_limit *limit; /* NULL: none is known */
     bool steady;                       /* steps lead to a steady state: there is no time */
     bool in_modes;                     /* a field is the trigonometric polynomial through its nodes */
-    bool in_cells; /* its conserved quantities are of means in cells, not of values at nodes */
+    bool in_cells; /* conserved quantities are of means in cells, not of values at nodes */
     /* The word that makes a user-defined scheme, usable instead of a name, and its coefficients for
        theory. NULL: the scheme is a row of its family. */
     const char *word;

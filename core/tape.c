@@ -61,7 +61,7 @@ struct writing {
     uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
     size_t product_count; /* entries in products; its room is a power of two, above twice as many */
     size_t product_room;
-    struct group *groups; /* in the order of the code */
+    struct group *groups; /* groups in the order of the code */
     size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
@@ -1275,7 +1275,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
                    size_t outputs_apart, size_t m)
 {
     if (tape->rolled &&
-        !tape->sines) { /* its rows are as long as a block's; rows of members would leave the cache */
+        !tape->sines) { /* rows are as long as a block's; rows of members would leave the cache */
         for (size_t i = 0; i < m; i++) {
             one_state(tape, inputs + i, inputs_apart, outputs + i, outputs_apart);
         }

@@ -17,8 +17,8 @@ struct gm_instruction {
 };
 enum { GM_REPEATED = GM_OPERATIONS, GM_SUMMED };
 
-/* The same operation `count` times, for registers to, to + 1 ..: the operands lie in as many registers from
-   `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
+/* An operation repeated `count` times, for registers to, to + 1 ..: the operands lie in as many registers
+   from `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
 struct gm_repeated {
     uint32_t operation, count, to;
     struct gm_operands {
@@ -81,12 +81,12 @@ struct gm_tape_place {
 };
 bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct gm_instruction *now);
 
-/* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member], and
-   do not overlap. Where memory is short, which is noted (core/memory.h), they are NaN. A member's bits do not
-   depend on m. */
+/* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member],
+   and do not overlap. When out of memory, which is noted (core/memory.h), the outputs are NaN. A member's
+   bits do not depend on m. */
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m);
 
-/* The same where member i's number k lies at inputs[k * inputs_apart + i], outputs[k * outputs_apart + i]. */
+/* gm_tape_values with member i's number k at inputs[k * inputs_apart + i], outputs[k * outputs_apart + i]. */
 void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
                    size_t outputs_apart, size_t m);
 
