@@ -55,7 +55,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
     return true;
 }
 
-/* -C^-1 B; false where C is singular or nearly so. */
+/* -C^-1 B; returns false if C is singular or nearly so. */
 static bool find_roots(size_t n, const double *b, const double *c, double *real, double *imaginary)
 {
     double complex left[MOST][MOST], right[MOST][MOST];

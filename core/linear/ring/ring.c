@@ -4,7 +4,7 @@
    rounding errors die out:
        (1 - r / z) f = b   f_i = b_i + r f_{i-1}
        (1 - r z) f = b     f_i = b_i + r f_{i+1}
-   What the recursion starts from follows from the closed ring: a geometric sum, cut where it no longer
+   The recursion's start follows from the closed ring: a geometric sum, cut where it no longer
    counts.
 
    A band around a ring that is folded flat, 0, n - 1, 1, n - 2, ..., is a band of twice the width. */
