@@ -96,7 +96,7 @@ static inline size_t gm_wave_size(size_t points)
 {
     return 2 * points + 1;
 }
-/* The state behind the last step of a task. */
+/* The state after the last step of a task. */
 static inline void gm_wave_write(const struct gm_task *task, const double *now, const double *past)
 {
     const size_t points = task->problem->line.points;

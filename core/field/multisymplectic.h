@@ -43,7 +43,8 @@ struct gm_law {
 /* Opens the arena and the workspace for a measurement, and closes them. Returns false if it was left. */
 bool gm_law_measure(struct gm_law *law, void (*measure)(const struct gm_law *law, void *data), void *data);
 
-/* Makes steps from a state and a memory, both of which may be parts of the law; false where one fails. */
+/* Makes steps from a state and a memory, both of which may be parts of the law; returns false if one
+   fails. */
 bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,
                  double *memory_out);
 

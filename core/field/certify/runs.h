@@ -32,7 +32,7 @@ bool gm_field_begin(struct gm_field_subject *subject, const double *y);
 void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
                         double size);
 
-/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY where a step
+/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY if a step
    fails, under the name of what is kept. Like the law it is withheld where round-off alone may have made
    it. */
 void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,

@@ -22,8 +22,8 @@ enum gm_heat_group { GM_HEAT_SCALINGS = 1, GM_HEAT_BOOSTS = 2, GM_HEAT_PROJECTIO
 struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetry *symmetry,
                                 struct gm_event event);
 
-/* The frame of three values h apart about the node in their middle: that boost, and for schemes that keep
-   projections that projection, after which all three are one. NaN where a value is not positive. */
+/* The frame of three values h apart about the node in their middle: its boost and, for schemes that
+   preserve projections, its projection, after which all three are one. NaN if a value is not positive. */
 struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
                                       const double u[3]);
 

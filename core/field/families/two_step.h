@@ -41,7 +41,7 @@ struct gm_two_step_row {
     gm_two_step *step;
     gm_two_step_start *start;
     enum gm_wave_law law;
-    bool average;      /* the force is the quotient of V, not V' at the present level */
+    bool average;      /* the force is the quotient of V, not V' at the current level */
     bool keeps_change; /* work->change is the scheme's memory */
     bool keeps_rates; /* work->rate of the present and the past level is, and steps and starts set the next */
 };

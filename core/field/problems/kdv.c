@@ -136,7 +136,8 @@ static double around(const struct gm_grid1 *grid, double distance)
     return distance - period * floor(distance / period + 0.5);
 }
 
-/* The k of the two solitons, whose heights are 3 mu k^2 / eta and velocities mu k^2, and where they start. */
+/* The k of the two solitons, whose heights are 3 mu k^2 / eta and velocities mu k^2, and their places at
+   the start. */
 static const double fast = 1.2, slow = 0.8, fast_start = -30, slow_start = -15;
 
 /* (ln F)_xx with F = 1 + e^a + e^b + A e^(a + b), everything divided by the largest exponential; a is fast

@@ -731,7 +731,7 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
     return GM_NO_CONVERGENCE;
 }
 
-/* s behind the step, from that before and the stages */
+/* s after the step, from s before it and the stages */
 static void find_high(struct gm_collocation *work)
 {
     const size_t points = work->points, r = work->r;

@@ -18,7 +18,7 @@
 #include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
-/* Arrays of real parts, each followed by its imaginary parts, behind the work. */
+/* Arrays of real parts, each followed by its imaginary parts, after the workspace. */
 static double *array(const struct gm_two_step_work *work, size_t which)
 {
     return (double *)(void *)(work + 1) + 2 * which * work->points;
