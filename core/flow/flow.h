@@ -117,8 +117,8 @@ enum gm_flow_block {
     GM_FLOW_MOST_BLOCKS,
 };
 
-/* Numbers of a tracer: its place, its triangle, and its age in steps; one that is still to come in has a
-   negative age, and the place where it will. */
+/* Numbers of a tracer: its place, its triangle, and its age in steps; a tracer that has not entered yet
+   has a negative age, and its future place of entry. */
 enum { GM_TRACER_X, GM_TRACER_Y, GM_TRACER_TRIANGLE, GM_TRACER_AGE, GM_TRACER_NUMBERS };
 
 extern const struct gm_kind gm_kind_flow;

@@ -378,8 +378,8 @@ static void read_node_block(struct reader *reader, size_t total)
     reader->node_count += (size_t)count;
 }
 
-/* The nodes of version 2.2: each with its tag, and behind one that has
-   parameters the dimension and the tag of what it lies on, and they. */
+/* The nodes of version 2.2: each with its tag, and after one that has parameters the dimension and the tag
+   of its entity, and the parameters. */
 static void read_old_nodes(struct reader *reader, size_t total)
 {
     begin_raw(reader);

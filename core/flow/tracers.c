@@ -21,7 +21,7 @@ static void coordinates(const struct gm_complex *complex, int triangle, const do
     w[0] = 1 - w[1] - w[2];
 }
 
-/* Walks from place->triangle towards the point; false where the walk leaves the mesh. */
+/* Walks from place->triangle towards the point; returns false if the walk leaves the mesh. */
 static bool locate(const struct gm_complex *complex, struct gm_flow_place *place, double w[3])
 {
     enum { FARTHEST = 1000 };
