@@ -24,7 +24,7 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
 /* The sentence with which the last body was left: "not enough memory", or from gm_arena_refuse. */
 const char *gm_arena_reason(const struct gm_arena *arena);
 
-/* Zeros. Inside a body never NULL; outside of one NULL if memory is refused. */
+/* Returns zeros. Inside a body it never returns NULL, outside of one NULL when out of memory. */
 void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size);
 /* A block that was taken (or NULL), with another size; what is new is not set. */
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size);

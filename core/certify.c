@@ -129,7 +129,7 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     return GM_KEEPS_QUADRATIC | (bilinear ? GM_KEEPS_BILINEAR | map : 0);
 }
 
-/* The state, and where a scheme has a second copy of phase space in its memory, that behind it. */
+/* Copies the state and, if a scheme has a second copy of phase space in its memory, that copy after it. */
 static void copy_state(const struct gm_run *run, double *y)
 {
     const size_t count = run->problem->n * run->problem->m;

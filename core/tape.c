@@ -76,7 +76,7 @@ struct writing {
 };
 static const uint32_t NONE = UINT32_MAX;
 
-/* The array with room for one more behind `count`. It is unchanged when out of memory. */
+/* The array with room for one more after `count`, or unchanged when out of memory. */
 static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *capacity)
 {
     if (count < *capacity) {
