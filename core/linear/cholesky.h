@@ -18,8 +18,8 @@ const char *gm_cholesky_missing(void);
    loses little, in 16-bit integers. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 
-/* Factors a matrix: row i has the columns column[k] <= i, start[i] <= k < start[i + 1]. Returns NULL when
-   out of memory, or if the matrix is not positive definite. */
+/* Factors a matrix: row i has the columns column[k] <= i, start[i] <= k < start[i + 1]. NULL when out of
+   memory or not positive definite. */
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision);
 void gm_cholesky_close(struct gm_cholesky *cholesky);
@@ -27,7 +27,7 @@ void gm_cholesky_close(struct gm_cholesky *cholesky);
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
 
 /* Solves A x = b once by sparse LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as in
-   gm_cholesky_open, with all columns. Allocates. Returns false when out of memory, or if A is singular. */
+   gm_cholesky_open, with all columns. Allocates. False when out of memory or if A is singular. */
 bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
                  double *x);
 

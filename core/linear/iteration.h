@@ -105,7 +105,7 @@ static inline size_t gm_newton_scratch(size_t size)
 bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
                      struct gm_progress *progress);
 
-/* Solves the equations from z with Newton's method; returns false if it fails. */
+/* Solves the equations by Newton's method. */
 bool gm_newton_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
                      struct gm_progress *progress);
 
