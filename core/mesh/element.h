@@ -51,7 +51,7 @@ void gm_elements_place(struct gm_elements *stage, const double *state);
 /* Computes geometry, forces and momenta from the nodes. Returns false if a width is not positive (the mesh
    is tangled) or a value is not finite; the rest is void then. */
 bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh);
-/* Computes ell and its derivatives, after gm_elements_evaluate. */
+/* Computes ell and its derivatives. */
 void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh);
 
 /* Both only at the places y, X: true if all widths are positive. */

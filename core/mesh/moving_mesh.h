@@ -71,7 +71,7 @@ typedef void gm_mesh_profile(const void *context, double x, double *value, doubl
 struct gm_moving_mesh {
     /* the mesh for the problem's parameters */
     void (*describe)(const struct gm_problem *problem, struct gm_mesh *mesh);
-    gm_mesh_profile *start; /* the start, a function of the problem's parameters */
+    gm_mesh_profile *start; /* the start, from the problem's parameters */
     /* the exact solution for these parameters; NaN if it is not known */
     double (*exact)(const void *parameters, double x, double t);
 };

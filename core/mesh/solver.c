@@ -28,8 +28,8 @@ static double enough(const struct gm_mesh_solver *solver)
     return fmax(tolerance, 4 * solver->noise);
 }
 
-/* The largest change that is accepted if it no longer shrinks: multipliers carry noise, velocities the
-   round-off of places over dt. */
+/* The limit of a change that no longer shrinks: multipliers carry noise, velocities the round-off of
+   places over dt. */
 static double stagnation(const struct gm_mesh_solver *solver)
 {
     return fmax(1e-9, 10 * solver->noise);
@@ -203,8 +203,7 @@ static bool factor(struct gm_mesh_solver *solver)
     return gm_banded_factor(&solver->matrix);
 }
 
-/* Factors the matrix of the step from solver->state, and stores what it depends on. Returns false if it is
-   singular. */
+/* Factors the matrix of the step from solver->state, and stores its data; false if it is singular. */
 static bool refresh(struct gm_mesh_solver *solver, double *memory)
 {
     const size_t n = solver->matrix.n;

@@ -69,7 +69,7 @@ double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown);
 /* The functions that all families share. */
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_mesh_restart(const struct gm_task *task);
-/* Makes the steps of a task, in place if task->out is task->y. */
+/* Makes steps, in place if task->out is task->y. */
 struct gm_progress gm_mesh_loop(const struct gm_task *task);
 void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void gm_mesh_workspace_close(void *workspace);

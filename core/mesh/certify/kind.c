@@ -15,8 +15,7 @@
 #include "core/run.h"
 
 enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
-/* The number of tangent directions, two for each node before and after a step, and of numbers of their
-   states. */
+/* Numbers of tangent directions, two for each node before and after a step, and of their values. */
 enum { DIRECTIONS = 2 * FINE_POINTS, OBSERVED = 8 * FINE_POINTS };
 
 static const struct gm_settings settings = {0};

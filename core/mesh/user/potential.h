@@ -26,8 +26,8 @@ void gm_user_mesh_close(struct gm_problem *problem);
 /* alpha, resolved */
 double gm_user_mesh_alpha(const struct gm_problem *problem);
 
-/* Returns true if the start is finite, and rests at both ends up to a thousandth of its largest rate. Else
-   writes the reason into `sentence`. */
+/* Returns true if the start is finite, and rests at both ends up to a thousandth of its largest rate; else
+   `sentence` is the reason. */
 bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif
