@@ -95,7 +95,7 @@ static double round_off(const struct gm_field_subject *subject, const double *y)
     return MULTIPLIED * DBL_EPSILON * gm_field_size(&subject->problem, y) * slopes_of(subject);
 }
 
-/* Notes a defect; one below `hidden`, the bound of round-off in a conserved quantity, refutes no claim. */
+/* Notes a defect; one below `hidden`, the round-off, refutes no claim. */
 static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, double hidden,
                  const char *name)
 {

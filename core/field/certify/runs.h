@@ -43,9 +43,9 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
 double gm_field_order_in_time(const struct gm_field_subject *subject, const double *y, double until);
 
 /* The order over 16 steps, from a system and its refinements: the slope of the error if the exact solution
-   closes on the ring, else of the differences between a run and the next finer one. Returns NaN and sets
-   *reason if the order cannot be measured, or if it is low because the start lacks derivatives. *reason is
-   also set if the exact solution alone refutes the order; else it is NULL. */
+   closes on the ring, else of the differences between a run and the next finer one. NaN with *reason if it
+   cannot be measured, or is low because the start lacks derivatives. *reason is also set if the exact
+   solution alone refutes it; else NULL. */
 double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct gm_ladder *ladder, const char **reason);
 

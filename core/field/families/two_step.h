@@ -13,7 +13,7 @@ struct gm_two_step_work {
     double *force;                 /* points + 2, from [-1] */
     double *right, *guess, *cells; /* arrays of implicit schemes */
     double *change;                /* from the past to the current level, of schemes that store it */
-    double *rate[3];               /* rates of the levels, of schemes that store them */
+    double *rate[3];               /* rates of the levels */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
@@ -36,7 +36,7 @@ double gm_wave_longest(const struct gm_problem *problem, const double *y, double
    space, of cells, or others. */
 enum gm_wave_law { GM_LAW_NODES, GM_LAW_CENTRED, GM_LAW_CELLS, GM_LAW_NONE };
 
-/* The coefficients of a two-step scheme, to which its row points. */
+/* The coefficients of a two-step scheme. */
 struct gm_two_step_row {
     gm_two_step *step;
     gm_two_step_start *start;

@@ -224,7 +224,7 @@ void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y)
     y[2 * grid->points] = dt;
 }
 
-/* The value in the original frame of u = 0 in the moving frame. */
+/* The value of u = 0 in the original frame. */
 static double level_of(const struct gm_problem *problem)
 {
     return gm_kdv_of(problem)->lambda / gm_kdv_of(problem)->eta;

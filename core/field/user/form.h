@@ -13,7 +13,7 @@ struct gm_user_form {
     struct gm_line_formulas formulas;
 };
 
-/* Derives the formulas into the system's graph, which grows. Returns false when out of memory. */
+/* Derives the formulas into the system's graph; false when out of memory. */
 bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system);
 
 /* The problem with these values of all variables (gm_equations_start) on that ring. Returns false when out
@@ -27,8 +27,8 @@ void gm_user_form_close(struct gm_problem *problem);
 void gm_user_form_start(const struct gm_problem *problem, double *y);
 
 /* Returns true if neither matrix is 0, the start is finite and closes on the ring up to its jumps and a
-   thousandth of its range, and the gradient of S has the period of the jumps. Else writes the reason into
-   `sentence`. */
+   thousandth of its range, and the gradient of S has the period of the jumps. Else `sentence` is the
+   reason. */
 bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
 /* Returns true if a component follows from the others up to a constant (gm_form). */

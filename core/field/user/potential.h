@@ -8,7 +8,7 @@
 #include "core/user/line.h"
 
 /* The problem with these values of all variables (gm_equations_start) on that ring, or between walls.
-   Returns false when out of memory; the caller closes it in both cases. */
+   False when out of memory; the caller closes it in both cases. */
 bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_grid1 *grid);
 void gm_user_wave_close(struct gm_problem *problem);
@@ -19,7 +19,7 @@ void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y
 
 /* Returns true if the field closes on the problem's line: it is finite everywhere; u at the ends differs
    by the jump, up to a thousandth of its range; and V' has the jump as a period. Walls need no closure and
-   have no jump. Else writes the reason into `sentence`. */
+   have no jump. Else `sentence` is the reason. */
 bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif

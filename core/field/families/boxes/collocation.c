@@ -25,7 +25,7 @@
 
 /* ---- the workspace ---- */
 
-/* Returns an array, or NULL when out of memory; while a workspace is opened, that leaves the body. */
+/* Returns NULL when out of memory; leaves the body while a workspace is opened. */
 static double *take(const struct gm_collocation *work, size_t count)
 {
     return gm_arena_take(work->arena, count, sizeof(double));
@@ -922,8 +922,8 @@ static void node_weights(const struct gm_collocation *work, size_t mode, double 
     }
 }
 
-/* The weights of stage values for the left side of a cell; its right side is the next cell's left one. If
-   the sides' own part is free, it is chosen so that slopes have no part in it. */
+/* The weights of stage values for the left side of a cell; its right side is the next cell's left one. A
+   free part of the sides is chosen without a part in slopes. */
 static void side_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
 {
     const double complex rise = cexp(I * angle_of(mode, work->points)) - work->rest;

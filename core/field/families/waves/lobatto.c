@@ -38,7 +38,7 @@ struct work {
     double *u, *v, *force;           /* [points] each; force belongs to u if it is `fresh` */
     double *before;                  /* u before the last step */
     double *stage[GM_LOBATTO_KICKS]; /* u at the kicks of the last step */
-    double *last;                    /* the values before an iteration */
+    double *last;                    /* scratch of find_force */
     bool fresh;
 };
 
