@@ -109,8 +109,7 @@ struct gm_triangles {
     const long *tags; /* names of the points for a fault; NULL: they are numbered from 1 */
 };
 
-/* Builds the complex. Returns NULL with a fault if the triangles are not a valid mesh; the caller closes
-   it. */
+/* Builds the complex. Returns NULL with a fault if the mesh is not valid. */
 struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault);
 void gm_complex_close(struct gm_complex *complex);
 

@@ -396,8 +396,8 @@ static void read_old_nodes(struct reader *reader, size_t total)
     }
 }
 
-/* Reads the start of a section: the number of blocks (not in 2.2), the number of entries, and the range of
-   their tags. Returns the number of entries. */
+/* Reads the start of a section: numbers of blocks (not in 2.2) and entries, range of tags. Returns the
+   number of entries. */
 static size_t begin_blocks(struct reader *reader, long *blocks, const char *what)
 {
     *blocks = 0;
@@ -477,7 +477,7 @@ static void expect_type(struct reader *reader, long type, long line)
     }
 }
 
-/* Reads a block of at most `left` elements, and returns their number; so does read_old_elements. */
+/* Reads a block of at most `left` elements; returns their number. */
 static size_t read_element_block(struct reader *reader, size_t left)
 {
     take_whole(reader, "a dimension");

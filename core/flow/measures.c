@@ -182,7 +182,7 @@ static double inertia_step(const struct gm_flow *flow, const double *y, size_t e
            complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
 }
 
-/* The step of the pressure along a dual edge, with buoyancy. */
+/* The pressure step with buoyancy. */
 static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
 {
     const double step = inertia_step(flow, y, e);

@@ -400,7 +400,7 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         const char *word;
         double *number;
         struct gm_room_range range;
-        char *key; /* key of a parameter with a whole number; NULL: any number */
+        char *key; /* key of a whole number; NULL: any number */
     } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
                    {"height", &rectangle->height, {1e-9, 1e9}, NULL},
                    {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
@@ -556,7 +556,7 @@ static bool share_name(const char *one, const char *other)
     return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* Returns true if a line has a value and does not repeat a previous one; else a fault. */
+/* Returns true if a line has a value and is not repeated. */
 static bool check_line(const struct gm_room *room, struct gm_text_line line, size_t other,
                        struct gm_fault *fault)
 {
@@ -628,15 +628,14 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, struct g
     return true;
 }
 
-/* The start of the first line with this word; 0: there is no such line. */
+/* The start of the first line with this word; 0: none. */
 static size_t place_of(const struct gm_room *room, const char *word)
 {
     struct gm_text_line line;
     return find_line(room, word, 0, &line) ? line.word.begin : 0;
 }
 
-/* Completes values that can be given in two ways. Returns false with a fault if one is missing or given
-   twice. */
+/* Completes values; false with a fault if one is missing or given twice. */
 static bool complete(struct gm_room *room, const struct gm_room_given *given, size_t count,
                      struct gm_fault *fault)
 {
@@ -1001,7 +1000,7 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, struc
     return true;
 }
 
-/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place. Returns false with a fault. */
+/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place; false with a fault. */
 static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES], bool *holds,
                      struct gm_fault *fault)
 {
@@ -1277,7 +1276,7 @@ void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, doubl
     gm_flow_close_now(now);
 }
 
-/* Extends the ranges of a flow by the values given at one moment. */
+/* Extends a flow's ranges by the values of one moment. */
 static void widen(struct gm_flow *flow, const struct gm_flow *now)
 {
     double low = flow->reference_temperature, high = low, least = 0, most = 0;

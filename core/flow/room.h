@@ -122,7 +122,7 @@ bool gm_room_said(const struct gm_room *room, const char *word, size_t number, s
 /* The rest of the piece that begins with `word`, after a semicolon of a line; false without one. */
 bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
                     struct gm_span *value);
-/* A number computed from parameters alone. Returns false with a fault. */
+/* A number computed from parameters; false with a fault. */
 bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault);
 /* low .. high */
 bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
@@ -137,7 +137,7 @@ const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
                      const double at[4], double standard);
 
-/* Writes the position of a source or a probe to `point`. */
+/* The position of a source or a probe. */
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2]);
 
 /* The flow of the room on its mesh, which it takes; the room must outlive it. Returns NULL with a fault;

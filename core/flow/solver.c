@@ -87,7 +87,7 @@ static bool take_memory(struct gm_flow_solver *solver)
 
 /* A flow driven by inlet, outlet and lid is on the whole no faster than the fastest point of their flow
    without vorticity: a state above twice its square, in the mean over the domain, is an artefact. Without
-   such a drive, with heat, or with a changing boundary there is no such limit. */
+   a drive, with heat, or with a changing boundary there is no limit. */
 static double energy_limit(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;

@@ -40,7 +40,7 @@ void gm_transport_precondition(const struct gm_transport *transport, const doubl
    first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
 bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const double *right, double *x,
                         double *scratch, unsigned long *iterations);
-/* Solves the rows that are not fixed with LU, for steady states. */
+/* Solves the same rows with LU, for steady states. */
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);
 
