@@ -38,7 +38,7 @@ struct gm_ladder {
 struct gm_sameness {
     const struct gm_scheme *other; /* NULL: none on the measured problems */
     double difference;             /* the largest after a few steps */
-    const char *problem;           /* problem with this difference */
+    const char *problem;           /* its problem */
     bool holds, undecided;         /* undecided: a difference refutes nothing */
 };
 
@@ -107,15 +107,14 @@ struct gm_certified_system {
     const void *error_data;
 };
 
-/* Certifies a scheme on a system. Claims that have no meaning there are not measured, with a reason, and
-   are not broken. */
+/* Certifies a scheme on a system. Claims without a meaning there have a reason instead, and are not
+   broken. */
 struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system);
 
 /* The theory of a scheme; not known without coefficients, or when out of memory. */
 struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme);
 
-/* The functions below are for the measuring hooks of kinds (struct gm_kind), which also determine if the
-   order holds. */
+/* The functions below serve the hooks of kinds (struct gm_kind), which also decide if the order holds. */
 
 /* Notes a defect; the worst of several counts. */
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
@@ -140,8 +139,8 @@ struct gm_trial {
     int64_t steps;
 };
 
-/* Writes the state after the steps of a trial and, if a scheme has one, its second copy of phase space
-   after it, as in `start`. Returns false if a step fails; then `end` is the last good state. */
+/* Writes the state after a trial's steps, followed by a second copy of phase space if the scheme has one,
+   as in `start`. Returns false if a step fails; `end` is then the last good state. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
 
 enum { GM_SAME_STEPS = 9 };

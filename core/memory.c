@@ -96,8 +96,8 @@ static void *noted(void *memory)
     return memory;
 }
 
-/* The functions that the linker substitutes for malloc ... (--wrap), and those that they call,
-   __real_malloc ...: the names are the linker's. Nothing else calls them, and no header declares them. */
+/* The linker's names for malloc ... (--wrap), and for the originals, __real_malloc ... Nothing else calls
+   them, and no header declares them. */
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *memory, size_t size);

@@ -43,15 +43,13 @@ enum { GM_QUANTITIES = 16 /* most of a kind */, GM_QUANTITY_AXES = 3 };
    with the run. */
 size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 
-/* Lists the quantities for rows with a time: without the time that a system has as its last component.
-   Returns their number. */
+/* The quantities without a system's time, for rows that have their own. Returns their number. */
 size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
 
 /* The number of values of a quantity, over all members. */
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity);
 
-/* Writes the lengths of a quantity's axes for `members` members. Returns the number of axes, 0 for a
-   single number. */
+/* Writes the lengths of a quantity's axes. Returns the number of axes, 0 for a single number. */
 size_t gm_quantity_shape(const struct gm_quantity *quantity, size_t members, size_t shape[GM_QUANTITY_AXES]);
 
 /* The current values: in the state or, if they are derived, in `scratch` (gm_quantity_size). */

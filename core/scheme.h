@@ -33,8 +33,8 @@ enum gm_claim {
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
 const char *gm_claim_letter(unsigned bit);
 const char *gm_claim_word(unsigned bit);
-/* Reads claims by their words, one after the other, or "none". Returns false with the position of a word
-   that is not a claim. */
+/* Reads claims by their words, one after the other, or "none". Returns false with the position of another
+   word. */
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 
 /* Parameters of schemes; every lane whose scheme uses one shares it. */

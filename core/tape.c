@@ -25,7 +25,7 @@ struct value {
     uint32_t level; /* one more than the highest level of its operands: values of one level are independent */
     uint32_t shape; /* equal for values computed alike, from any inputs and constants */
     uint32_t a_rank, b_rank;    /* ranks of its operands, in the order of the code */
-    uint32_t first_term, terms; /* range in terms of a long sum, which has no a and b; terms is 0 otherwise */
+    uint32_t first_term, terms; /* terms of a long sum, which has no a and b; else 0 */
 };
 
 /* A term of a long sum. */
@@ -421,8 +421,8 @@ static void sort_alike(struct value *values, size_t count)
     }
 }
 
-/* Sorts a level by shape, so that values in the same role in a sum's terms become a row, as do values
-   computed from them. */
+/* Sorts a level so that values with one role in a sum's terms become a row, as do values computed from
+   them. */
 static void sort_level(struct value *values, size_t count)
 {
     qsort(values, count, sizeof *values, by_shape);
