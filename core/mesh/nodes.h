@@ -51,8 +51,7 @@ static inline double gm_jump(const double *elements, size_t k)
 bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                              const void *context, struct gm_banded *matrix, double *change);
 
-/* Computes the nodes' velocities, motion[N], with which the constraint continues to hold. Returns false if
-   the matrix is singular. */
+/* Computes the nodes' velocities, motion[N], that preserve the constraint. Returns false if singular. */
 bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix, double *motion);
 
 /* Velocities of momenta: `motion` holds p by node, with `unknowns` numbers each, and receives

@@ -18,7 +18,7 @@ extern const struct gm_mesh_row gm_mesh_multiplier4;
     .kind = &gm_kind_mesh, .schemes = schemes, .count = GM_COUNT(schemes),                                   \
     .workspace_open = gm_mesh_workspace_open, .workspace_close = gm_mesh_workspace_close,                    \
     .workspace_reset = gm_mesh_workspace_reset
-/* The common fields of families with a fixed step size. */
+/* Fields of families with a fixed step size. */
 #define GM_MESH_FAMILY_OF_STEPS                                                                              \
     GM_MESH_FAMILY, .memory = gm_mesh_memory, .start = gm_mesh_restart, .loop = gm_mesh_loop
 
