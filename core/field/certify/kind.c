@@ -442,7 +442,7 @@ static double form_energy(const void *subject, const double *y, const double *me
     return gm_form_energy(&of->problem, of->scheme, memory);
 }
 
-/* Returns the reason why steps of this length cannot test a claim, or NULL if they can. */
+/* The reason why steps of this length cannot test a claim, or NULL. */
 static const char *no_steps(struct gm_field_subject *subject, const double *y)
 {
     const struct gm_step_limit *limit = subject->scheme->limit;

@@ -48,8 +48,8 @@ static bool moves(const struct gm_problem *problem, size_t component)
     return rate;
 }
 
-/* The largest difference of two states at common nodes: the grid of `other` has `finer` nodes for each
-   node of the problem. */
+/* The largest difference of two states at common nodes: `other` has `finer` nodes for each of the
+   problem's. */
 static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
 {
     const size_t points = problem->line.points, components = gm_field_numbers(problem) / points;
@@ -82,7 +82,7 @@ static double return_defect(struct gm_field_subject *subject, const double *y)
     return largest;
 }
 
-/* The largest factor by which slopes in space and time multiply a number. */
+/* The factor of a number in slopes in space and time. */
 static double slopes_of(const struct gm_field_subject *subject)
 {
     return 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
@@ -180,8 +180,7 @@ struct refined {
     size_t count;
 };
 
-/* Adds a level and returns its state after the same time; the caller frees it. NULL when a step fails or
-   when out of memory. */
+/* Adds a level; returns its state, which the caller frees. NULL if a step fails or when out of memory. */
 static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct refined *refined)
 {

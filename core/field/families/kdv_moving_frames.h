@@ -23,8 +23,8 @@ bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme);
 bool gm_kdv_has_frames(const struct gm_scheme *scheme);
 bool gm_kdv_solves(const struct gm_scheme *scheme);
 
-/* The boosts of the frames in which a step of length k is made at all nodes, from a state of the problem;
-   Returns false if the step is not solved, or when out of memory. The scheme must have frames. */
+/* The boosts of the frames in which a step of length k is made at all nodes, from a state of the problem.
+   Returns false if the step fails, or when out of memory. The scheme has frames. */
 bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                           const double *y, double *boosts);
 

@@ -6,7 +6,7 @@
 #include "core/field/field.h"
 #include "core/user/line.h"
 
-/* The formulas of a form, nodes of its system's graph. */
+/* Formulas of a form in its system's graph. */
 struct gm_user_form {
     const struct gm_user_system *system;
     gm_node_id hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];

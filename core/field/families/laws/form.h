@@ -22,8 +22,8 @@ double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme
 /* Measures the residual of a law over the next step of the box, from the nodes y, in every cell,
        energy     [S(b) - S(a) - (b - a)' grad S((a + b)/2)] / dt    from a = A_x s^n to b = A_x s^{n+1}
        momentum   the same over dx                                   from a = A_t s_i to b = A_t s_{i+1}
-   0 if S is quadratic. Returns false if the scheme has another law, when out of memory or when the step
-   fails. */
+   0 if S is quadratic. False if the scheme has another law, when out of memory or if the
+   step fails. */
 bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual);
 

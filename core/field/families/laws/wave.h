@@ -20,7 +20,7 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 
 /* Measures the residual of the scheme's local law of energy or of momentum at every node, or in every cell
-   of the box. Returns false if the scheme has other laws, when out of memory or when the next step fails. */
+   of the box. False if the scheme has other laws, when out of memory or if the step fails. */
 bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual);
 
