@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The construction of a boundary; psi continues from `level` along a piece. */
+/* The construction of a boundary. */
 struct maker {
     struct gm_flow *flow;
     const unsigned char *side_of;
@@ -20,7 +20,7 @@ static bool is_open(const struct gm_side *side)
     return side->kind == GM_EDGE_INLET || side->kind == GM_EDGE_OUTLET;
 }
 
-/* The value of `what` that a side gives at a point of its part s. */
+/* The value that a side gives at a point of its part s. */
 static double given(const struct gm_side *side, enum gm_given what, double s, const double at[2])
 {
     const double same[] = {[GM_GIVEN_THETA] = side->theta,
@@ -121,8 +121,8 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
                                            : GM_BOUNDARY_OK;
 }
 
-/* Measures the lengths of openings and their positions in their sides, which begin counter-clockwise from
-   the lowest of the leftmost points of the wall. */
+/* Measures lengths of openings and their places in their sides, which begin counter-clockwise from the
+   lowest of the leftmost points of the wall. */
 static void measure_openings(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;

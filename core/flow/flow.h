@@ -45,13 +45,12 @@ struct gm_opening {
     size_t first, count; /* boundary edges, on from the first along its loop */
     size_t side;         /* number of its side (core/flow/boundary.h) */
     bool inlet;
-    double length, before, side_length; /* lengths of the opening, of its side's pieces before it, and of
-                                           all of them */
+    double length, before, side_length; /* lengths: itself, its side's pieces before it, all of them */
     double profile;                     /* flow of its profile before scaling; 0: no profile */
     double flow;                        /* flow in or out */
 };
 
-/* The kind of opening that contains a vertex. */
+/* The opening around a vertex. */
 enum gm_opening_kind { GM_OPEN_NOT, GM_OPEN_INLET, GM_OPEN_OUTLET };
 
 struct gm_flow {
@@ -75,7 +74,7 @@ struct gm_flow {
     double *source;                         /* source of the scalar at each vertex, per unit of time; NULL:
                                                none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
-    double buoyancy, reference_temperature; /* g beta; T at which air neither rises nor falls */
+    double buoyancy, reference_temperature; /* g beta; T of air at rest */
     /* The arrays of temperature, like those of theta; NULL without heat. holder: 1 + the side that holds
        or heats a vertex, 0: none; heating: the heat from walls to the cells at them, per unit of time,
        over density and heat capacity. */

@@ -542,7 +542,7 @@ static const char *const others[] = {
     "table",       "figure",   "side",    "observe", "profile",   NULL};
 enum { OTHERS = GM_COUNT(others) - 1 };
 
-/* The word of line type i, which has several words or formulas. */
+/* The word of line type i. */
 static const char *line_word(size_t i, const void *data)
 {
     (void)data;

@@ -94,7 +94,7 @@ struct gm_room {
     bool rectangular; /* the mesh is a rectangle; its edges and strips are parameters */
     struct gm_rectangle rectangle;
     char edges[GM_ROOM_NAME], strips[GM_ROOM_NAME];
-    long multiple;                     /* the number of edges is a multiple of this; 0: of none */
+    long multiple;                     /* divisor of the number of edges; 0: none */
     double fixed[8];                   /* points of the rectangle that are vertices */
     double measures[GM_ROOM_MEASURES]; /* NAN: not known */
     bool from_file; /* a parameter names the mesh; parameters named like sides name its groups */
