@@ -42,8 +42,7 @@ struct gm_sameness {
     bool holds, undecided;         /* undecided: a difference refutes nothing */
 };
 
-/* The measurements of a scheme, and the results from its coefficients: a claim that either refutes is
-   broken. */
+/* Measured results, and those of the coefficients: a claim that either refutes is broken. */
 struct gm_certificate {
     const struct gm_scheme *scheme;
     /* measured, the lowest over the problems; NaN: round-off hides the errors on all of them */
@@ -97,7 +96,7 @@ struct gm_certified_system {
     const struct gm_problem *problem; /* a problem of one member */
     const double *start;
     double dt;
-    const struct gm_kept *kept; /* conserved quantities besides the energy */
+    const struct gm_kept *kept; /* conserved, besides the energy */
     size_t kept_count;
     /* The same field with half the step on a grid twice as fine, which may have a finer one too; NULL:
        none. Node i of this grid is node 2 i of the finer one. */
@@ -107,8 +106,7 @@ struct gm_certified_system {
     const void *error_data;
 };
 
-/* Certifies a scheme on a system. Claims without a meaning there have a reason instead, and are not
-   broken. */
+/* Certifies a scheme on a system. Claims without a meaning have a reason and are not broken. */
 struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system);
 
 /* The theory of a scheme; not known without coefficients, or when out of memory. */
@@ -139,8 +137,8 @@ struct gm_trial {
     int64_t steps;
 };
 
-/* Writes the state after a trial's steps, followed by a second copy of phase space if the scheme has one,
-   as in `start`. Returns false if a step fails; `end` is then the last good state. */
+/* Writes the state after a trial's steps and, if the scheme has one, the second copy of phase space.
+   Returns false if a step fails; `end` is then the last good state. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
 
 enum { GM_SAME_STEPS = 9 };

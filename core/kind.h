@@ -44,7 +44,7 @@ struct gm_kind {
     /* Measures a scheme on one system; NULL: this kind has no certification on given systems. */
     void (*certify_on)(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate);
-    size_t most_certified;                   /* most components of a system for certify_on */
+    size_t most_certified;                   /* largest system for certify_on */
     const struct gm_family *const *families; /* NULL-terminated */
     const struct gm_same *same;              /* ends with a row without a scheme; NULL: none */
     /* The named arrays of a run's states: gm_quantities of core/quantity.h. */
@@ -54,11 +54,11 @@ struct gm_kind {
 /* The loop that advances this problem with this scheme: the loop over the problem's kernels, else the
    family's, else NULL. The family's workspace is opened for its own loop only. */
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
-/* Opens the family's workspace for a loop of its own: NULL if it needs none, or if another loop is used.
-   Returns false when out of memory. */
+/* Opens the family's workspace for a loop of its own: NULL without one, or with another loop. Returns
+   false when out of memory. */
 bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_problem *problem,
                               void **workspace);
-/* Returns true if the problem has the facets that the scheme needs. */
+/* Returns true if the problem has all needed facets. */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* The facet that the scheme needs and the problem lacks, in words; NULL if it fits, or without words. */
 const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);

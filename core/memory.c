@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 
 static _Thread_local unsigned long refusals;
-static _Thread_local jmp_buf *way_out; /* jump target of GSL's errors while it is guarded */
+static _Thread_local jmp_buf *way_out; /* jump target of GSL's errors */
 static atomic_bool was_short;
 
 void gm_memory_refused(void)
@@ -148,7 +148,7 @@ char *__wrap_strndup(const char *text, size_t length)
     return noted(__real_strndup(text, length));
 }
 
-/* A stream into memory; the C library's own one ignores a refusal and continues with a part of the text. */
+/* A stream into memory; the C library's own one ignores a refusal and continues with part of the text. */
 struct growing {
     char **text, *bytes;
     size_t *size, used, capacity;

@@ -74,7 +74,7 @@ struct gm_scheme {
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* source of the scheme */
     const struct gm_family *family;
-    const void *coefficients; /* coefficients, of a type that the family defines */
+    const void *coefficients; /* of a type defined by the family */
     int order;                /* 0: variable order */
     unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */

@@ -19,7 +19,7 @@ const struct gm_scheme *gm_scheme_same_as(const struct gm_scheme *scheme, const 
 
 /* The name of a scheme that other programs call `word`, or NULL. */
 const char *gm_scheme_known_as(const char *word);
-/* The name from gm_scheme_known_as, else the one nearest to the word; NULL if none is near. */
+/* The name of gm_scheme_known_as, else the nearest; NULL if none is near. */
 const char *gm_scheme_near(const char *word);
 
 /* Adds a user-defined scheme, which is then found by its name or its word. It must never be freed. Returns

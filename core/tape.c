@@ -53,7 +53,7 @@ struct writing {
     size_t part_count;
     uint32_t *numbers; /* numbers of the nodes' values; NONE: not known yet */
     double *folded;    /* values of nodes that depend on no input */
-    bool *dependent;   /* true for a node that depends on an input */
+    bool *dependent;   /* nodes that depend on an input */
     uint32_t one;      /* the constant 1, for powers that need it */
     uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
@@ -65,7 +65,7 @@ struct writing {
     size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
-    size_t least_rolled; /* number of values below which code keeps the formula's order */
+    size_t least_rolled; /* values; shorter code keeps the formula's order */
     bool rolled;
     /* register, last group that needs it and, for computed values, stretch of each value */
     uint32_t *place, *last, *home;
@@ -393,7 +393,7 @@ static int by_distance(const void *a, const void *b)
         (const uint32_t[2][2]){{x->b_rank - x->a_rank, x->a_rank}, {y->b_rank - y->a_rank, y->a_rank}});
 }
 
-/* The number of places where operands neither stay nor advance by one. */
+/* The number of operands that neither stay nor advance by one. */
 static size_t breaks_of(const struct value *values, size_t count)
 {
     size_t breaks = 0;
@@ -770,7 +770,7 @@ static void put_all_sums(struct writing *writing, const struct value *values, si
     }
 }
 
-/* Computes the place of each value, and its last use. */
+/* Finds each value's place and last use. */
 static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
 {
     struct gm_tape *tape = writing->tape;

@@ -69,7 +69,7 @@ void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
 /* Leaves the body of an arena if a matrix was not derived, else lets the arena hold its entries. */
 void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
-/* Returns `count` nodes followed by the nodes of a matrix, in the arena. */
+/* Returns `count` nodes, followed by those of a matrix. */
 gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
                             const struct gm_sparse *jacobian);
 
