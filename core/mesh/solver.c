@@ -10,12 +10,12 @@
 
 enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
-static const double tolerance = 1e-11; /* change of solved unknowns */
+static const double tolerance = 1e-11; /* change of unknowns, when solved */
 static const double contracts = 0.2;   /* the ratio of changes that gives the remaining error */
 
 enum {
     MEMORY_PAST,       /* number of stored steps, at most 6 */
-    MEMORY_STAMP,      /* number of factorisations, names the current factors */
+    MEMORY_STAMP,      /* number of factorisations: names the current factors */
     MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors must be recomputed */
     MEMORY_MULTIPLIER, /* largest multiplier of the last step */
     MEMORY_STEP,       /* length of the step that the factors were made for */
@@ -203,7 +203,7 @@ static bool factor(struct gm_mesh_solver *solver)
     return gm_banded_factor(&solver->matrix);
 }
 
-/* Factors the step's matrix; stores its data. False if singular. */
+/* Factors the step's matrix and stores its data. False if singular. */
 static bool refresh(struct gm_mesh_solver *solver, double *memory)
 {
     const size_t n = solver->matrix.n;
