@@ -76,7 +76,7 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
 
 struct flow {
     const struct gm_law *law;
-    size_t state, memory; /* sizes of both */
+    size_t state, memory; /* sizes of each */
 };
 
 /* gm_map: a state, followed by the memory, to both a step later. */
