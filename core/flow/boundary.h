@@ -28,7 +28,7 @@ struct gm_side {
     /* The value that varies along the side: replaces theta, temperature, heat, and the speed of a lid. s
        is 0 except in inlets. NULL: the values are constant. */
     double (*varying)(const void *data, enum gm_given what, double s, const double at[2]);
-    const void *data;      /* argument of both */
+    const void *data;      /* data of both functions */
     bool theta_free;       /* theta has no flux; true of outlets */
     double theta;          /* the value held if theta is not free */
     bool temperature_free; /* temperature has no flux, in flows that carry heat */

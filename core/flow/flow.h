@@ -74,7 +74,7 @@ struct gm_flow {
     double *source;                         /* source of the scalar at each vertex, per unit of time; NULL:
                                                none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
-    double buoyancy, reference_temperature; /* g beta; T of air at rest */
+    double buoyancy, reference_temperature; /* g beta; T without buoyancy */
     /* The arrays of temperature, like those of theta; NULL without heat. holder: 1 + the side that holds
        or heats a vertex, 0: none; heating: the heat from walls to the cells at them, per unit of time,
        over density and heat capacity. */
