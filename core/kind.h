@@ -44,7 +44,7 @@ struct gm_kind {
     /* Measures a scheme on one system; NULL: this kind has no certification on given systems. */
     void (*certify_on)(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate);
-    size_t most_certified;                   /* largest system for certify_on */
+    size_t most_certified;                   /* most components for certify_on */
     const struct gm_family *const *families; /* NULL-terminated */
     const struct gm_same *same;              /* ends with a row without a scheme; NULL: none */
     /* The named arrays of a run's states: gm_quantities of core/quantity.h. */
