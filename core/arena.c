@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A block of memory stands behind its entry; a thing that was kept stands elsewhere. */
+/* A block of memory follows its entry; `thing` is a kept thing with its own memory. */
 struct gm_arena_entry {
     struct gm_arena_entry *before, *after;
-    size_t number; /* of those that were taken: a block that is resized has the number that it had */
+    size_t number; /* number in the order of taking; a resized block has its old number */
     void *thing;
     void (*close)(void *thing); /* NULL: a block */
     _Alignas(max_align_t) unsigned char block[];

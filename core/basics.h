@@ -3,18 +3,19 @@
 #ifndef GM_CORE_BASICS_H
 #define GM_CORE_BASICS_H
 
-/* How many elements an array has. */
+/* The number of elements of an array. */
 #define GM_COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* A hot loop over points, compiled for several instruction sets and picked when the program is loaded. No
-   clone fuses or reorders an operation (-ffp-contract=off), so all give the same bits. It is inlined nowhere. */
+   clone fuses or reorders an operation (-ffp-contract=off), so all give the same bits. It is inlined
+   nowhere. */
 #ifdef GM_LOOPS_X86
 #define GM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define GM_CLONES __attribute__((noinline))
 #endif
 
-/* The larger of both; NaN where one is, which fmax loses. */
+/* The larger of both; NaN if one is NaN, which fmax loses. */
 static inline double gm_larger(double a, double b)
 {
     return a > b || a != a ? a : b;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all certificates have in common: the tolerances, the verdicts, and the call of the wing that
-   measures. */
+/* The common part of certificates: the tolerances, the verdicts, and the call of the kind's measurement. */
 #include "core/certify.h"
 
 #include <float.h>
@@ -130,7 +129,7 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     return GM_KEEPS_QUADRATIC | (bilinear ? GM_KEEPS_BILINEAR | map : 0);
 }
 
-/* The state, and where a scheme has a second copy of phase space in its memory, that behind it. */
+/* Copies the state and, if a scheme has a second copy of phase space in its memory, that copy after it. */
 static void copy_state(const struct gm_run *run, double *y)
 {
     const size_t count = run->problem->n * run->problem->m;
@@ -146,7 +145,7 @@ static void set_state(struct gm_run *run, const double *y)
     gm_run_set_state(run, y, run->scheme->family->doubled ? y + count : NULL);
 }
 
-/* A run after its steps, or those before one that fails; NULL where memory is short. */
+/* A run after the trial's steps, or at the last one before a failure; NULL when out of memory. */
 static struct gm_run *make_steps(const struct gm_trial *trial, const double *start)
 {
     struct gm_run *run = gm_run_open(trial->problem, trial->scheme, trial->settings, 0, trial->dt, start);
@@ -213,7 +212,8 @@ struct solution {
 static bool solve(void *data)
 {
     const struct solution *solution = data;
-    /* small components beside large ones take part in the round-off of these: no step is short enough for less */
+    /* small components beside large ones take part in the round-off of these: no step is short enough for
+       less */
     double size = 0;
     for (size_t i = 0; i < solution->equations->dimension; i++) {
         size = fmax(size, fabs(solution->y[i]));
@@ -259,7 +259,7 @@ static void ask_theory(struct gm_certificate *certificate)
                         (theory.at_least && (theory.at_most == 0 || scheme->order <= theory.at_most));
     certificate->theory_holds = proved && (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
                                 (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
-    /* what is measured beyond theory is special to a problem */
+    /* a measured order above the theoretical one is special to a problem */
     const int least = theory.order > scheme->order ? theory.order : scheme->order;
     certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
 }

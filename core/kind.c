@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which scheme can advance which problem: both are of one kind, and the problem has what the scheme needs. */
+/* The match of schemes and problems: both are of one kind, and the problem has the facets that the scheme
+   needs. */
 #include "core/kind.h"
 
 static unsigned facets_of(const struct gm_problem *problem)

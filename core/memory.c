@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The allocators of the whole program, wrapped: a refusal is noted, and handed on. */
+/* The allocators of the whole program, wrapped: a refusal is noted and returned. */
 #include "core/memory.h"
 
 #include <pthread.h>
@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 
 static _Thread_local unsigned long refusals;
-static _Thread_local jmp_buf *way_out; /* of GSL, while it is guarded */
+static _Thread_local jmp_buf *way_out; /* jump target of GSL's errors */
 static atomic_bool was_short;
 
 void gm_memory_refused(void)
@@ -27,7 +27,7 @@ void gm_memory_refused(void)
 static struct {
     pthread_mutex_t lock;
     unsigned inside;
-    gsl_error_handler_t *others; /* NULL: GSL's own, which says what is wrong and aborts */
+    gsl_error_handler_t *others; /* NULL: GSL's own, which prints the error and aborts */
 } handling = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static void note_error(const char *reason, const char *file, int line, int error)
@@ -96,8 +96,8 @@ static void *noted(void *memory)
     return memory;
 }
 
-/* What the linker takes for malloc ... (--wrap), and what it then calls __real_malloc ...: the names are its
-   own. Nothing else calls them, and no header declares them. */
+/* The linker's names for malloc ... (--wrap), and for the originals, __real_malloc ... Nothing else calls
+   them, and no header declares them. */
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *memory, size_t size);
@@ -117,7 +117,7 @@ int __wrap_fclose(FILE *stream);
 int __wrap_vasprintf(char **text, const char *format, va_list arguments);
 int __wrap_asprintf(char **text, const char *format, ...);
 
-/* none of nothing is no shortage, whatever the C library makes of it */
+/* NULL for 0 bytes would not be a refusal, whichever way the C library decides */
 void *__wrap_malloc(size_t size)
 {
     return noted(__real_malloc(size > 0 ? size : 1));
@@ -148,7 +148,7 @@ char *__wrap_strndup(const char *text, size_t length)
     return noted(__real_strndup(text, length));
 }
 
-/* The C library's own stream tells nobody of a refusal: it goes on with a part of the text. */
+/* A stream into memory; the C library's own one ignores a refusal and continues with part of the text. */
 struct growing {
     char **text, *bytes;
     size_t *size, used, capacity;
@@ -205,7 +205,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return stream;
 }
 
-/* What a stream into memory could not keep is a lack of memory; what a file could not, a fault of the file. */
+/* Text lost by a stream into memory is a lack of memory; text lost by a file is a fault of the file. */
 int __wrap_fclose(FILE *stream)
 {
     const bool in_memory = fileno(stream) < 0;

@@ -5,25 +5,24 @@
 #include <stdbool.h>
 
 /* Memory that the system refused. Every malloc, calloc, realloc, aligned_alloc, strdup, strndup, asprintf,
-   vasprintf and open_memstream of the program is linked to one that notes a refusal here (core/meson.build),
-   so that none can be forgotten: whoever hands out a number, a file or an exit status asks whether memory was
-   short. The text of open_memstream is there when the stream is closed, and NULL if memory was refused while
-   it grew: never the half of it. */
+   vasprintf and open_memstream of the program is linked to one that notes a refusal here
+   (core/meson.build), so that none can be forgotten: callers check for a refusal before they return a
+   number, a file or an exit status. The text of open_memstream exists when the stream is closed, and is
+   NULL if memory was refused while it grew: it is never a part. */
 
 /* Notes a refusal that a library reports. */
 void gm_memory_refused(void);
 
-/* Calls `work`, which uses GSL, and returns what it says; false, and noted, where GSL was refused memory. An
-   error of GSL's, which would end the program, does nothing meanwhile; its handler is then again what it was.
-   GSL goes on with the null pointer in some places (gsl_odeiv2_control_y_new, gsl_linalg_LU_decomp), so it is
-   left by a jump out of its error handler: what it had taken so far is lost, what `work` stored in `data` is
-   not. */
+/* Calls `work`, which uses GSL, and returns its result; false, with a note, if GSL was refused memory.
+   During the call an error of GSL does not end the program; the handler is then restored. GSL continues
+   with the null pointer in some places (gsl_odeiv2_control_y_new, gsl_linalg_LU_decomp), so it is left by
+   a jump out of its error handler: its allocations so far are lost, `data` is not. */
 bool gm_memory_guard_gsl(bool (*work)(void *data), void *data);
 
-/* How many refusals this thread has met: what was computed between two equal answers is whole. */
+/* The number of refusals in this thread: a result computed between two equal counts is complete. */
 unsigned long gm_memory_refusals(void);
 
-/* Whether any thread has met one since the program began, or since that was forgotten. */
+/* Returns true if a thread was refused memory since the start, or since gm_memory_forget. */
 bool gm_memory_was_short(void);
 void gm_memory_forget(void);
 

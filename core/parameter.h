@@ -22,21 +22,21 @@ enum { GM_TEXT_SIZE = 256 };
 
 struct gm_parameter {
     const char *key;
-    const char *unit; /* "" if it has none */
+    const char *unit; /* "" without a unit */
     const char *help;
     enum gm_type type;
-    size_t offset;          /* of the value in the owner's struct */
+    size_t offset;          /* offset of the value in the owner's struct */
     const char *standard;   /* the default, as it would be typed ("pi/12") */
     double lowest, highest; /* inclusive range of a real or an integer */
     bool logarithmic;       /* a slider moves by factors */
-    bool live;              /* a change acts on the present state; otherwise the run starts again */
-    bool looks;             /* and no step depends on it: it is the same at all times of a run */
-    /* NULL-terminated, for GM_CHOICE; of a GM_TEXT the usual words, where there are such, else NULL */
+    bool live;              /* a change acts on the current state; otherwise the run starts again */
+    bool looks;             /* no step depends on it: it is constant in a run */
+    /* The choices of a GM_CHOICE, or the usual words of a GM_TEXT, NULL-terminated; NULL: none. */
     const char *const *choices;
     bool file;      /* a text that is the path of a file */
-    bool names;     /* a text whose commas part names, and not lanes, unless all that they part are choices */
+    bool names;     /* commas of the text separate names, not lanes, unless all parts are choices */
     bool automatic; /* a real that may also be "auto": NaN, until its owner settles it */
-    bool required;  /* always told: its default is what was given once, or it follows from another */
+    bool required;  /* always written: its default is an earlier value, or follows from another */
 };
 
 enum gm_parse {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a problem of any kind is, and what a family's loop is asked to do with one. No equation is known
-   here. */
+/* Problems of any kind, and the tasks of a family's loop. No equation is known here. */
 #ifndef GM_CORE_PROBLEM_H
 #define GM_CORE_PROBLEM_H
 
@@ -16,39 +15,40 @@ struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
 
-/* What a family's loop is asked to do: `steps` steps of length dt for every member, reading `y` and writing
-   `out` (both n * m, component-major; they do not overlap, but loops over kernels make steps in place as well, and leave
-   no state there if one fails). Problems are autonomous. */
+/* The task of a family's loop: `steps` steps of length dt for every member, reading `y` and writing `out`
+   (both n * m, component-major). They do not overlap, but loops over kernels also make steps in place, and
+   leave no state if one fails. Problems are autonomous. */
 struct gm_task {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
     double dt;
     int64_t steps;
-    int64_t steps_before; /* that the run has made already */
+    int64_t steps_before; /* steps that the run has already made */
     double limit;         /* a component above this is a blow-up */
     const double *y;
     double *out;
-    const double *carry; /* what compensated summation carries over, n * m; NULL: plain summation */
+    const double *carry; /* carry of compensated summation, n * m; NULL: plain summation */
     double *carry_out;
-    const double *memory; /* the scheme's own, as its family says; NULL if it has none */
+    const double *memory; /* memory of the scheme, laid out by its family; NULL: none */
     double *memory_out;
-    double t;     /* the present time, t0 + n dt of this segment */
-    double until; /* of a scheme that chooses its step: it ends with the step that reaches this time */
+    double t;     /* the current time, t0 + n dt of this segment */
+    double until; /* end of an adaptive scheme, which stops at the first step to reach it */
     double t0;
     int64_t n;
-    void *workspace; /* what the family opened for this run */
+    void *workspace; /* the family's workspace for this run */
     const struct gm_settings *settings;
 };
 
-/* What it did. `done` steps succeeded for every member; if that is less than task.steps and `until` was not
-   reached, `out` is void and `status` says why step done + 1 failed. Counts are sums over the members. */
+/* The result of a task. `done` steps succeeded for every member; if that is less than task.steps and
+   `until` was not reached, `out` is void and `status` is the reason why step done + 1 failed. Counts are
+   sums over the members. */
 struct gm_progress {
     int64_t done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
-    unsigned long factor_solves; /* of flows: what iterations ask of factors that are made once */
-    struct gm_unsolved unsolved; /* of a step without convergence, where the family knows why */
-    double t;                    /* the time reached, of schemes that choose their own step */
+    unsigned long factor_solves; /* solves with factors that are made once, in iterations of flows */
+    struct gm_unsolved unsolved; /* reason of a step without convergence, if the family has one */
+    double t;                    /* the time reached by adaptive schemes */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);
@@ -60,9 +60,9 @@ struct gm_exact {
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain data: a
-   scene copies one of a wing's problems and sets m and parameters.
+   scene copies a problem of a kind and sets m and parameters.
 
-   A problem is of one kind, and has facets: the structure that schemes need. Which there are, its kind knows
+   A problem is of one kind, and has facets: the structure that schemes need. Each kind defines its own
    (core/ode/ode.h and the like); a facet that is missing is a structure that the problem does not have.
 
    The last 2 * passive components are a passive block, x of all then y of all: particles in the plane that
@@ -72,10 +72,10 @@ struct gm_exact {
 struct gm_problem {
     const char *name;
     const struct gm_kind *kind;
-    const void *facets; /* as the kind lays them out; they outlive every run */
+    const void *facets; /* facets, laid out by the kind; they outlive every run */
     size_t n, m;
     size_t passive;               /* 0, or m is 1 */
-    const void *parameters;       /* its constants; they outlive every run */
+    const void *parameters;       /* constants of the problem; they outlive every run */
     const struct gm_exact *exact; /* NULL: not known */
     double bound;                 /* a component above this is a blow-up; 0: the default of core/run.c */
     struct gm_grid1 line;         /* the grid of a field */

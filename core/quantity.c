@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a state is called: asked of its kind. */
+/* The named arrays of a state, from its kind. */
 #include "core/quantity.h"
 
 #include <string.h>

@@ -9,10 +9,10 @@
 #include "core/kind.h"
 #include "core/memory.h"
 
-/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. Steps
-   read one half and write the other, so the last good step is always whole. An ensemble makes the next ones in
-   place, with half the memory to move: should one of them fail, they are made again from where the other half is,
-   which is never farther behind than this. */
+/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory.
+   Steps read one half and write the other, so the last good step is always whole. An ensemble makes the
+   next ones in place, with half the memory to move: if one of them fails, they are repeated from the other
+   half, which is at most this number of steps behind. */
 enum { FARTHEST_BEHIND = 64 };
 
 enum { ALIGNMENT = 128 };
@@ -88,7 +88,7 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_
     };
 }
 
-/* Lets the scheme fill its memory from the present state. */
+/* Lets the scheme fill its memory from the current state. */
 static void start(struct gm_run *run)
 {
     if (run->scheme->family->start && run->status == GM_OK) {
@@ -116,7 +116,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
         problem->kind->prepare(scheme, problem);
     }
     if (!gm_scheme_workspace_open(scheme, problem, &head.workspace)) {
-        gm_memory_refused(); /* by a library, if by nobody else */
+        gm_memory_refused(); /* refused by a library, if not noted before */
         free(run);
         return NULL;
     }
@@ -149,7 +149,7 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count)
     return (double)count / (double)run->problem->m;
 }
 
-/* The steps since the other half, into the present one. */
+/* The steps since the other half, into the current one. */
 static struct gm_task task_again(const struct gm_run *run)
 {
     struct gm_task task = task_of(run, 1 - run->current, run->current, run->behind);
@@ -159,7 +159,7 @@ static struct gm_task task_again(const struct gm_run *run)
     return task;
 }
 
-/* Whether these steps may be made in place: loops over kernels can, and ask for no memory. */
+/* Returns true if these steps may be made in place: loops over kernels can, and allocate no memory. */
 static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
 {
     return run->problem->m > 1 && loop != run->scheme->family->loop && !run->looks_back && run->behind > 0 &&
@@ -186,7 +186,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         return advance(run, steps, until);
     }
     if (gm_memory_refusals() != refusals) {
-        /* whatever the steps came to for want of memory, in factors or in a solution, is not theirs */
+        /* a result without enough memory, in factors or in a solution, is not valid */
         return run->status = GM_OUT_OF_MEMORY;
     }
     if (progress.done < steps && !(family->adaptive && progress.status == GM_OK)) {
@@ -360,7 +360,7 @@ static bool is_finite(const double *values, size_t count)
     return finite;
 }
 
-/* Whether the head of a snapshot can be that of a run that began like this one. */
+/* Returns true if the head of a snapshot is possible for a run with the start of this one. */
 static bool is_possible(const struct gm_run *run, const struct gm_run *then)
 {
     const struct gm_settings *settings = &run->settings, *other = &then->settings;
@@ -381,7 +381,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     if (!is_possible(run, &then)) {
         return false;
     }
-    /* what it points to may belong to another run, or to a process that is gone */
+    /* its pointers may belong to another run, or to an ended process */
     then.problem = run->problem;
     then.scheme = run->scheme;
     then.workspace = run->workspace;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Schemes and families of schemes: what a row of data says, and what its family brings. */
+/* Schemes and families of schemes: the rows of data, and the functions of a family. */
 #ifndef GM_CORE_SCHEME_H
 #define GM_CORE_SCHEME_H
 
 #include "core/parameter.h"
 #include "core/problem.h"
 
-/* What a scheme says of itself; certify and the tests hold every row to it. */
+/* The claims of a scheme, as bits; certify and the tests check every row. */
 enum gm_claim {
     GM_SYMPLECTIC = 1u << 0,
-    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt), with what the scheme remembers */
-    GM_REVERSIBLE = 1u << 2,      /* under p -> -p */
-    GM_KEEPS_ENERGY = 1u << 3,    /* of every Hamiltonian */
+    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt), also in the scheme's memory */
+    GM_REVERSIBLE = 1u << 2,      /* reversible under p -> -p */
+    GM_KEEPS_ENERGY = 1u << 3,    /* energy of every Hamiltonian system */
     GM_KEEPS_QUADRATIC = 1u << 4, /* every quadratic invariant */
     GM_KEEPS_LINEAR = 1u << 5,    /* every linear invariant */
     GM_KEEPS_VOLUME = 1u << 6,
@@ -21,32 +21,33 @@ enum gm_claim {
     GM_KEEPS_CONSTANTS = 1u << 10,     /* a constant scalar stays constant */
     GM_CLOSES_BUDGET = 1u << 11,       /* the scalar changes by what crosses the boundary */
     GM_KEEPS_BILINEAR = 1u << 12,      /* every invariant q' A p, as angular momentum is one */
-    GM_KEEPS_MOMENTUM_MAPS = 1u << 13, /* of every symmetry that moves the coordinates by affine maps */
-    GM_CONFORMAL = 1u << 14,           /* with a friction -c p it shrinks every area by exp(-c t) */
-    GM_KEEPS_CONSTRAINTS = 1u << 15,   /* g(q) = 0, */
-    GM_KEEPS_HIDDEN = 1u << 16,        /* and dg/dq v = 0 */
-    GM_KEEPS_CASIMIRS = 1u << 17,      /* of every bracket that the scheme is for */
-    GM_POISSON_MAP = 1u << 18,         /* its derivative M carries the bracket along: M B(y0) M' = B(y1) */
+    GM_KEEPS_MOMENTUM_MAPS = 1u << 13, /* momentum map of every symmetry that acts by affine maps */
+    GM_CONFORMAL = 1u << 14,           /* a friction -c p shrinks every area by exp(-c t) */
+    GM_KEEPS_CONSTRAINTS = 1u << 15,   /* constraints g(q) = 0 */
+    GM_KEEPS_HIDDEN = 1u << 16,        /* hidden constraints dg/dq v = 0 */
+    GM_KEEPS_CASIMIRS = 1u << 17,      /* Casimirs of every bracket that the scheme fits */
+    GM_POISSON_MAP = 1u << 18,         /* derivative M preserves the bracket: M B(y0) M' = B(y1) */
     GM_CLAIM_COUNT = 19,
 };
 
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
 const char *gm_claim_letter(unsigned bit);
 const char *gm_claim_word(unsigned bit);
-/* Claims by their words, one after the other, or "none"; false with the place of what is not a claim. */
+/* Reads claims by their words, one after the other, or "none". Returns false with the position of another
+   word. */
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 
-/* Parameters that schemes bring; every lane whose scheme uses one shares it. */
+/* Parameters of schemes; every lane whose scheme uses one shares it. */
 struct gm_settings {
     int compensated;  /* compensated summation of the increments */
-    double binding;   /* between the two copies of phase space, of Tao's schemes */
+    double binding;   /* binding of the two copies of phase space, of Tao's schemes */
     double tau0;      /* the first step of the schemes with variational time */
-    double tolerance; /* of GSL's steppers; 0: fixed step */
+    double tolerance; /* tolerance of GSL's steppers; 0: fixed step */
     double newmark_beta;
 };
 extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
-/* NULL if there is none of that key */
+/* Returns the row with that key, or NULL. */
 const struct gm_parameter *gm_setting_find(const char *key);
 /* Rows for families, NULL-terminated. */
 extern const struct gm_parameter *const gm_settings_of_sums[];             /* compensated */
@@ -59,83 +60,84 @@ struct gm_coefficients;  /* core/theory/coefficients.h */
 struct gm_law;           /* core/field/multisymplectic.h */
 struct gm_member_family; /* core/ode/kernel/members.h */
 
-/* Where linear theory bounds the steps of a scheme. */
+/* The bound of linear theory on a scheme's steps. */
 struct gm_step_limit {
     const char *condition;                                                /* "4/dt^2 >= 4/dx^2 + V''" */
-    double (*longest)(const struct gm_problem *problem, const double *y); /* about the state y */
+    double (*longest)(const struct gm_problem *problem, const double *y); /* longest step about the state y */
 };
 
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
-    const char *alias[2];  /* other names it is known by; NULL: no more */
+    const char *alias[2];  /* other names; NULL: no more */
     const char *title;     /* "RK4", as pictures write it */
     const char *formula;   /* Unicode, lines separated by \n */
-    const char *reference; /* where it comes from */
+    const char *reference; /* source of the scheme */
     const struct gm_family *family;
-    const void *coefficients; /* the family knows their type */
-    int order;                /* 0: it chooses its order itself */
+    const void *coefficients; /* of a type defined by the family */
+    int order;                /* 0: variable order */
     unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */
-    /* What pictures and sentences ask of it beside. */
-    const struct gm_step_limit *limit; /* NULL: none is told */
-    bool steady;                       /* its steps lead to a steady state: there is no time */
+    /* The fields below are for pictures and messages. */
+    const struct gm_step_limit *limit; /* NULL: none is known */
+    bool steady;                       /* steps lead to a steady state: there is no time */
     bool in_modes;                     /* a field is the trigonometric polynomial through its nodes */
-    bool in_cells; /* what it keeps of a field is made of means in cells, not of values at nodes */
-    /* Of a scheme that was brought along: the word that makes it again, wherever a name may stand; and what
-       theory knows it by. NULL: it is a row of its family. */
+    bool in_cells; /* conserved quantities are of means in cells, not of values at nodes */
+    /* The word that makes a user-defined scheme, usable instead of a name, and its coefficients for
+       theory. NULL: the scheme is a row of its family. */
     const char *word;
     const struct gm_coefficients *exact;
 };
 
-/* Opens what theory knows a scheme by; false: nothing, or memory is short. */
+/* Opens the coefficients of a scheme; returns false without any, or when out of memory. */
 bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 
-/* In a list families.def: a family whose file stands in a folder of its own below families/. */
+/* A line of a list families.def: a family with a folder of its own below families/. */
 #define GM_FAMILY_IN(folder, name) GM_FAMILY(name)
 
 struct gm_family {
-    const struct gm_kind *kind; /* of the problems that it advances */
+    const struct gm_kind *kind; /* kind of the problems that it advances */
     const char *title;
     const struct gm_scheme *schemes;
     size_t count;
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
-    /* Which of the loops over a problem's kernels is its, as its kind numbers them; 0: none. */
+    /* The number of the family's loop over a problem's kernels, defined by the kind; 0: none. */
     int over_kernels;
-    /* Opens what theory knows a scheme by, where its rows are Runge-Kutta methods, plain or partitioned, or
-       splittings; false: out of memory. NULL: they are not. */
+    /* Opens the coefficients of a scheme, if its rows are Runge-Kutta methods, plain or partitioned, or
+       splittings; returns false when out of memory. NULL: they are not. */
     bool (*coefficients_open)(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 
-    /* All that follows is for families that are not loops over a problem's kernels. */
-    /* Advances any problem that has the facets, where its kind has no other loop; NULL: none. */
+    /* The fields below are for families that are not loops over a problem's kernels. */
+    /* Advances any problem that has the facets, unless its kind has another loop; NULL: none. */
     gm_loop *loop;
-    bool carries_passive;                   /* loop knows what to do with a passive block */
-    const struct gm_member_family *members; /* NULL: loop is not that of core/ode/kernel/members.h */
+    bool carries_passive;                   /* loop advances a passive block too */
+    const struct gm_member_family *members; /* NULL: loop is not the one of core/ode/kernel/members.h */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
-    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of
-       memory. */
+    /* Scratch and factors: derived from the state alone, rebuilt when a run is resumed. Returns NULL when
+       out of memory. */
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     void (*workspace_close)(void *workspace);
-    void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
-    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member
+    void (*workspace_reset)(void *workspace); /* forgets data derived from an earlier state */
+    /* The scheme has step size control: the loop returns the time, dt is defined by its rows. One member
        only. */
     bool adaptive;
     /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
     bool doubled;
-    /* The residual of the discrete multisymplectic law, for gm_form_residual. NULL: the family has no such law. */
+    /* The residual of the discrete multisymplectic law, for gm_form_residual. NULL: the family has no such
+       law. */
     double (*form)(const struct gm_law *law);
-    /* The energy of a wave as the family's own space and memory have it; NaN: out of memory. NULL: the two levels of
-       the state tell it. */
+    /* The energy of a wave in the family's own space and memory; NaN: out of memory. NULL: it follows from
+       the two levels of the state. */
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
-/* Whether a scheme brings this parameter, a row of gm_settings_parameters. */
+/* Returns true if a scheme has this parameter, a row of gm_settings_parameters. */
 bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *row);
 
 #endif

@@ -84,7 +84,7 @@ const char *gm_scheme_near(const char *word)
     return known ? known : gm_nearest(word, gm_scheme_count(), name_at, NULL);
 }
 
-/* Those that were brought along, which any thread may do. */
+/* The user-defined schemes, which any thread may add. */
 static struct {
     pthread_mutex_t lock;
     const struct gm_scheme **schemes;

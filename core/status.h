@@ -2,26 +2,26 @@
 #ifndef GM_CORE_STATUS_H
 #define GM_CORE_STATUS_H
 
-/* How a run stands. Anything but GM_OK is final: the run is frozen at its last good step. */
+/* The status of a run. Any value but GM_OK is final: the run is frozen at its last good step. */
 enum gm_status {
     GM_OK,
     GM_BLOW_UP,        /* a state that is not finite, or whose norm left the problem's bound */
     GM_NO_CONVERGENCE, /* an implicit equation was not solved to round-off */
     GM_MESH_CROSSING,  /* a moving mesh would have tangled */
-    GM_STEP_COLLAPSE,  /* a scheme that chooses its step found none */
+    GM_STEP_COLLAPSE,  /* an adaptive scheme found no step */
     GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
 };
 
-/* What was in the way where an implicit equation was not solved. */
+/* The reason why an implicit equation was not solved. */
 enum gm_obstacle {
     GM_NOT_KNOWN,
     GM_SINGULAR,    /* the matrix of Newton's method is singular */
-    GM_NOT_FINITE,  /* the iteration led to no number */
-    GM_STILL_LARGE, /* the iteration still changes what it looks for */
+    GM_NOT_FINITE,  /* a value of the iteration is not finite */
+    GM_STILL_LARGE, /* the iteration still changes its unknowns */
 };
 struct gm_unsolved {
     enum gm_obstacle obstacle;
-    double change; /* the last one, as a part of the state */
+    double change; /* last change, relative to the state */
 };
 
 /* The name of a status as the command line prints it ("blow-up"). */

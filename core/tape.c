@@ -10,33 +10,33 @@
 #include "core/basics.h"
 
 enum {
-    LARGEST_BATCH = 256, /* operations of a group: what they need lies in the fastest cache */
+    LARGEST_BATCH = 256, /* operations of a group: operands fit into the fastest cache */
     LEAST_BATCH = 16,
-    LEAST_RUN = 12,     /* operands in a row: fewer are gathered with what stands beside them */
+    LEAST_RUN = 12,     /* operands in a row: fewer are gathered with their neighbours */
     LEAST_SUM = 8,      /* terms: fewer are added one by one */
-    LEAST_ROWS = 100,   /* operations: of shorter code there is none in rows for one state */
+    LEAST_ROWS = 100,   /* operations: shorter code has no rows for one state */
     LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
 };
 
-/* What is computed from other values. Numbers of values are those of the inputs, of the constants behind
-   them, and of what is computed, in this order. */
+/* A computed value. The numbers of values are first those of the inputs, then of the constants, then of
+   the computed ones. */
 struct value {
     uint32_t operation, number, a, b;
-    uint32_t level; /* one more than that of what it is made of: no two of one level need each other */
-    uint32_t shape; /* the same for those that are made in the same way, of whichever inputs and constants */
-    uint32_t a_rank, b_rank;    /* of its operands, in the order of the code */
-    uint32_t first_term, terms; /* of a long sum, which has no a and b; 0: it is none */
+    uint32_t level; /* one more than the highest level of its operands: values of one level are independent */
+    uint32_t shape; /* equal for values computed alike, from any inputs and constants */
+    uint32_t a_rank, b_rank;    /* ranks of its operands, in the order of the code */
+    uint32_t first_term, terms; /* terms of a long sum, which has no a and b; else 0 */
 };
 
-/* Of a long sum. */
+/* A term of a long sum. */
 struct term {
-    uint32_t number; /* of its value */
+    uint32_t number; /* number of its value */
     bool subtracted;
 };
 
-/* Registers that are taken and given back together: those of a group. */
+/* Registers of a group, which are taken and given back together. */
 struct stretch {
-    uint32_t first, alive; /* how many of their values are still needed */
+    uint32_t first, alive; /* alive: number of values still needed */
     bool wide;
 };
 
@@ -45,29 +45,29 @@ struct group {
     size_t begin, end;
 };
 
-/* What is known while the code of a tape is written. */
+/* The state of a tape's compilation. */
 struct writing {
     struct gm_tape *tape;
     const struct gm_formula *graph;
-    gm_node_id *parts; /* what the outputs are made of, ascending */
+    gm_node_id *parts; /* nodes that the outputs depend on, ascending */
     size_t part_count;
-    uint32_t *numbers; /* of nodes: of their values; NONE: not known yet */
-    double *folded;    /* of nodes that depend on no input: what they are */
-    bool *dependent;   /* of nodes: on an input */
+    uint32_t *numbers; /* numbers of the nodes' values; NONE: not known yet */
+    double *folded;    /* values of nodes that depend on no input */
+    bool *dependent;   /* nodes that depend on an input */
     uint32_t one;      /* the constant 1, for powers that need it */
-    uint32_t zero;     /* of long code the constants 0 and, behind it, -0 */
+    uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
     struct term *terms;
-    uint32_t *products;   /* a table of the numbers of products within powers; 0: a free place */
-    size_t product_count; /* in it; its room is a power of two, above twice as many */
+    uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
+    size_t product_count; /* entries in products; its room is a power of two, above twice as many */
     size_t product_room;
-    struct group *groups; /* in the order of the code */
-    size_t number_count;  /* of values as they were found: numbers are below it */
+    struct group *groups; /* groups in the order of the code */
+    size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
-    size_t least_rolled; /* values: fewer stay in the order of the formula */
+    size_t least_rolled; /* values; shorter code keeps the formula's order */
     bool rolled;
-    /* of values: register, last group that needs it, and, of those that are computed, stretch */
+    /* register, last group that needs it and, for computed values, stretch of each value */
     uint32_t *place, *last, *home;
     struct stretch *stretches;
     uint32_t *free[2]; /* stretches of one register, and of LARGEST_BATCH, that may be used again */
@@ -76,7 +76,7 @@ struct writing {
 };
 static const uint32_t NONE = UINT32_MAX;
 
-/* The array with room for one more behind `count`. Where memory is refused it stays what it was. */
+/* The array with room for one more after `count`, or unchanged when out of memory. */
 static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *capacity)
 {
     if (count < *capacity) {
@@ -95,13 +95,13 @@ static bool takes_two(const struct gm_node *node)
     return gm_operation_rows[node->operation].arity == 2;
 }
 
-/* the exponent of a whole power is none: it says which chain it is */
+/* the exponent of a whole power is not a node: it names a chain */
 static gm_node_id second_operand(const struct gm_node *node)
 {
     return takes_two(node) && node->operation != GM_OPERATION_WHOLE_POWER ? node->b : node->a;
 }
 
-/* What depends on no input is computed now. */
+/* Computes all nodes that depend on no input. */
 static void fold(struct writing *writing, const double *values)
 {
     for (size_t k = 0; k < writing->part_count; k++) {
@@ -287,8 +287,8 @@ static void turn_terms(struct term *terms, size_t count)
     }
 }
 
-/* Makes one value of the sums that only lead to this one, as long as they are many: what it is summed from, in
-   the order of the formula. used: how often each number is. Those that are no longer needed have no level. */
+/* Merges sums that only lead to this one into one value, if they are many: its terms, in the order of the
+   formula. used: number of uses of each number. Merged values have no level. */
 static void gather_sum(struct writing *writing, struct value *straight, size_t last, const uint32_t *used)
 {
     const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
@@ -342,7 +342,7 @@ static void find_sums(struct writing *writing, struct value *straight, const gm_
     }
 }
 
-/* What a value is made of. */
+/* The number of a value's operands. */
 static size_t operand_count(const struct value *value)
 {
     return value->terms > 0 ? value->terms : 2;
@@ -393,7 +393,7 @@ static int by_distance(const void *a, const void *b)
         (const uint32_t[2][2]){{x->b_rank - x->a_rank, x->a_rank}, {y->b_rank - y->a_rank, y->a_rank}});
 }
 
-/* How often operands neither stay nor go on by one. */
+/* The number of operands that neither stay nor advance by one. */
 static size_t breaks_of(const struct value *values, size_t count)
 {
     size_t breaks = 0;
@@ -421,7 +421,8 @@ static void sort_alike(struct value *values, size_t count)
     }
 }
 
-/* What plays one part in every term of a sum comes to lie in a row, and so does what is made of it. */
+/* Sorts a level so that values with one role in a sum's terms become a row, as do values computed from
+   them. */
 static void sort_level(struct value *values, size_t count)
 {
     qsort(values, count, sizeof *values, by_shape);
@@ -434,7 +435,7 @@ static void sort_level(struct value *values, size_t count)
     }
 }
 
-/* Behind the values of the group that begins at `begin`. */
+/* The end of the group that begins at `begin`. */
 static size_t end_of(const struct writing *writing, size_t begin)
 {
     const struct value *values = writing->values;
@@ -456,8 +457,8 @@ static void find_groups(struct writing *writing)
     }
 }
 
-/* Brings values by level from where they stand straight, and those of one level into an order in which rows
-   are made of rows; counts: room for as many numbers as there are values, and one. */
+/* Sorts the values of `straight` by level, and within a level so that rows are computed from rows. counts:
+   room for the number of values + 1. */
 static void sort(struct writing *writing, struct value *straight, uint32_t *rank, size_t *counts)
 {
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, all = writing->value_count;
@@ -496,7 +497,7 @@ static void sort(struct writing *writing, struct value *straight, uint32_t *rank
     }
     for (size_t begin = 0, end; begin < count; begin = end) {
         for (end = begin; end < count && values[end].level == values[begin].level; end++) {
-            const bool summed = values[end].operation == GM_SUMMED; /* they stay as they stand */
+            const bool summed = values[end].operation == GM_SUMMED; /* sums keep their operands */
             values[end].a_rank = summed ? values[end].number : rank[values[end].a];
             values[end].b_rank = summed ? values[end].number : rank[values[end].b];
         }
@@ -538,8 +539,8 @@ static bool roll(struct writing *writing, const gm_node_id *nodes, size_t node_c
     return writing->rolled;
 }
 
-/* Orders groups by need, from the last one down: each stands behind what it is made of and close to it, so
-   that what passes from one to the next is still in the fastest cache. */
+/* Orders groups by need, from the last one down: each follows its operands closely, so that values from
+   one to the next are still in the fastest cache. */
 static void order_by_need(struct writing *writing)
 {
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->group_count;
@@ -609,13 +610,13 @@ static uint32_t take(struct writing *writing, size_t count)
     return taken;
 }
 
-/* What only this group still needed gives its register back. */
+/* Gives back the register of a value that only this group still needs. */
 static void release(struct writing *writing, uint32_t number, uint32_t group)
 {
     if (writing->last[number] == group) {
         const uint32_t home = writing->home[number];
         struct stretch *stretch = &writing->stretches[home];
-        writing->last[number] = NONE; /* once, where it is both operands */
+        writing->last[number] = NONE; /* once, if it is both operands */
         if (--stretch->alive == 0) {
             writing->free[stretch->wide][writing->free_count[stretch->wide]++] = home;
         }
@@ -690,7 +691,7 @@ static void put_batch(struct writing *writing, const struct value *values, size_
     put_repeated(writing, &batch);
 }
 
-/* How many values there are from this one on whose operands lie in a row, or are all the same. */
+/* The number of values from this one on whose operands are in a row, or all the same. */
 static size_t run_of(const struct writing *writing, const struct value *values, size_t count)
 {
     size_t run = count;
@@ -722,7 +723,7 @@ static void put_group(struct writing *writing, const struct value *values, size_
     }
 }
 
-/* Sums beside each other: row after row the sum with the most terms left says which operation it is. */
+/* Sums beside each other: in every row the sum with the most remaining terms decides the operation. */
 static void put_sums(struct writing *writing, const struct value *values, size_t count, uint32_t to)
 {
     struct gm_tape *tape = writing->tape;
@@ -769,7 +770,7 @@ static void put_all_sums(struct writing *writing, const struct value *values, si
     }
 }
 
-/* Where values live, and until when. */
+/* Finds each value's place and last use. */
 static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
 {
     struct gm_tape *tape = writing->tape;
@@ -846,7 +847,7 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
     put_copies(writing, nodes, count);
 }
 
-/* In rows where there are `least` values or more, and most of them share a group. */
+/* Opens code, in rows if it has `least` values or more, most of which share a group. */
 static bool open_code(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes,
                       size_t count, size_t inputs, const double *values, size_t least)
 {
@@ -1011,7 +1012,8 @@ bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct g
     return true;
 }
 
-/* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one number. */
+/* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
+   number. */
 #define GM_ROW(value_, x_, y_)                                                                               \
     for (size_t i = 0; i < count; i++) {                                                                     \
         const double a = x_, b = y_;                                                                         \
@@ -1027,14 +1029,14 @@ bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct g
         GM_ROW(value_, x[i], y[i])                                                                           \
     }
 
-/* What is one instruction of the processor: copies, arithmetic and the root. */
+/* Returns true for one instruction of the processor: copies, arithmetic and the root. */
 static inline bool is_instruction(uint32_t operation)
 {
     return operation <= GM_OPERATION_NEGATE || operation == GM_OPERATION_SQRT;
 }
 
-/* Two functions, since one that calls others has to save registers, at every row; neither is inlined, where compilers
-   would forget that rows do not overlap. */
+/* Two functions, since one that calls others has to save registers, at every row; neither is inlined, where
+   compilers would forget that rows do not overlap. */
 GM_CLONES static void compute_by_instruction(uint32_t operation, double *restrict to,
                                              const double *restrict x, bool one_x, const double *restrict y,
                                              bool one_y, size_t count)
@@ -1087,7 +1089,7 @@ static inline void compute_row(uint32_t operation, double *to, const double *x, 
     }
 }
 
-/* The operands of a batch for one state, in a row: where they are, or gathered. */
+/* The operands of a batch for one state, in a row: in place, or gathered. */
 static inline const double *gathered(const struct gm_tape *tape, const struct gm_operands *operands,
                                      uint32_t count, const double *r, double *scratch)
 {
@@ -1138,8 +1140,8 @@ __attribute__((noinline)) static void compute_sums(const struct gm_tape *tape, c
     }
 }
 
-/* One state: r holds all registers. What the instruction before has made is not read back from there: in a chain
-   of operations a store and a load take longer than most of them. */
+/* One state: r holds all registers. What the instruction before has made is not read back from there: in a
+   chain of operations a store and a load take longer than most of them. */
 static void compute(const struct gm_tape *tape, double *r)
 {
     const struct gm_instruction *const end = tape->code + tape->length;
@@ -1187,7 +1189,7 @@ GM_CLONES static void add_row(double *restrict to, const double *restrict term, 
     }
 }
 
-/* Of every member by itself: what is far from 0 is left to libm. */
+/* Computes the sine for every member; values far from 0 are left to libm. */
 static void sines_of(const struct gm_tape *tape, const double *x, double *sine, size_t count)
 {
     tape->sines(x, sine, count);
@@ -1228,11 +1230,12 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
     }
 }
 
-/* Registers that lie on the stack; of longer code they are allocated. A block is as many members as a tile has
-   (core/ode/kernel/tiles.c). */
+/* Registers that lie on the stack; of longer code they are allocated. A block is as many members as a tile
+   has (core/ode/kernel/tiles.c). */
 enum { ON_STACK = 2048, LARGEST_BLOCK = 248, IN_CACHE = 4096, LINE = 64 };
 
-/* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
+/* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of
+   them. */
 static inline void copy_each(double *to, size_t to_apart, const double *from, size_t from_apart, size_t count)
 {
     enum { FEW = 64 };
@@ -1272,7 +1275,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
                    size_t outputs_apart, size_t m)
 {
     if (tape->rolled &&
-        !tape->sines) { /* its rows are as long as a block's; those of members would leave the cache */
+        !tape->sines) { /* rows are as long as a block's; rows of members would leave the cache */
         for (size_t i = 0; i < m; i++) {
             one_state(tape, inputs + i, inputs_apart, outputs + i, outputs_apart);
         }

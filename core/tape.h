@@ -8,8 +8,8 @@
 #include "core/arena.h"
 #include "core/expression/derivative.h"
 
-/* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums number
-   `to`. */
+/* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums
+   number `to`. */
 struct gm_instruction {
     uint16_t operation;
     uint16_t way; /* four times the operation, + 1 if a, + 2 if b is what the instruction before has made */
@@ -17,8 +17,8 @@ struct gm_instruction {
 };
 enum { GM_REPEATED = GM_OPERATIONS, GM_SUMMED };
 
-/* The same operation `count` times, for registers to, to + 1 ..: the operands lie in as many registers from
-   `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
+/* An operation repeated `count` times, for registers to, to + 1 ..: the operands lie in as many registers
+   from `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
 struct gm_repeated {
     uint32_t operation, count, to;
     struct gm_operands {
@@ -27,9 +27,10 @@ struct gm_repeated {
     } a, b;
 };
 
-/* Up to GM_ABREAST long sums beside each other, for registers to, to + 1 ..: lists[at] begins with a row of what
-   they begin with; in each of the rows that follow stands the operation, GM_OPERATION_ADD or _SUBTRACT, and then the
-   registers of the next terms. A sum that has no such term now adds -0 or subtracts 0, which changes no bit. */
+/* Up to GM_ABREAST long sums beside each other, for registers to, to + 1 ..: lists[at] begins with a row
+   of first terms; each row that follows has the operation, GM_OPERATION_ADD or _SUBTRACT, and then the
+   registers of the next terms. A sum that has no such term now adds -0 or subtracts 0, which changes no
+   bit. */
 enum { GM_ABREAST = 8 };
 struct gm_sums {
     uint32_t to, count, rows, at;
@@ -49,26 +50,26 @@ struct gm_tape {
     size_t inputs, constant_count, outputs, registers;
     size_t first_used, last_used; /* the inputs that occur are among [first, last) */
     bool rolled;                  /* it has batches and sums */
-    /* The same for one state alone, where that is faster in batches, and blocks of members are not; else NULL. */
+    /* The tape for one state alone, if batches are faster there but not for blocks of members; else NULL. */
     struct gm_tape *rows;
-    /* In the place of libm's sine where |x| <= GM_SINES_TO: set behind gm_tape_open where no other engine computes the
-       same; else NULL. */
+    /* A sine instead of libm's for |x| <= GM_SINES_TO, set after gm_tape_open if no other engine computes
+       the same; else NULL. */
     void (*sines)(const double *x, double *sine, size_t count);
 };
 
 /* The code of `count` nodes. Variables 0 .. inputs - 1 are its inputs, every other one is the constant
-   values[number]; what depends on no input is computed here, once. The operations are those of the graph, one
-   by one, so that the bits are those of gm_formula_evaluate. The time is that of what the nodes are made of,
-   not of the graph. False: out of memory. To be closed in both cases. */
+   values[number]; what depends on no input is computed here, once. The operations are those of the graph,
+   one by one, so that the bits are those of gm_formula_evaluate. The time is that of what the nodes are
+   made of, not of the graph. Returns false when out of memory; the caller closes it in both cases. */
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
                   size_t inputs, const double *values);
 void gm_tape_close(struct gm_tape *tape);
-/* In the body of an arena: leaves it where the tape was not opened, else the arena closes it. */
+/* Leaves the body of an arena if the tape was not opened, else lets the arena close it. */
 void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
-/* In the body of an arena: leaves it where a matrix was not derived, else the arena holds its entries. */
+/* Leaves the body of an arena if a matrix was not derived, else lets the arena hold its entries. */
 void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
-/* So many nodes, and behind them those of a matrix. */
+/* Returns `count` nodes, followed by those of a matrix. */
 gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
                             const struct gm_sparse *jacobian);
 
@@ -80,12 +81,12 @@ struct gm_tape_place {
 };
 bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct gm_instruction *now);
 
-/* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member], and
-   do not overlap. Where memory is short, which is noted (core/memory.h), they are NaN. A member's bits do not
-   depend on m. */
+/* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member],
+   and do not overlap. When out of memory, which is noted (core/memory.h), the outputs are NaN. A member's
+   bits do not depend on m. */
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m);
 
-/* The same where member i's number k lies at inputs[k * inputs_apart + i], outputs[k * outputs_apart + i]. */
+/* gm_tape_values with member i's number k at inputs[k * inputs_apart + i], outputs[k * outputs_apart + i]. */
 void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
                    size_t outputs_apart, size_t m);
 

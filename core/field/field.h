@@ -13,7 +13,8 @@
 
 struct gm_faces; /* core/field/multisymplectic.h */
 
-/* Counts a step that has led to these values; false where it failed, or one is beyond the task's limit, or no number. */
+/* Counts a step that has led to these values. Returns false if a value is beyond the task's limit, or not
+   finite. */
 static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progress *progress,
                                     const double *values, size_t count)
 {
@@ -28,18 +29,18 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
 }
 
 struct gm_form {
-    size_t dimension;    /* of s */
+    size_t dimension;    /* dimension of s */
     const double *m, *k; /* dimension * dimension, row by row */
-    /* Of an equation whose state is s itself, at all nodes, [component * points + node]: S at one point, its
-       gradient and its second derivatives at `count` of them, [component * count + point] and [(row * dimension
-       + column) * count + point], and s(x + the ring) - s(x); NULL where the state is what elimination leaves. */
+    /* If the state is s itself, [component * points + node] at all nodes: S at one point, its gradient and
+       its second derivatives at `count` of them, [component * count + point] and [(row * dimension +
+       column) * count + point], and s(x + the ring) - s(x); NULL if elimination has reduced the state. */
     double (*function)(const void *parameters, const double *s);
     void (*gradients)(const void *parameters, const double *s, double *gradient, size_t count);
     void (*hessians)(const void *parameters, const double *s, double *hessian, size_t count);
     const double *jump;       /* NULL: 0 */
-    const char *const *names; /* of the components */
-    /* Components that S does not hold and whose slope an equation without M tells, k s_x = dS of that row: what they
-       are follows from the others, but for a constant, as phi_x = u of Korteweg-de Vries. */
+    const char *const *names; /* names of the components */
+    /* Components that S does not contain and whose slope an equation without M gives, k s_x = dS of that
+       row. They follow from the others up to a constant, as in phi_x = u of Korteweg-de Vries. */
     const struct gm_form_potential {
         size_t component, row;
     } * potentials;
@@ -58,7 +59,7 @@ struct gm_wave {
     double (*quotient_slope)(const struct gm_problem *problem, double a, double b);
 };
 
-/* What the box scheme leaves of an equation of first order in time:
+/* The box scheme of an equation of first order in time, after elimination:
        a A^p f_t + b D^p f + Q g(A f) = 0,   Q = A D or A
        A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
    The field is real, with the state of a wave problem, or complex, and its state is the real parts and the
@@ -76,8 +77,9 @@ struct gm_dispersive {
                        size_t count);
     /* V with V' = g */
     double (*potential)(const struct gm_problem *problem, double re, double im);
-    /* What a step of the box from `now` to `next` leaves of the local law of mass or charge, for every cell
-       (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are scratch. */
+    /* The residual of the local law of mass or charge over a step of the box from `now` to `next`, for
+       every cell (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are
+       scratch. */
     void (*content)(const struct gm_problem *problem, double dt, double *means, const double *now,
                     const double *next, struct gm_faces *faces, double *residual);
     /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
@@ -87,14 +89,14 @@ struct gm_dispersive {
                      const double *next, struct gm_faces *faces);
 };
 
-/* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second
-   time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt,
-   at a start from two exact levels it is t + dt. */
+/* State of a wave problem, 2 points + 1 numbers: u at the current time t, u at another time, and the
+   second time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time
+   is t - dt, at a start from two exact levels it is t + dt. */
 static inline size_t gm_wave_size(size_t points)
 {
     return 2 * points + 1;
 }
-/* The state behind the last step of a task. */
+/* The state after the last step of a task. */
 static inline void gm_wave_write(const struct gm_task *task, const double *now, const double *past)
 {
     const size_t points = task->problem->line.points;

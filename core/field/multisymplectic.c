@@ -76,10 +76,10 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
 
 struct flow {
     const struct gm_law *law;
-    size_t state, memory; /* their sizes */
+    size_t state, memory; /* sizes of each */
 };
 
-/* gm_map: a state, and the memory behind it, to the same a step later. */
+/* gm_map: a state, followed by the memory, to both a step later. */
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct flow *flow = context;
@@ -147,7 +147,7 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
     const size_t d = field->dimension, points = law->problem->line.points;
     const double dx = law->problem->line.dx, dt = law->dt;
     const double over_t = 1 / (centred ? 2 * dt : dt), over_x = 1 / (centred ? 2 * dx : dx);
-    /* both tangents at a node and the next; the flux in space behind a node is that before the next */
+    /* both tangents at a node and the next; the flux in space after a node is the one before the next */
     double sides[2][2][3 * GM_LARGEST_FORM] = {{{0}}};
     double largest = 0, before = 0;
     complete(a, points - 1, sides[0][0]);

@@ -28,8 +28,8 @@ struct gm_lattice {
     double dx, dt;
 };
 
-/* What a law is measured of: a state, and steps from it that are made aside. A measurement takes its memory from the
-   arena, and leaves it where a step fails. */
+/* The subject of a law's measurement: a state, and trial steps from it. A measurement takes its memory
+   from the arena, and leaves it when a step fails. */
 struct gm_law {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
@@ -40,23 +40,24 @@ struct gm_law {
     void *work; /* the scheme's workspace */
 };
 
-/* Opens the arena and the workspace for a measurement, and closes them; false where it was left. */
+/* Opens the arena and the workspace for a measurement, and closes them. Returns false if it was left. */
 bool gm_law_measure(struct gm_law *law, void (*measure)(const struct gm_law *law, void *data), void *data);
 
-/* Makes steps from a state and a memory, both of which may be parts of the law; false where one fails. */
+/* Makes steps from a state and a memory, both of which may be parts of the law; returns false if one
+   fails. */
 bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,
                  double *memory_out);
 
-/* What a step makes of a tangent, by differences: from a state and a memory (NULL: none), which lie behind one another in
-   `direction` and `slope`. Leaves the measurement where a step fails. */
+/* The derivative of a step along a tangent, by differences. `direction` and `slope` each hold a state,
+   then a memory (NULL: none). Leaves the measurement when a step fails. */
 void gm_law_differentiate(const struct gm_law *law, const double *y, const double *memory,
                           const double *direction, double *slope);
 
 /* The faces of one tangent, all 0, of the arena. */
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
 
-/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents, makes a
-   step, and fills in their faces. */
+/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents,
+   makes a step, and fills in their faces. */
 double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
                       void (*advance)(const struct gm_law *law, struct gm_faces faces[2]));
 
@@ -72,15 +73,15 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
                     const void *b);
 
 /* The residual of the scheme's multisymplectic law (core/field/multisymplectic.h) over the grid, with two
-   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of the
-   linearised scheme; the variables that elimination left out are found again from the scheme's equations.
-   `memory` is the scheme's own, where it has one. NaN where a scheme has no such law, memory is short or the
-   next step fails. */
+   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of
+   the linearised scheme; the variables that elimination left out are found again from the scheme's
+   equations. `memory` is the scheme's own, if it has one. NaN if a scheme lacks such a law, when out of
+   memory or when the next step fails. */
 double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, const double *memory);
 
-/* The same with tangents that are extrapolated differences of the scheme's own steps, so that nothing but the
-   step itself is held to the law; accurate to about 1e-9. */
+/* The residual of the law with tangents that are extrapolated differences of the scheme's own steps, so
+   that the law tests only the step itself; accurate to about 1e-9. */
 double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                       const double *y, const double *memory);
 

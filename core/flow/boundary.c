@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is made: psi goes from `level` on along a piece. */
+/* The construction of a boundary. */
 struct maker {
     struct gm_flow *flow;
     const unsigned char *side_of;
@@ -20,7 +20,7 @@ static bool is_open(const struct gm_side *side)
     return side->kind == GM_EDGE_INLET || side->kind == GM_EDGE_OUTLET;
 }
 
-/* What a side gives at a point of its part s. */
+/* The value that a side gives at a point of its part s. */
 static double given(const struct gm_side *side, enum gm_given what, double s, const double at[2])
 {
     const double same[] = {[GM_GIVEN_THETA] = side->theta,
@@ -40,8 +40,8 @@ static double length_of(const struct gm_complex *complex, const struct gm_openin
     return length;
 }
 
-/* The integral of the profile over edge e, from the part s of the piece on, by Lobatto's rule of four points: its
-   ends are among them, so that a profile that is not finite there is met. */
+/* The integral of the profile over edge e, from the part s of the piece on, with Lobatto's rule of four
+   points: they include the ends, so that a profile that is not finite there is detected. */
 static double through_edge(const struct gm_complex *complex, const struct gm_side *side, size_t e, double s,
                            double length, bool magnitude)
 {
@@ -92,7 +92,7 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
         if (!is_open(&maker->sides[side])) {
             continue;
         }
-        /* of a mesh that lies over itself no loop is within another */
+        /* in a mesh that overlaps itself no loop is within another */
         const bool elsewhere = flow->openings > 0 && gm_complex_loop(complex, e) !=
                                                          gm_complex_loop(complex, flow->opening[0].first);
         flow->faulty = side;
@@ -121,8 +121,8 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
                                            : GM_BOUNDARY_OK;
 }
 
-/* How long openings are, and where in their sides: these begin counter-clockwise from the lowest of the
-   leftmost points of the wall. */
+/* Measures lengths of openings and their places in their sides, which begin counter-clockwise from the
+   lowest of the leftmost points of the wall. */
 static void measure_openings(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
@@ -148,7 +148,7 @@ static void measure_openings(struct gm_flow *flow)
     }
 }
 
-/* How much goes through each opening, and the largest speed. */
+/* Computes the flow through each opening, and the largest speed. */
 static enum gm_boundary_fault share_flow(const struct maker *maker)
 {
     struct gm_flow *flow = maker->flow;
@@ -208,7 +208,7 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
     return GM_BOUNDARY_OK;
 }
 
-/* Where two sides meet a wall that holds a quantity wins, then an inlet; NULL: neither does. */
+/* The side that holds a quantity where two sides meet: a wall before an inlet; NULL: neither holds it. */
 static const struct gm_side *winner(const struct gm_side *before, const struct gm_side *side,
                                     bool before_holds, bool side_holds)
 {
@@ -238,8 +238,8 @@ static void hold_temperature(const struct maker *maker, int v, const struct gm_s
     }
 }
 
-/* What an inlet lets in at the part s: within it at every vertex, at its ends where no wall and no inlet
-   before it holds that. An outlet holds nothing. */
+/* Holds the values of an inlet at the part s: at every inner vertex, and at its ends if no wall and no
+   previous inlet holds them. An outlet holds nothing. */
 static void hold_opening(const struct maker *maker, const struct gm_side *side, size_t e, bool inside,
                          double s)
 {
@@ -257,7 +257,7 @@ static void hold_opening(const struct maker *maker, const struct gm_side *side, 
     }
 }
 
-/* Gives the vertices inside a piece their kind and the profile, and tells what psi is behind it. */
+/* Gives the vertices inside a piece their kind and the profile, and returns psi after it. */
 static double open_piece(const struct maker *maker, const struct gm_opening *opening, double level)
 {
     struct gm_flow *flow = maker->flow;
@@ -291,7 +291,7 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
     return level + rise;
 }
 
-/* Where tracers come back: all inlets as one line, along which psi goes on from one to the next. */
+/* Lists the points where tracers return: all inlets as one line, along which psi is continuous. */
 static bool list_inflow(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
@@ -343,8 +343,8 @@ static void number_holes(struct gm_flow *flow)
     }
 }
 
-/* The vertices of boundary edge e, with what a side gives at the middle of the half that is in the cell of each;
-   tells how long that is. */
+/* The vertices of boundary edge e, with the value that a side gives at the middle of each vertex's half.
+   Returns the length of half an edge. */
 static double halves(const struct gm_flow *flow, const struct gm_side *side, size_t e, enum gm_given what,
                      int vertex[2], double value[2])
 {
@@ -405,7 +405,7 @@ static void set_walls(const struct maker *maker)
         flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
         const struct gm_side *scalar = winner(before, side, !before->theta_free, !side->theta_free),
                              *warm = winner(before, side, !before->temperature_free, !side->temperature_free);
-        /* what inlets let in depends on s, which their openings know */
+        /* the values of inlets depend on s, which only openings have */
         hold(flow, v, scalar && !is_open(scalar) ? scalar : NULL, 0);
         hold_temperature(maker, v, warm && !is_open(warm) ? warm : NULL, 0);
         if (side->kind == GM_EDGE_LID) {

@@ -5,36 +5,36 @@
 
 #include "core/flow/flow.h"
 
-/* What a boundary edge is. */
+/* The kind of a boundary edge. */
 enum gm_edge_kind { GM_EDGE_WALL, GM_EDGE_INLET, GM_EDGE_OUTLET, GM_EDGE_LID, GM_EDGE_SLIP };
 
-/* What a side may give that is another number at each of its places. */
+/* The values of a side that may vary along it. */
 enum gm_given { GM_GIVEN_THETA, GM_GIVEN_TEMPERATURE, GM_GIVEN_TANGENTIAL, GM_GIVEN_HEAT };
 
-/* What edges of one name give. Each piece of an inlet or outlet is one opening; pieces follow each other
-   counter-clockwise, from the lowest of the wall's leftmost points on. */
+/* The values that edges of one name give. Each piece of an inlet or outlet is one opening; pieces follow
+   each other counter-clockwise, from the lowest of the wall's leftmost points on. */
 struct gm_side {
     enum gm_edge_kind kind;
-    /* Through all its pieces, in through inlets, out through outlets, in proportion to their lengths; NAN: of
-       an inlet what its speed makes, of an outlet what enters and leaves nowhere else, in proportion to the
-       lengths. */
+    /* The flow through all pieces of a side, in through inlets, out through outlets, in proportion to
+       their lengths. NAN: an inlet has the flow of its speed; outlets share the remaining flow, in
+       proportion to their lengths. */
     double flow;
-    /* Of an inlet the largest one, with a parabolic profile; of a lid to the side that has the air on its
-       right hand, clockwise around a room, to +x on top. */
+    /* The largest speed of an inlet, with a parabolic profile; or the speed of a lid towards the side with
+       the air on its right hand, clockwise around a room, to +x on top. */
     double speed;
-    /* The normal speed at the part s, 0 to 1, of all pieces together, instead of a parabola; scaled where a
-       flow is given, too. NULL: none. */
+    /* The normal speed at the part s, 0 to 1, of all pieces together, instead of a parabola, scaled if
+       `flow` is given. NULL: a parabola. */
     double (*profile)(const void *data, double s, const double at[2]);
-    /* Where it varies along the side: instead of theta, of temperature, of heat, and of speed of a lid; s is 0 but
-       of inlets. NULL: it does not. */
+    /* The value that varies along the side: replaces theta, temperature, heat, and the speed of a lid. s
+       is 0 except in inlets. NULL: the values are constant. */
     double (*varying)(const void *data, enum gm_given what, double s, const double at[2]);
-    const void *data;      /* of both */
-    bool theta_free;       /* no flux; of outlets always */
-    double theta;          /* else it is held at this */
-    bool temperature_free; /* the same of temperature, of flows that carry heat */
+    const void *data;      /* data of both functions */
+    bool theta_free;       /* theta has no flux; true of outlets */
+    double theta;          /* the value held if theta is not free */
+    bool temperature_free; /* temperature has no flux, in flows that carry heat */
     double temperature;
-    bool heats;  /* a wall that does not hold a temperature gives this heat, */
-    double heat; /* per unit of length and time, over density and heat capacity */
+    bool heats;  /* true: a wall without a given temperature gives `heat` */
+    double heat; /* heat per unit of length and time, over density and heat capacity */
 };
 
 enum gm_boundary_fault {
@@ -43,24 +43,23 @@ enum gm_boundary_fault {
     GM_BOUNDARY_NO_INLET, /* an outlet alone */
     GM_BOUNDARY_NO_OUTLET,
     GM_BOUNDARY_SHORT,      /* a piece of an inlet or an outlet of one edge: no vertex inside */
-    GM_BOUNDARY_WHOLE,      /* nothing but an inlet or an outlet */
+    GM_BOUNDARY_WHOLE,      /* the whole boundary is an inlet or an outlet */
     GM_BOUNDARY_IN_HOLE,    /* an inlet or an outlet on a hole's wall */
     GM_BOUNDARY_UNBALANCED, /* all flows are given, and what enters does not leave */
-    GM_BOUNDARY_PROFILE,    /* no more enters by an inlet's profile than leaves by it */
+    GM_BOUNDARY_PROFILE,    /* the net flow of an inlet's profile is not positive */
     GM_BOUNDARY_BACKWARDS,  /* an outlet would have to let air in */
-    GM_BOUNDARY_OVERFLOW,   /* what enters or leaves is too much for a number */
+    GM_BOUNDARY_OVERFLOW,   /* the flow overflows a double */
 };
 
-/* The boundary of a room, in place of one that was made before: side_of[b] is the side of edge
-   complex->boundary_edge[b]. A vertex belongs to an inlet (outlet) if both its boundary edges are of the same
-   piece. Outlet vertices are of the kind `outlet`.
-   psi is 0 on the wall from which the first outlet begins, counter-clockwise; on the walls of holes it is
-   unknown. */
+/* Sets the boundary of a room, instead of a previous one: side_of[b] is the side of edge
+   complex->boundary_edge[b]. A vertex belongs to an inlet (outlet) if both its boundary edges are of the
+   same piece. Outlet vertices are of the kind `outlet`. psi is 0 on the wall from which the first outlet
+   begins, counter-clockwise; on the walls of holes it is unknown. */
 enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned char *side_of,
                                          const struct gm_side *sides, enum gm_vertex_kind outlet);
 
-/* The same of edges of each kind as one side: inlets have this speed, lids move with it; theta is held at 0
-   on walls and lids and at `theta` in inlets. */
+/* Sets a boundary with one side per kind of edge: inlets have this speed, lids move with it; theta is held
+   at 0 on walls and lids and at `theta` in inlets. */
 enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
                                             enum gm_vertex_kind outlet, double theta);
 

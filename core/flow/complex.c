@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Oriented simplicial complexes with their Hodge stars:
        star1(e) = (sum over the triangles of e of cot(opposite angle)) / 2
-       star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8 where it is circumcentric,
-                  a third of the triangles around where it is barycentric
+       star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8 if it is circumcentric,
+                  a third of the triangles around if it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
 #include "core/flow/complex.h"
 
@@ -18,7 +18,7 @@ static const double shortest_dual = 1e-9;
 
 /* A complex that is being built of triangles. */
 struct building {
-    struct gm_arena *arena; /* of the complex; what is needed to build it comes last, and goes at the end */
+    struct gm_arena *arena; /* arena of the complex; temporary arrays come last and are released at the end */
     struct gm_complex *complex;
     const struct gm_triangles *from;
     struct gm_triangulation_fault *fault;
@@ -139,7 +139,7 @@ static int compare_sides(const void *a, const void *b)
     return first ? first : second ? second : (p->place > q->place) - (p->place < q->place);
 }
 
-/* The sides of all triangles, sorted: those of an edge stand together. */
+/* The sides of all triangles, sorted: the sides of one edge are adjacent. */
 static const struct side *sort_sides(struct building *building)
 {
     const struct gm_complex *complex = building->complex;
@@ -189,7 +189,7 @@ static void make_edges(struct building *building)
             if (*seat < 0) {
                 *seat = place / 3;
             } else {
-                /* two on one side; a third one of the same edge is told first */
+                /* two on one side; a third one of the same edge is reported first */
                 const bool third = end + 1 < count && sides[end + 1].low == sides[i].low &&
                                    sides[end + 1].high == sides[i].high;
                 if (!third) {
@@ -236,7 +236,7 @@ static void check_fans(struct building *building, const int *leaves)
         first[complex->triangle[i]] = (int)i;
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        /* from the triangle of the boundary edge that leaves v, where there is one, counter-clockwise */
+        /* from the triangle of the boundary edge that leaves v, if any, counter-clockwise */
         int place = first[v];
         if (leaves[v] >= 0) {
             const int *pair = complex->edge_triangle + 2 * leaves[v];
@@ -385,7 +385,7 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
            180 / M_PI;
 }
 
-/* Whether dual edges and cells are positive; if not, the fault names what is worst. */
+/* Returns true if dual edges and cells are positive; if not, the fault names the worst one. */
 static bool star_is_positive(const struct gm_complex *complex, const struct gm_triangles *from,
                              struct gm_triangulation_fault *fault)
 {

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What is wrong with a mesh. Sentences are made elsewhere. */
+/* The faults of a mesh. The callers write the messages. */
 enum gm_triangulation_fault_kind {
     GM_TRIANGULATION_OK,
     GM_TRIANGULATION_MEMORY,
@@ -33,26 +33,27 @@ enum gm_triangulation_fault_kind {
 
 struct gm_triangulation_fault {
     enum gm_triangulation_fault_kind kind;
-    long line;     /* of the file, from 1 */
+    long line;     /* line of the file, from 1 */
     long triangle; /* from 1, in the order of the file */
     long nodes[3]; /* tags of a file's nodes, from 1 otherwise */
     double value;  /* an angle in degrees */
     char text[64];
 };
 
-/* Hodge stars: which point of a triangle its dual vertex is. Dual edges run from there through the middle of
-   a side to the next one; dual cells are what they enclose. A gradient that is constant on a triangle flows
+/* Hodge stars: the choice of a triangle's dual vertex. Dual edges run from there through the
+   middle of a side to the next one, and enclose dual cells. A gradient that is constant on a triangle flows
    through a path from one side's middle to another's whatever lies between, so K = d0' star1 d0 is the same
-   for all of them: it is that of linear finite elements. Cells (star0) and fluxes through dual edges differ.
-       circumcentric: the circumcentre; dual edges stand on edges, star1 is diagonal. Where triangles are obtuse
-           the parts of dual edges and cells keep their signs; every whole one has to be positive (Delaunay).
-       barycentric: the centre of mass; for any triangles. It is also the one of Galerkin: fluxes and K are those
-           of linear elements, star0 is their mass matrix with its rows summed up. */
+   for all of them, the matrix of linear finite elements. Cells (star0) and fluxes through dual edges differ.
+       circumcentric: the circumcentre; dual edges are orthogonal to edges, star1 is diagonal. In obtuse
+           triangles the parts of dual edges and cells keep their signs; every whole one must be positive
+           (Delaunay).
+       barycentric: the centre of mass; for any triangles. It is also the star of Galerkin: fluxes and K are
+           those of linear elements, star0 is their mass matrix with its rows summed up. */
 enum gm_star {
-    GM_STAR_AUTO, /* circumcentric where that is positive, else barycentric */
+    GM_STAR_AUTO, /* circumcentric if that is positive, else barycentric */
     GM_STAR_CIRCUMCENTRIC,
     GM_STAR_BARYCENTRIC,
-    GM_STAR_GALERKIN, /* the same, by his name */
+    GM_STAR_GALERKIN, /* the same as barycentric */
 };
 
 /* An oriented two-dimensional simplicial complex with its dual. Triangles run
@@ -62,7 +63,7 @@ struct gm_complex {
     struct gm_arena *arena; /* holds the complex and its arrays */
     size_t vertices, edges, triangles;
     double *point;              /* 2 a vertex */
-    double period[2];           /* of a torus; 0: none */
+    double period[2];           /* periods of a torus; 0: none */
     int *triangle;              /* 3 vertices */
     int *triangle_edge;         /* 3 edges: t0 t1, t1 t2, t2 t0 */
     signed char *triangle_sign; /* 3: +1 where the triangle runs the edge from low to high (the matrix d1) */
@@ -73,22 +74,23 @@ struct gm_complex {
     int *ring_edge;             /* 2 * edges: the edge to that neighbour */
     int *edge_ring;       /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
     size_t boundary;      /* number of boundary edges */
-    int *boundary_edge;   /* in counter-clockwise order, loop after loop */
+    int *boundary_edge;   /* boundary edges, counter-clockwise, loop after loop */
     int *boundary_vertex; /* the vertex where each begins */
     size_t loops;         /* connected pieces of the boundary */
     size_t *loop_start;   /* loops + 1: where each begins in boundary_edge */
-    enum gm_star star;    /* that was taken */
+    enum gm_star star;    /* star that is used */
     double star_least;    /* the least entry of the circumcentric star1 */
     size_t obtuse;        /* triangles with an angle above 90 degrees */
-    double *length;       /* of the edges */
-    double *area;         /* of the triangles */
+    double *length;       /* length of each edge */
+    double *area;         /* area of each triangle */
     double *weight;       /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
     double *star0;        /* area of the dual cells */
     /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
-    double smallest_angle, largest_angle; /* in degrees */
-    /* Of a file's: x and y in its own coordinates, 0 where they are these; and triangles that were there twice. */
+    double smallest_angle, largest_angle; /* degrees */
+    /* The origin in a file: x and y axes in its coordinates, 0 if they are the same; and the number of
+       repeated triangles. */
     struct gm_complex_origin {
         double axes[2][3];
         size_t repeated;
@@ -102,12 +104,12 @@ struct gm_triangles {
     size_t vertices;
     const int *corners; /* 3 vertices a triangle, in any orientation */
     size_t count;
-    double period[2]; /* of a torus, where triangles take the nearest images; 0: none */
+    double period[2]; /* periods of a torus, with nearest images of triangles; 0: none */
     enum gm_star star;
     const long *tags; /* names of the points for a fault; NULL: they are numbered from 1 */
 };
 
-/* Builds the complex. NULL with a fault if the triangles are no such mesh. */
+/* Builds the complex. Returns NULL with a fault if the mesh is not valid. */
 struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault);
 void gm_complex_close(struct gm_complex *complex);
 
@@ -120,10 +122,10 @@ void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double
 /* The middle of an edge; not where a torus is cut. */
 void gm_complex_middle(const struct gm_complex *complex, size_t edge, double middle[2]);
 
-/* The boundary edge behind another one on its loop, and before it. */
+/* The boundary edge after another one on its loop, and before it. */
 size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge);
 size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge);
-/* Which loop a boundary edge is of. */
+/* The loop of a boundary edge. */
 size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge);
 /* The area that a loop encloses: positive of the outer one, negative of holes. */
 double gm_complex_loop_area(const struct gm_complex *complex, size_t loop);

@@ -17,7 +17,7 @@
        convection of a quantity a: -d0' diag(F) A a, A the mean of an edge's ends
    Warm air rises (Boussinesq): buoyancy (T - reference) along y in the momentum equation. */
 
-/* What is known of psi and omega at a vertex. */
+/* The condition on psi and omega at a vertex. */
 enum gm_vertex_kind {
     GM_VERTEX_FREE,  /* psi unknown: the interior */
     GM_VERTEX_OPEN,  /* psi unknown on an outlet ("free") */
@@ -26,8 +26,7 @@ enum gm_vertex_kind {
     GM_VERTEX_SLIP,  /* psi given, omega = 0: a wall without friction */
 };
 
-/* Where tracers that leave come back: points of inlets, one after the other, in proportion to the flux
-   between them. */
+/* The points of inlets where tracers that leave return, in order, in proportion to the flux between them. */
 struct gm_inflow {
     size_t count;
     double *point; /* 2 each */
@@ -44,79 +43,81 @@ struct gm_flow_place {
 /* A piece of the boundary through which air enters or leaves. */
 struct gm_opening {
     size_t first, count; /* boundary edges, on from the first along its loop */
-    size_t side;         /* which one it is of (core/flow/boundary.h) */
+    size_t side;         /* number of its side (core/flow/boundary.h) */
     bool inlet;
-    double length, before, side_length; /* its own, of its side's pieces before it, of all of them */
-    double profile; /* what its profile lets through before it is scaled; 0: it has none */
-    double flow;    /* in or out */
+    double length, before, side_length; /* lengths: itself, its side's pieces before it, all of them */
+    double profile;                     /* flow of its profile before scaling; 0: no profile */
+    double flow;                        /* flow in or out */
 };
 
-/* What a vertex is inside of. */
+/* The opening around a vertex. */
 enum gm_opening_kind { GM_OPEN_NOT, GM_OPEN_INLET, GM_OPEN_OUTLET };
 
 struct gm_flow {
     struct gm_complex *complex;
     double viscosity, diffusivity;
-    double time_unit;    /* of a run, in the flow's own time */
-    double reynolds;     /* where continuation of steady states ends; 0: none is needed */
-    double speed;        /* the largest that the boundary gives, of an inlet, an outlet or a lid; 0: none */
+    double time_unit;    /* time unit of a run, in the flow's own time */
+    double reynolds;     /* end of the continuation of steady states; 0: none is needed */
+    double speed;        /* the largest speed of an inlet, an outlet or a lid; 0: none */
     bool scalar;         /* theta is carried */
     unsigned char *kind; /* enum gm_vertex_kind, a vertex */
     double *psi;         /* given values, 0 elsewhere */
     size_t holes;
-    int *hole; /* a vertex: on the wall of which hole, from 1, where psi is one unknown; 0: of none */
+    int *hole;           /* per vertex, the hole on whose wall it is, from 1, with one unknown psi; 0: none */
     unsigned char *open; /* enum gm_opening_kind, a vertex */
     struct gm_opening *opening;
     size_t openings;
-    double inlet_length; /* of all together */
+    double inlet_length; /* total length of all inlets */
     double *sheet;
     bool *theta_fixed;
-    double *theta;                          /* given values; elsewhere those of the start */
-    double *source;                         /* of the scalar, per unit of time, a vertex; NULL: none */
+    double *theta;                          /* given values; elsewhere the start's */
+    double *source;                         /* source of the scalar at each vertex, per unit of time; NULL:
+                                               none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
-    double buoyancy, reference_temperature; /* g beta; where there is none */
-    /* As those of theta; NULL without heat. holder: 1 + the side that holds it at a vertex, or heats it, 0: none;
-       heating: what walls give to the cells at them, per unit of time, over density and heat capacity */
+    double buoyancy, reference_temperature; /* g beta; T without buoyancy */
+    /* The arrays of temperature, like those of theta; NULL without heat. holder: 1 + the side that holds
+       or heats a vertex, 0: none; heating: the heat from walls to the cells at them, per unit of time,
+       over density and heat capacity. */
     bool *temperature_fixed;
     double *temperature;
     unsigned char *temperature_holder;
     double *heating;
-    /* Of rooms, over the time that they are meant for: the largest theta that is given, and between which temperatures
-       air will be. */
+    /* The ranges in a room over its time: the largest given theta, and the least and largest expected
+       temperature. */
     double theta_high, temperature_range[2];
     size_t tracers;
-    bool smoke; /* tracers come in one after the other, where air does and at the places of sources */
+    bool smoke; /* tracers enter one after the other, with the air and at sources */
     struct gm_flow_place *smoking;
     size_t smoking_count;
     struct gm_inflow inflow;
-    size_t faulty; /* the side at which a boundary is none (core/flow/boundary.h); 0: it is no single one */
-    /* Where what the boundary gives changes in time: has `now` give what it does at the time t. False where
-       that is no boundary: something is not finite, or flows do not balance. NULL: nothing changes. */
+    size_t faulty; /* the side with a fault (core/flow/boundary.h); 0: no single side */
+    /* Sets the boundary values of `now` to those at the time t. Returns false if the boundary is not
+       valid: a value is not finite, or flows do not balance. NULL: the boundary is constant. */
     bool (*give)(const struct gm_flow *flow, double t, struct gm_flow *now);
     const void *given_by;
-    unsigned char *side_of; /* a boundary edge, as in core/flow/boundary.h; NULL where nothing changes */
+    unsigned char *side_of; /* a boundary edge, as in core/flow/boundary.h; NULL if constant */
 };
 
-/* The state of a run: blocks of one number a vertex, then the flow's step that led here and the tracers. What
-   a step used (psi_half: the stream function of its fluxes; what was before) is kept, so that budgets and
-   pressure are functions of the state alone. */
+/* The state of a run: blocks of one number per vertex, then the flow's step that led here and the tracers.
+   The values that a step used (psi_half: the stream function of its fluxes; previous values) are stored,
+   so that budgets and pressure are functions of the state alone. */
 enum gm_flow_block {
     GM_FLOW_PSI,
     GM_FLOW_OMEGA,
     GM_FLOW_THETA,
     GM_FLOW_PSI_HALF,
-    GM_FLOW_OMEGA_USED, /* what the step convected and diffused */
+    GM_FLOW_OMEGA_USED, /* omega that the step convected and diffused */
     GM_FLOW_PSI_BEFORE,
     GM_FLOW_THETA_BEFORE,
     GM_FLOW_BLOCKS,
-    /* only where heat is carried */
+    /* only if heat is carried */
     GM_FLOW_TEMPERATURE = GM_FLOW_BLOCKS,
     GM_FLOW_TEMPERATURE_BEFORE,
     GM_FLOW_MOST_BLOCKS,
 };
 
-/* Numbers of a tracer: its place, its triangle, and its age in steps; one that is still to come in has a negative
-   age, and the place where it will. */
+/* Numbers of a tracer: its place, its triangle, and its age in steps; a tracer that has not entered yet
+   has a negative age, and its future place of entry. */
 enum { GM_TRACER_X, GM_TRACER_Y, GM_TRACER_TRIANGLE, GM_TRACER_AGE, GM_TRACER_NUMBERS };
 
 extern const struct gm_kind gm_kind_flow;
@@ -128,21 +129,23 @@ static inline const struct gm_flow *gm_flow_of(const struct gm_problem *problem)
 }
 
 size_t gm_flow_size(const struct gm_flow *flow);
-/* How many numbers the blocks are together: where the step stands. */
+/* The size of all blocks together, which is the offset of the step. */
 size_t gm_flow_block_numbers(const struct gm_flow *flow);
 const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block);
 /* The flow's time step that led to this state; 0 at the start and for steady states. */
 double gm_flow_step(const struct gm_flow *flow, const double *y);
 const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t tracer);
 
-/* A flow that owns the complex, everything free and 0. NULL (and the complex closed) when memory is short. */
+/* A flow that owns the complex, everything free and 0. Returns NULL, and closes the complex, when out of
+   memory. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
-/* The flow with a boundary of its own, for `give`; the complex and sources stay the other's. NULL when memory
-   is short. */
+/* The flow with a boundary of its own, for `give`; the complex and sources still belong to `flow`. Returns
+   NULL when out of memory. */
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
 void gm_flow_close_now(struct gm_flow *now);
-/* Lets it carry heat, nowhere held, everywhere at the reference temperature. False when memory is short. */
+/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. Returns false when out of
+   memory. */
 bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
 /* psi interpolated to the dual vertex of a triangle, and the flux through the dual of an edge. */
@@ -156,9 +159,9 @@ double gm_flow_star(const struct gm_complex *complex, const double *values, size
 /* Buoyancy along the dual of an edge: buoyancy times the integral of (T - reference) dy, exact for a T that
    is linear on the triangles, so that a layered fluid rests. */
 double gm_flow_lift(const struct gm_flow *flow, const double *temperature, size_t edge);
-/* Adds scale times what buoyancy adds to the circulations of dual cells, per unit of time; those of boundary
-   cells are closed along the boundary, but on the wall of a hole, whose sum is that along the dual edges
-   around it. */
+/* Adds `scale` times the contribution of buoyancy to the circulations of dual cells, per unit of time.
+   Boundary cells are closed along the boundary, except on the wall of a hole, whose sum runs along the
+   dual edges around it. */
 void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, double scale, double *rate);
 
 /* All fluxes; scratch: a number for each triangle. */
@@ -179,11 +182,11 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi);
    has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
 
-/* Whether omega at the unknowns of psi is an unknown that boundary values of psi do not enter: closed
-   surfaces and slip walls. Then steps are made for omega. */
+/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
+   surfaces and with slip walls. Then omega is stepped. */
 bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
 
-/* What is measured of a state y. */
+/* Functionals of a state y. */
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);
 double gm_flow_enstrophy(const struct gm_flow *flow, const double *y);
 /* |sum star0 omega| relative to sum star0 |omega| */
@@ -194,46 +197,47 @@ double gm_flow_scalar_total(const struct gm_flow *flow, const double *y);
 
 /* The scalar's budget over the last step; all rates per unit of the flow's own time. */
 struct gm_budget {
-    double rate;      /* of the total */
-    double convected; /* in through vertices with given theta */
-    double reaction;  /* what holding theta there adds */
-    double outflow;   /* through all other boundary vertices */
-    double sourced;   /* by sources, where theta is not given */
+    double rate;      /* rate of change of the total */
+    double convected; /* inflow at vertices with given theta */
+    double reaction;  /* source that holds theta at these vertices */
+    double outflow;   /* outflow at all other boundary vertices */
+    double sourced;   /* sources at vertices without given theta */
     double defect;    /* |rate - convected - reaction + outflow - sourced|, relative to the largest of them */
 };
 struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
 
 /* The heat, over density and heat capacity, that a side's vertices give to the air per unit of time, after
-   the last step: what holding the temperature there adds, or what is given. Summed up over all sides it is what
+   the last step: the heat that holds the temperature there, or the given heat. The sum over all sides
    warms the room. */
 double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
-/* About the difference of temperature that heat given by walls makes: that of conduction over the room's size, less
-   where air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice what warms the air that
-   goes through. 0: walls give none. */
+/* An estimate of the temperature difference from the heat of walls: the value for conduction over the
+   room's size, less if air rises, over .4 Ra^(1/5) of the Rayleigh number of that heat, and at most twice
+   the warming of the air that passes through. 0: walls give no heat. */
 double gm_flow_heated(const struct gm_flow *flow);
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y);
 
-/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over
-   inner dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
+/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences
+   over inner dual edges are summed along a spanning tree. Returns false on a torus, and when out of
+   memory. */
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure);
 
 /* The circulation around a hole, from 1, counter-clockwise: along the dual edges around its wall. */
 double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t hole);
 
-/* What the flow does to the wall of a hole, over the density, after the last step: the pressure at the
-   middles of its edges, where the momentum equation along half dual edges takes that of the triangles, and
-   friction, viscosity times vorticity. False where there is no pressure. */
+/* The force of the flow on the wall of a hole, over the density, after the last step: the pressure at the
+   middles of its edges, where the momentum equation along half dual edges has the pressure of the
+   triangles, and friction, viscosity times vorticity. Returns false without a pressure. */
 bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
 
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
-   exp(-2 (distance / largest)^2); value of theta the same way. False where the mesh is too small. */
+   exp(-2 (distance / largest)^2); theta likewise. gm_flow_sample returns false if the mesh is too small. */
 struct gm_sample {
     double psi, u, v, theta, omega, temperature; /* the last 0 without heat */
 };
 bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
                     struct gm_sample *sample);
-/* The pressure p/rho at a point, after the last step: the total one fitted to that of the 24 triangles nearest, less
-   |u|^2/2. False where there is none. */
+/* The pressure p/rho at a point, after the last step: the total pressure fitted to the 24 nearest
+   triangles, less |u|^2/2. Returns false without a pressure. */
 bool gm_flow_pressure_at(const struct gm_flow *flow, const double *y, double x, double z, double *pressure);
 
 #endif

@@ -16,7 +16,7 @@
 /* A Gmsh file on its way to a mesh: its text, and the tables that are made of
  * its sections. */
 
-/* At most so many nodes, elements and entities are read. */
+/* The largest number of nodes, elements or entities. */
 enum { MOST = 5000000 };
 
 struct node {
@@ -29,7 +29,7 @@ struct node {
 struct element {
     long nodes[3];
     long line;
-    long entity; /* of a line; in 2.2 its physical tag */
+    long entity; /* entity of a line; in 2.2 its physical tag */
 };
 
 /* A row for each physical group of a curve. */
@@ -47,7 +47,7 @@ struct reader {
     bool parametric; /* ... whose nodes have parameters on curves and surfaces */
     bool binary;     /* the file */
     bool entities;   /* they were read */
-    bool raw;        /* what is read now: bytes as they are in memory */
+    bool raw;        /* the reader is in binary data */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -55,14 +55,13 @@ struct reader {
     size_t node_count, triangle_count, line_count, curve_count, group_count;
     struct gm_complex_origin origin;
     enum gm_star star;
-    struct gm_triangulation *mesh; /* that is made */
+    struct gm_triangulation *mesh; /* the result */
 };
 
-/* The text: words, numbers, counts. What is not as expected leaves the arena
-   with the reader's fault; `what` says in words what that is. Announced counts
-   are believed only as far as the text is long. */
+/* The text: words, numbers, counts. Unexpected text leaves the arena with the reader's fault; `what` is
+   the expected text. Announced counts are limited by the length of the text. */
 
-/* Sets the fault, at the present line, and leaves. */
+/* Sets the fault, at the current line, and leaves. */
 _Noreturn static void fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
 {
     *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->raw ? 0 : reader->line};
@@ -95,8 +94,8 @@ static void skip_blanks(struct reader *reader)
     }
 }
 
-/* The next word, at most size - 1 bytes of it; false, without a fault, at the
- * end or where it is longer. */
+/* The next word, at most size - 1 bytes of it; false, without a fault, at
+ * the end or if it is longer. */
 static bool take_word(struct reader *reader, char *word, size_t size)
 {
     skip_blanks(reader);
@@ -111,7 +110,7 @@ static bool take_word(struct reader *reader, char *word, size_t size)
     return length > 0;
 }
 
-/* Whether nothing but blanks is left. */
+/* Returns true if only blanks are left. */
 static bool at_end(struct reader *reader)
 {
     skip_blanks(reader);
@@ -152,7 +151,7 @@ static double take_number(struct reader *reader, const char *what)
     return value;
 }
 
-/* A whole number: of 4 bytes where they are raw. */
+/* A whole number, of 4 bytes in binary files. */
 static long take_whole(struct reader *reader, const char *what)
 {
     char word[32], *rest = NULL;
@@ -167,7 +166,7 @@ static long take_whole(struct reader *reader, const char *what)
     return value;
 }
 
-/* One that takes 8 bytes there: tags of nodes and elements. */
+/* A whole number of 8 bytes in binary files: a tag of a node or an element. */
 static long take_tag(struct reader *reader, const char *what)
 {
     const int64_t largest = 1000000000000000000;
@@ -210,7 +209,7 @@ static void expect_end(struct reader *reader)
 /* types of elements */
 enum { LINE = 1, TRIANGLE = 2, LINE_OF_3 = 8, TRIANGLE_OF_6 = 9, POINT = 15 };
 
-/* What follows the line's end is binary, if the file is. */
+/* Skips to the line's end, after which a binary file has binary data. */
 static void begin_raw(struct reader *reader)
 {
     while (reader->binary && reader->at < reader->end && *reader->at++ != '\n') {
@@ -276,8 +275,8 @@ static void add_curve(struct reader *reader, long tag, long physical)
         (struct curve){tag, labs(physical)}; /* the sign is an orientation */
 }
 
-/* What a part of an entity is of, in which parts of the mesh; a part of a curve
- * is in its groups, too. */
+/* Reads the entity that a part belongs to, and its parts of the mesh; a part of a curve is also in the
+   curve's groups. */
 static void read_parent(struct reader *reader, long tag, int dimension)
 {
     const long whole = take_whole(reader, "a dimension"), parent = take_whole(reader, "an entity's tag");
@@ -333,8 +332,8 @@ static void read_entities(struct reader *reader)
     read_all_entities(reader, false);
 }
 
-/* The same of a mesh in parts, which is one here; ghosts are elements of
- * neighbours. */
+/* Reads the entities of a mesh in parts, which becomes one mesh; ghosts are
+ * elements of neighbours. */
 static void read_partitioned_entities(struct reader *reader)
 {
     begin_raw(reader);
@@ -379,8 +378,8 @@ static void read_node_block(struct reader *reader, size_t total)
     reader->node_count += (size_t)count;
 }
 
-/* The nodes of version 2.2: each with its tag, and behind one that has
-   parameters the dimension and the tag of what it lies on, and they. */
+/* The nodes of version 2.2: each with its tag, and after one that has parameters the dimension and the tag
+   of its entity, and the parameters. */
 static void read_old_nodes(struct reader *reader, size_t total)
 {
     begin_raw(reader);
@@ -397,8 +396,8 @@ static void read_old_nodes(struct reader *reader, size_t total)
     }
 }
 
-/* What sections begin with: the numbers of blocks, but in 2.2, and of things,
- * and the range of their tags. */
+/* Reads the start of a section: numbers of blocks (not in 2.2) and entries, range of tags. Returns the
+   number of entries. */
 static size_t begin_blocks(struct reader *reader, long *blocks, const char *what)
 {
     *blocks = 0;
@@ -478,7 +477,7 @@ static void expect_type(struct reader *reader, long type, long line)
     }
 }
 
-/* Each returns how many elements it read, of so many that are left. */
+/* Reads a block of at most `left` elements; returns their number. */
 static size_t read_element_block(struct reader *reader, size_t left)
 {
     take_whole(reader, "a dimension");
@@ -493,9 +492,8 @@ static size_t read_element_block(struct reader *reader, size_t left)
     return (size_t)count;
 }
 
-/* Elements of version 2.2: tag, type, number of tags, those (the first is the
-   physical one) and nodes. In binary files type and numbers, of elements and of
-   tags, stand before the elements that they hold for. */
+/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
+   binary files the type and the numbers of elements and tags precede their elements. */
 static size_t read_old_elements(struct reader *reader, size_t left)
 {
     long type = 0, count = 1, tags = 0;
@@ -594,7 +592,7 @@ static void read_sections(struct reader *reader)
     }
 }
 
-/* By tag; NULL if there is none. */
+/* Returns the node with this tag, or NULL. */
 static struct node *find_node(const struct reader *reader, long tag)
 {
     const struct node key = {.tag = tag};
@@ -605,7 +603,7 @@ static struct node *find_node(const struct reader *reader, long tag)
 
 /* The mesh. */
 
-/* A triangle's nodes, ascending, and where it stands. */
+/* A triangle's nodes, ascending, and its index. */
 struct corners {
     long nodes[3];
     size_t place;
@@ -677,9 +675,8 @@ static void add_normals(const struct reader *reader, double normal[3])
     }
 }
 
-/* Axes of the plane of the triangles: the first is the coordinate axis with the
-   largest projection on it; seen so that triangles turn left. That of x and y
-   where z is the same everywhere. */
+/* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it;
+   seen so that triangles turn left. The plane of x and y if z is the same everywhere. */
 static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
@@ -843,7 +840,7 @@ static void number_groups(struct reader *reader)
     }
 }
 
-/* Lines that are no edge of a triangle name nothing. */
+/* Names edges; lines that are not an edge of a triangle are ignored. */
 static void name_edges(struct reader *reader)
 {
     if (reader->curve_count > 0) {
@@ -948,7 +945,7 @@ void gm_triangulation_close(struct gm_triangulation *mesh)
     *mesh = (struct gm_triangulation){0};
 }
 
-/* Where the further tags of an edge begin. */
+/* The index of the first further tag of an edge. */
 static size_t first_of(const struct gm_triangulation *mesh, size_t edge)
 {
     size_t low = 0, high = mesh->more_count;

@@ -7,7 +7,7 @@
 /* A mesh with names on its boundary. */
 struct gm_triangulation {
     struct gm_complex *complex;
-    long *tags;      /* of the vertices, increasing */
+    long *tags;      /* tags of the vertices, increasing */
     int *edge_group; /* a physical tag for every edge of the complex; 0: none */
     struct gm_triangulation_member {
         int edge, tag;
@@ -16,28 +16,30 @@ struct gm_triangulation {
     size_t groups; /* physical groups of curves */
     struct gm_triangulation_group {
         long tag;
-        char name[64]; /* "" where it has none */
+        char name[64]; /* "" if it is unnamed */
     } * group;
 };
 
-/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one
-   plane, and the lines that carry physical groups, are taken, those of the second order by their corners; a triangle
-   that is there twice is taken once; points are passed over; nodes that nothing uses are dropped. False with a fault, and nothing to close, if the text is no such mesh. */
+/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one plane, and
+   the lines that carry physical groups, are read, elements of the second order by their corners. Repeated
+   triangles are read once; points and unused nodes are dropped. Returns false with a fault, and nothing to
+   close, if the text is not a valid mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
-/* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their edges.
-   False with a fault, the mesh as it was, where memory is short or the star is not positive any more. */
+/* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their
+   edges. Returns false with a fault, and the mesh unchanged, when out of memory or if the star is no
+   longer positive. */
 bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
                             struct gm_triangulation_fault *fault);
 void gm_triangulation_close(struct gm_triangulation *mesh);
 
-/* The physical tag of a group of lines, by its name or its tag; 0 if there is none. */
+/* The physical tag of a group of lines, by its name or its tag; 0 if it is missing. */
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);
 
-/* Whether an edge is in the group of that tag, which is not 0. */
+/* Returns true if an edge is in the group of a tag, which is not 0. */
 bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag);
 
-/* Puts an edge into a group, to be sorted when all are in theirs. False: memory is short. */
+/* Puts an edge into a group, which must be sorted afterwards. Returns false when out of memory. */
 bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag);
 void gm_triangulation_sort(struct gm_triangulation *mesh);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is measured of a flow's state: functions of the state alone. */
+/* Functionals of a flow's state. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -182,7 +182,7 @@ static double inertia_step(const struct gm_flow *flow, const double *y, size_t e
            complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
 }
 
-/* The same with buoyancy. */
+/* The pressure step with buoyancy. */
 static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
 {
     const double step = inertia_step(flow, y, e);
@@ -266,7 +266,7 @@ struct near {
     size_t index;
 };
 
-/* Of points, those nearest to a place, on a torus their nearest images; relative places. */
+/* The points nearest to a place, with relative coordinates; on a torus their nearest images. */
 static size_t find_nearest(const struct gm_complex *complex, const double *points, size_t all, double x,
                            double z, struct near nearest[NEAREST])
 {
@@ -325,8 +325,8 @@ static void least_squares(double a[NEAREST][TERMS + VALUES], size_t rows, double
     }
 }
 
-/* Cubic polynomials fitted to values at the points nearest to a place. The first coefficients are what they are
-   there, and their derivatives times `scale`. False where there are too few points. */
+/* Cubic polynomials fitted to values at the points nearest to a place. The first coefficients are the
+   values there, and the derivatives times `scale`. Returns false with too few points. */
 static bool fit(const struct gm_complex *complex, const double *points, size_t all,
                 const double *const fields[VALUES], double x, double z, double solution[VALUES][TERMS],
                 double *scale)

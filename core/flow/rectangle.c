@@ -80,7 +80,7 @@ static void add_triangle(struct pattern *pattern, long a, long b, long c)
     t[2] = (int)c;
 }
 
-/* where a row of the rectangle begins */
+/* The first vertex of a row of the rectangle. */
 static long row_begin(long n, long row)
 {
     return row / 2 * (2 * n + 1) + (row % 2) * (n + 1);
@@ -90,7 +90,7 @@ static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
 {
     const long n = r->edges, m = r->strips;
     const double h = strip_height(r), a = base(r), c = wall_distance(h, a), decay = 0.6;
-    /* the far walls lie where they are said to lie, which N a and M h miss by a rounding */
+    /* the far walls have their given places, which N a and M h miss by a rounding */
     const double length = r->transposed ? r->height : r->width, depth = r->transposed ? r->width : r->height;
     /* the bend from the other wall takes a little of c, which matters in short rows alone */
     const double rest = n < 6 ? 1 / (1 - pow(decay, (double)(n - 1))) : 1;

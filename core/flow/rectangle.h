@@ -14,11 +14,11 @@ struct gm_rectangle {
     bool torus;      /* opposite sides are one */
     /* Every vertex is moved at random by at most this part of its shortest edge, below 1/2. */
     double irregular;
-    const double *fixed; /* points that stay where they are, 2 numbers each (corners always do) */
+    const double *fixed; /* [fixed_count][2], points that do not move (corners never do) */
     size_t fixed_count;
 };
 
-/* Whether the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */
+/* Returns true if the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */
 bool gm_rectangle_is_acute(const struct gm_rectangle *rectangle);
 
 /* The even number of strips whose triangles are best for this number of edges. */

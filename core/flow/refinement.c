@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A finer mesh of the same polygon. Vertices keep their numbers, behind them stand the middles of the edges in their
-   order; the four triangles that one becomes are like it, so that angles stay. */
+/* A finer mesh of the same polygon. Vertices keep their numbers, followed by the middles of the edges in
+   their order. Each triangle becomes four similar ones, so that angles are preserved. */
 #include "core/flow/gmsh.h"
 
 #include <stdlib.h>
@@ -36,7 +36,7 @@ static void divide_triangles(const struct gm_complex *coarse, int *corners)
 {
     for (size_t t = 0; t < coarse->triangles; t++) {
         const int *vertex = coarse->triangle + 3 * t;
-        int middle[3]; /* of the edge from corner k to the next one */
+        int middle[3]; /* middle of the edge from corner k to the next one */
         for (int k = 0; k < 3; k++) {
             middle[k] = (int)coarse->vertices + coarse->triangle_edge[3 * t + (size_t)k];
         }

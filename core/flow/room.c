@@ -20,8 +20,8 @@ static const char *const keys[GM_ROOM_KEYS] = {
 #define PLACE (1u << GM_ROOM_X | 1u << GM_ROOM_Y)
 #define MOTION (1u << GM_ROOM_STREAM_FUNCTION | 1u << GM_ROOM_SPEED_X | 1u << GM_ROOM_SPEED_Y)
 
-/* The lines that hold pairs key = formula: the keys they may have, those that they must, and those of which they need
-   one; and of what they are the only one of their name. */
+/* The lines that hold pairs key = formula: the keys they may have, those that they must, and those of which
+   they need one; and of what they are the only one of their name. */
 static const struct {
     const char *word;
     unsigned may, must, some;
@@ -55,8 +55,8 @@ struct reading {
     bool timed; /* it holds t */
 };
 
-/* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives, and the exact
-   solution, may change in time. */
+/* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives, and the
+   exact solution, may change in time. */
 static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
 {
     const unsigned along = 1u << X | 1u << Y | (word == GM_ROOM_INLET ? 1u << PART : 0),
@@ -264,7 +264,7 @@ const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room
     return i < room->count ? &room->lines[i] : NULL;
 }
 
-/* Where the next "key =" begins in a span, or its end; in parentheses stands the index of a sum. */
+/* The start of the next "key =" in a span, or its end; "=" in parentheses belongs to the index of a sum. */
 static size_t next_key(const char *text, struct gm_span span)
 {
     int depth = 0;
@@ -388,8 +388,8 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
     return read_pairs(room, line, value, fault);
 }
 
-/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or flat-torus; ...
-   False without a fault: the line names a file. */
+/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ...,
+   or flat-torus; ... Returns false without a fault if the line names a file. */
 static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
 {
     struct gm_rectangle *rectangle = &room->rectangle;
@@ -400,7 +400,7 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         const char *word;
         double *number;
         struct gm_room_range range;
-        char *key; /* of a whole number; NULL: it is any */
+        char *key; /* key of a whole number; NULL: any number */
     } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
                    {"height", &rectangle->height, {1e-9, 1e9}, NULL},
                    {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
@@ -460,7 +460,7 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
             gm_fail(fault, place, "a rectangle has a width, a height and a number of edges"));
 }
 
-/* Whether a name means nothing else: in formulas, on a command line but for what the picture shows, or in tables. */
+/* Returns true if a name has no other meaning in formulas, on a command line (except `show`) or in tables. */
 static bool is_free(const char *name, size_t place, struct gm_fault *fault)
 {
     bool reserved = strcmp(name, "show") != 0 && gm_reading_reserves(name, strlen(name));
@@ -531,7 +531,8 @@ static bool read_parameter(struct gm_room *room, struct gm_span rest, const stru
 
 static const char reference[] = "reference-temperature";
 
-/* The lines that hold no pairs: those before `parameter` may come once, those from `side` on once with each name. */
+/* The lines that hold no pairs: those before `parameter` may come once, those from `side` on once with each
+   name. */
 enum { OFTEN = 26, NAMED = 30 };
 static const char *const others[] = {
     "geomint",     "title",    "about",   "watch",   "reference", "units",       "scalar",
@@ -541,21 +542,21 @@ static const char *const others[] = {
     "table",       "figure",   "side",    "observe", "profile",   NULL};
 enum { OTHERS = GM_COUNT(others) - 1 };
 
-/* Of all lines of several words or formulas. */
+/* The word of line type i. */
 static const char *line_word(size_t i, const void *data)
 {
     (void)data;
     return i < WORDS ? words[i].word : others[i - WORDS];
 }
 
-/* Whether what two lines say begins with the same name. */
+/* Returns true if the values of two lines begin with the same name. */
 static bool share_name(const char *one, const char *other)
 {
     const size_t letters = strcspn(one, "; \t\r\n");
     return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* Whether a line says something, and no line before the same. */
+/* Returns true if a line has a value and is not repeated. */
 static bool check_line(const struct gm_room *room, struct gm_text_line line, size_t other,
                        struct gm_fault *fault)
 {
@@ -571,7 +572,7 @@ static bool check_line(const struct gm_room *room, struct gm_text_line line, siz
            gm_fail(fault, line.word.begin, "%s: says nothing", others[other]);
 }
 
-/* A line that says one thing; others are read by the scene that is made of the room. */
+/* Reads a line with a single value; other lines are read by the room's scene. */
 static bool read_single(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
@@ -627,14 +628,14 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, struct g
     return true;
 }
 
-/* Where the line begins that says this. */
+/* The start of the first line with this word; 0: none. */
 static size_t place_of(const struct gm_room *room, const char *word)
 {
     struct gm_text_line line;
     return find_line(room, word, 0, &line) ? line.word.begin : 0;
 }
 
-/* What is said in one of two ways, and whether all is said. */
+/* Completes values; false with a fault if one is missing or given twice. */
 static bool complete(struct gm_room *room, const struct gm_room_given *given, size_t count,
                      struct gm_fault *fault)
 {
@@ -711,7 +712,7 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
     return true;
 }
 
-/* A line in a block of a choice replaces one outside where there is one such line. */
+/* A line in a block of a choice replaces one outside if only one is allowed. */
 static enum gm_line_identity identity(const char *text, struct gm_span word)
 {
     const char *const single[] = {words[GM_ROOM_START].word, words[GM_ROOM_EXACT].word, NULL};
@@ -849,16 +850,16 @@ void gm_room_close(struct gm_room *room)
     *room = (struct gm_room){0};
 }
 
-/* What a side gives at its places; where that is no number, the first such place is kept. */
+/* The values along a side; the first place with a value that is not finite is stored. */
 struct profile {
     const struct gm_room *room;
     const struct gm_room_line *line;
     struct bad *bad;
-    double t, reference; /* the temperature where none is given */
+    double t, reference; /* reference: the default temperature */
 };
 
 struct bad {
-    const struct gm_room_line *line; /* NULL: all are numbers */
+    const struct gm_room_line *line; /* NULL: all values are finite */
     enum gm_room_key key;
     double at[2];
 };
@@ -908,7 +909,7 @@ static bool locate(const struct gm_complex *complex, const double at[2], size_t 
     return false;
 }
 
-/* A carried quantity at the start, where it is not held. */
+/* A carried quantity at the start, at vertices that do not hold it. */
 static bool start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
                           const struct gm_complex *complex, const bool *fixed, double *value,
                           struct gm_fault *fault)
@@ -999,7 +1000,7 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, struc
     return true;
 }
 
-/* Whether conditions of a line `side:`, as in x = 0, y > 4, hold at a place. */
+/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place; false with a fault. */
 static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES], bool *holds,
                      struct gm_fault *fault)
 {
@@ -1029,13 +1030,14 @@ static bool holds_at(const struct gm_room *room, struct gm_span rest, const doub
     return true;
 }
 
-/* Whether a name means the edges that no line before names: unless a mesh that the room itself names has such a group. */
+/* Returns true if a name means the edges that no line before names: unless a mesh that the room itself
+   names has such a group. */
 static bool is_rest(const struct gm_room *room, const struct gm_triangulation *mesh, const char *name)
 {
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* The conditions of the line `side:` of that name; false: there is none. */
+/* The conditions of the line `side:` of that name; false if it is missing. */
 static bool find_side(const struct gm_room *room, const char *side, struct gm_span *conditions)
 {
     struct gm_text_line line;
@@ -1051,14 +1053,15 @@ static bool find_side(const struct gm_room *room, const char *side, struct gm_sp
     return false;
 }
 
-/* The groups of a line: those that the parameter of its name lists. */
+/* The groups of a line, which the parameter of its name lists. */
 static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
     const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
     return other ? other->text : line->name;
 }
 
-/* A boundary edge becomes one of line number `i`, from 0; false with a fault where it is one of another line. */
+/* A boundary edge becomes one of line number `i`, from 0; false with a fault if it belongs to another
+   line. */
 static bool take_edge(const struct gm_room *room, unsigned char *side, size_t i, struct gm_fault *fault)
 {
     const struct gm_room_line *line = &room->lines[i];
@@ -1152,7 +1155,7 @@ static double fall(const struct gm_flow *flow)
     return sqrt(fabs(flow->buoyancy) * (range[1] - range[0]) * sqrt(flow->complex->total_area));
 }
 
-/* What the room's lines say of a side at a time. */
+/* Makes a side from the room's lines at a time; false with a fault. */
 static bool make_side(struct profile *profile, struct gm_side *side, struct gm_fault *fault)
 {
     const struct gm_room_line *line = profile->line;
@@ -1220,7 +1223,7 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
     }
 }
 
-/* Has the flow's boundary give what the room says at a time. */
+/* Sets the flow's boundary from the room's lines at the time t. */
 static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
 {
@@ -1273,7 +1276,7 @@ void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, doubl
     gm_flow_close_now(now);
 }
 
-/* How far what is given at a moment goes. */
+/* Extends a flow's ranges by the values of one moment. */
 static void widen(struct gm_flow *flow, const struct gm_flow *now)
 {
     double low = flow->reference_temperature, high = low, least = 0, most = 0;
@@ -1291,8 +1294,8 @@ static void widen(struct gm_flow *flow, const struct gm_flow *now)
     flow->temperature_range[1] = fmax(flow->temperature_range[1], high + (most > 0 ? heated : 0));
 }
 
-/* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end, as
-   far as some moments tell. */
+/* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end,
+   sampled at some moments. */
 static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
 {
     enum { MOMENTS = 64 };
@@ -1301,7 +1304,7 @@ static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
     bool good = now != NULL;
     flow->give = give;
     for (int k = 1; good && k <= MOMENTS; k++) {
-        if (give(flow, until * k / MOMENTS, now)) { /* else the run tells when it is there */
+        if (give(flow, until * k / MOMENTS, now)) { /* else the run reports it at that time */
             flow->speed = fmax(flow->speed, now->speed);
             widen(flow, now);
         }

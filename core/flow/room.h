@@ -8,8 +8,8 @@
 #include "core/flow/rectangle.h"
 
 /* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/expression/lines.h), where
-   formulas may hold parameters, x, y, of an inlet s, which runs from 0 to 1 along its pieces (core/flow/boundary.h),
-   and of what the boundary gives and of the exact solution the time t. */
+   formulas may hold parameters, x, y, of an inlet s, which runs from 0 to 1 along its pieces
+   (core/flow/boundary.h), and of what the boundary gives and of the exact solution the time t. */
 
 enum gm_room_word {
     GM_ROOM_INLET,
@@ -37,12 +37,12 @@ enum gm_room_key {
     GM_ROOM_SPEED_X,
     GM_ROOM_SPEED_Y,
     GM_ROOM_TOTAL_PRESSURE,
-    GM_ROOM_CENTRE, /* of a parabola the largest speed */
+    GM_ROOM_CENTRE, /* largest speed of a parabola */
     GM_ROOM_KEYS
 };
 enum { GM_ROOM_NAME = 64, GM_LARGEST_ROOM = 1 << 16, GM_ROOM_SIDES = 255 };
 
-/* Between which its numbers lie, in files as on the command line. */
+/* The range of a number, in files as on the command line. */
 struct gm_room_range {
     double least, most;
 };
@@ -51,28 +51,28 @@ static const struct gm_room_range gm_room_dt = {1e-9, 1e6}, gm_room_until = {0, 
 
 struct gm_room_line {
     enum gm_room_word word;
-    char name[GM_ROOM_NAME]; /* of a group, or its own */
-    size_t place;            /* in the text */
+    char name[GM_ROOM_NAME]; /* name of a group, or of the line */
+    size_t place;            /* position in the text */
     struct gm_room_formula {
         size_t place;     /* 0: not given */
-        gm_node_id *part; /* what it is made of, itself the last */
+        gm_node_id *part; /* nodes of its subexpressions, the whole one last */
         size_t parts;
     } value[GM_ROOM_KEYS];
 };
 
 struct gm_room_parameter {
     char *name, *text, *meaning; /* text: as it is written; "": not given */
-    double value, low, high;     /* NAN: it is no number; no range is given */
-    size_t place;                /* in the text */
+    double value, low, high;     /* NAN: not a number; without a range */
+    size_t place;                /* position in the text */
 };
 
-/* The value that a parameter or a choice is to have: a number, or of words `text`. */
+/* The value that a caller gives to a parameter or a choice: a number, or words in `text`. */
 struct gm_room_given {
     const char *name, *text;
     double value;
 };
 
-/* What is known of a room when its flow is there, and a name in formulas that are read then. */
+/* The measures of a room's flow, which are names in formulas that are evaluated after it is made. */
 enum gm_room_measure {
     GM_ROOM_PERIMETER,
     GM_ROOM_AREA,
@@ -82,74 +82,75 @@ enum gm_room_measure {
 };
 
 struct gm_room {
-    char *text; /* that of the file, with the lines that hold for other words of a choice as comments */
+    char *text; /* text of the file; lines for other words of a choice are comments */
     size_t length;
     struct gm_formula graph;
-    double *scratch; /* a number for each node of it */
+    double *scratch; /* a number for each node of the graph */
     struct gm_room_line *lines;
     size_t count;
     struct gm_written_choices choices;
     struct gm_room_parameter *parameters;
     size_t parameter_count;
-    bool rectangular; /* its mesh is a rectangle, whose edges and strips are the values of these parameters */
+    bool rectangular; /* the mesh is a rectangle; its edges and strips are parameters */
     struct gm_rectangle rectangle;
     char edges[GM_ROOM_NAME], strips[GM_ROOM_NAME];
-    long multiple;                     /* of which edges are one; 0: of none */
+    long multiple;                     /* divisor of the number of edges; 0: none */
     double fixed[8];                   /* points of the rectangle that are vertices */
     double measures[GM_ROOM_MEASURES]; /* NAN: not known */
-    bool from_file; /* a parameter gives another mesh, and those that are called like sides name its groups */
+    bool from_file; /* a parameter names the mesh; parameters named like sides name its groups */
     enum gm_vertex_kind outlet;
     bool unsolved;                      /* the exact solution does not hold */
     char *title, *about, *mesh, *units; /* NULL: not given */
-    char *scalar;                       /* what pictures call what is carried; NULL: a concentration */
+    char *scalar;                       /* name of the carried scalar in pictures; NULL: a concentration */
     double viscosity, diffusivity, reynolds,
-        schmidt; /* NAN: not given; the former two are made of the latter */
-    bool timed;  /* something that the boundary gives holds t */
+        schmidt; /* NAN: not given; the first two follow from the others */
+    bool timed;  /* a boundary value depends on t */
     double dt, until;
     struct gm_room_range dt_range;
-    double buoyancy, reference_temperature; /* NAN: there is no heat */
+    double buoyancy, reference_temperature; /* NAN: without heat */
 };
 
-/* Reads a room's text; it is copied. False with a fault, whose sentence is empty where memory was refused. To
-   be closed in both cases. */
+/* Reads a room's text; it is copied. Returns false with a fault, whose sentence is empty when out of
+   memory; the caller closes it in both cases. */
 bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
                   size_t count, struct gm_fault *fault);
 void gm_room_close(struct gm_room *room);
 
-/* The value of line number `number`, from 0, of those with a word; false: there are fewer. */
+/* The value of line number `number`, from 0, of the lines that begin with `word`; false if there are
+   fewer. */
 bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value);
-/* Of the pieces of a line behind semicolons, the rest of the one that begins with a word; false: there is none. */
+/* The rest of the piece that begins with `word`, after a semicolon of a line; false without one. */
 bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
                     struct gm_span *value);
-/* A number that parameters alone make. */
+/* A number computed from parameters; false with a fault. */
 bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault);
 /* low .. high */
 bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
                       struct gm_fault *fault);
-/* NULL: there is none of that name. */
+/* Returns the parameter of that name, or NULL. */
 const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name);
 
-/* A line without a name; NULL: there is none. */
+/* The line with this word and without a name, or NULL. */
 const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room_word word);
-/* The value of a key at the part s of a side, the point x, y and the time t; its standard where it is not
-   given, or there is no line. */
+/* The value of a key at the part s of a side, the point x, y and the time t; `standard` if it is not
+   given, or without a line. */
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
                      const double at[4], double standard);
 
-/* Where a source or a probe is. */
+/* The position of a source or a probe. */
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2]);
 
-/* The flow of the room on its mesh, which it takes; the room has to outlive it. NULL with a fault; `boundary` says what
-   is wrong with its flows, where that is what is wrong. */
+/* The flow of the room on its mesh, which it takes; the room must outlive it. Returns NULL with a fault;
+   `boundary` names a fault of the flows. */
 struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault,
                              enum gm_boundary_fault *boundary);
 
-/* Why the boundary can give nothing at a time (struct gm_flow, give); the fault's sentence is empty where it
-   can, or where `boundary` says it. */
+/* Writes the reason why the boundary is not valid at a time (struct gm_flow, give); the fault's sentence
+   is empty if it is valid, or if `boundary` has the reason. */
 void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
                    enum gm_boundary_fault *boundary);
 
-/* The name of a hole, from 1: that of the group of its wall, or "hole1". */
+/* The name of a hole, from 1: the name of its wall's group, or "hole1". */
 const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,
                          char *name, size_t size);
 

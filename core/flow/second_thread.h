@@ -5,8 +5,8 @@
 #include <pthread.h>
 #include <stdbool.h>
 
-/* A piece of work that shares nothing it writes with what is done in the meantime, so that no bit depends on
-   where it is done: on another core, where there is one, else where it is begun. */
+/* Work on another core, if there is one, else on the caller's. It writes nothing that the caller uses in
+   the meantime, so no bit depends on the core. */
 struct gm_beside {
     void (*work)(void *data);
     void *data;
@@ -14,9 +14,10 @@ struct gm_beside {
     bool running;
 };
 
-/* alone: do it at once, as it is too short for a thread of its own. The struct must stay where it is. */
+/* Starts the work; `alone`: does it at once, as it is too short for a thread. The struct must not be
+   moved. */
 void gm_beside_begin(struct gm_beside *beside, bool alone);
-/* Returns when it is done. */
+/* Waits for the end of the work. */
 void gm_beside_end(struct gm_beside *beside);
 
 #endif

@@ -3,8 +3,8 @@
    wall being one unknown, rows of its vertices summed up (the pressure comes back to itself around the hole),
        omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices
    steps and steady states are equations R omega(z) = right on the rows I and O, R = C + B with the convection
-   C and B = shift star0 + viscosity K. The preconditioner knows C where omega is free (J: I without holes, and
-   O), by incomplete factors of R_JJ; what walls give back is solved without it:
+   C and B = shift star0 + viscosity K. The preconditioner knows C where omega is free (J: I without holes,
+   and O), by incomplete factors of R_JJ; what walls give back is solved without it:
        w_J ~ R_JJ^-1 r_J,   0 elsewhere,   z_O = w_O
        z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - C_IJ w_J - B_IO w_O)
    That is the better, the thinner the layer is that walls make in a step. */
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether omega of a vertex has an equation of its own. */
+/* Returns true if omega of a vertex has an equation of its own. */
 static bool has_row(const struct gm_flow_solver *solver, size_t v)
 {
     const struct gm_unknowns *unknowns = &solver->unknowns;
@@ -85,9 +85,9 @@ static bool take_memory(struct gm_flow_solver *solver)
     return true;
 }
 
-/* Nothing that inlet, outlet and lid drive is faster, on the whole, than the fastest of the flow without
-   vorticity that they make: beyond twice its square in the mean over the domain a state is an artefact.
-   Where nothing drives, heat does, or what drives changes, there is no such limit. */
+/* A flow driven by inlet, outlet and lid is on the whole no faster than the fastest point of their flow
+   without vorticity: a state above twice its square, in the mean over the domain, is an artefact. Without
+   a drive, with heat, or with a changing boundary there is no limit. */
 static double energy_limit(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;
@@ -152,8 +152,8 @@ bool gm_flow_solver_give(struct gm_flow_solver *solver, double t)
     return !solver->now || solver->now->give(solver->now, t, solver->now);
 }
 
-/* The larger factor first: while it is made there is room for the other one, which memory at its most does not
-   hold then. */
+/* The larger factor first: while it is made there is room for the other one, which memory at its most does
+   not hold then. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity)
 {
     const struct gm_unknowns *unknowns = &solver->unknowns;

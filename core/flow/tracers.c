@@ -21,7 +21,7 @@ static void coordinates(const struct gm_complex *complex, int triangle, const do
     w[0] = 1 - w[1] - w[2];
 }
 
-/* Walks from place->triangle towards the point; false where the walk leaves the mesh. */
+/* Walks from place->triangle towards the point; returns false if the walk leaves the mesh. */
 static bool locate(const struct gm_complex *complex, struct gm_flow_place *place, double w[3])
 {
     enum { FARTHEST = 1000 };
@@ -69,7 +69,7 @@ static bool move(const struct gm_complex *complex, const double *velocities, dou
             place->x[c] = start.x[c] + dt * u[c] * stage / 2;
         }
         if (!locate(complex, place, w)) {
-            /* it hit the boundary: a wall stops it where it was; through an open one it is gone */
+            /* it hit the boundary: a wall stops it; through an opening it leaves */
             *place = start;
             return false;
         }
@@ -81,7 +81,7 @@ static bool move(const struct gm_complex *complex, const double *velocities, dou
     return true;
 }
 
-/* Whether a triangle touches an open vertex of the outlet. */
+/* Returns true if a triangle touches an open vertex of the outlet. */
 static bool at_outlet(const struct gm_flow *flow, int triangle)
 {
     for (int k = 0; k < 3; k++) {
@@ -112,7 +112,7 @@ static void enter_with_air(const struct gm_flow *flow, double share, struct gm_f
     }
 }
 
-/* Where a tracer comes in, at its step: with the air of inlets or, every fourth of smoke, at a source. */
+/* Places an entering tracer, at its step: with the air of inlets or, every fourth of smoke, at a source. */
 static void enter(const struct gm_flow *flow, size_t tracer, int64_t step, struct gm_flow_place *place)
 {
     const bool smokes = flow->smoking_count > 0 && (tracer % 4 == 0 || flow->inflow.count == 0);
@@ -123,7 +123,7 @@ static void enter(const struct gm_flow *flow, size_t tracer, int64_t step, struc
         const double turn = 0.6180339887498949 * (double)step + 0.7548776662466927 * (double)tracer;
         enter_with_air(flow, fmod(turn, 1), place);
     }
-    locate(flow->complex, place, w); /* it comes near; the next step goes on from there */
+    locate(flow->complex, place, w); /* it comes near; the next step continues from there */
 }
 
 void gm_tracers_wait(const struct gm_flow *flow, double *y)
@@ -140,8 +140,8 @@ void gm_tracers_wait(const struct gm_flow *flow, double *y)
     }
 }
 
-/* How many tracers come in during a step: each stands for as much air as it would if they filled the room. Where
-   no air comes in, one does in two steps. */
+/* The number of tracers that enter during a step: each represents as much air as if they filled the room.
+   Without inflow, one tracer enters in two steps. */
 static double incoming(const struct gm_flow *flow, double dt)
 {
     const struct gm_inflow *inflow = &flow->inflow;

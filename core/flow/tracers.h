@@ -4,10 +4,10 @@
 
 #include "core/flow/flow.h"
 
-/* Carries the tracers of y for the time dt into those of out, by the midpoint rule with velocities
-   interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: nothing else is
-   read or written. Who leaves through an outlet comes back at the inflow, at a place that `step` and its
-   number decide. */
+/* Carries the tracers of y for the time dt into those of out, with the midpoint rule and velocities
+   interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: the flow does
+   not depend on them. A tracer that leaves through an outlet returns at the inflow, at a place given by
+   `step` and its number. */
 void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
                       const double *y, double *out);
 

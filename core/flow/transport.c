@@ -102,7 +102,8 @@ void gm_transport_precondition(const struct gm_transport *transport, const doubl
 {
     const struct gm_complex *complex = transport->complex;
     const int *start = complex->ring_start, *vertex = complex->ring_vertex;
-    /* each row waits for the one before: for a product and a difference, of an x that is taken before it is in memory */
+    /* each row waits for the one before: for a product and a difference, of an x that is taken before it is
+       in memory */
     double last = 0;
     for (int v = 0; v < (int)complex->vertices; v++) {
         double sum = r[v], next = 0;
@@ -140,8 +141,8 @@ static void apply_scaled(const struct gm_transport *transport, const bool *fixed
     }
 }
 
-/* Adds to x the solution of matrix d = r. Stops where the residual is below `small`; false where it does
-   not. */
+/* Adds to x the solution of matrix d = r. Stops when the residual is below `small`; returns false if it
+   stays above. */
 static bool bicgstab(const struct gm_transport *transport, const bool *fixed, double *r, double *x,
                      double small, double *scratch, unsigned long *iterations)
 {

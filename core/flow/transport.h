@@ -14,7 +14,7 @@ struct gm_transport {
     double *ring;     /* 2 * edges: row v in ring_start[v] .. ring_start[v + 1] */
 };
 
-/* What stands on the diagonal of boundary cells, q = d0' F being the flux out of the domain. */
+/* The diagonal of boundary cells, q = d0' F being the flux out of the domain. */
 enum gm_backflow {
     GM_BACKFLOW_ZERO, /* max(q, 0): what flows back in brings 0 with it */
     GM_BACKFLOW_OWN,  /* q: it brings the boundary's own value */
@@ -36,11 +36,11 @@ void gm_transport_factor(struct gm_transport *transport, const bool *fixed);
 void gm_transport_precondition(const struct gm_transport *transport, const double *r, double *x);
 
 /* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with that preconditioner (van
-   der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU where that gives up.
-   x: first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
+   der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU if that fails. x:
+   first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
 bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const double *right, double *x,
                         double *scratch, unsigned long *iterations);
-/* The same by LU, for steady states. */
+/* Solves the same rows with LU, for steady states. */
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);
 

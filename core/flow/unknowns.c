@@ -92,8 +92,8 @@ static double diagonal(const struct gm_complex *complex, int v)
     return sum;
 }
 
-/* Adds to the entry of column j in the row being made; `place`: of columns, below the row's start where there
-   is none. */
+/* Adds to the entry of column j in the row being made; `place`: entries of columns, below the row's start
+   if they have none. */
 static void add_entry(struct rows *rows, int *place, int row, int j, double value)
 {
     if (place[j] < rows->start[row]) {

@@ -5,14 +5,14 @@
 #include "core/flow/flow.h"
 #include "core/linear/cholesky.h"
 
-/* Which vertices have an unknown psi: E takes unknowns to vertices. Those of a hole's wall have one together,
-   behind all others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
-   taken off afterwards. */
+/* The unknowns psi: E takes unknowns to vertices. All vertices of a hole's wall share one, after all
+   others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
+   subtracted afterwards. */
 struct gm_unknowns {
     size_t count;
-    int *start;  /* count + 1: where the vertices of an unknown begin */
-    int *vertex; /* of the unknowns */
-    int *index;  /* of a vertex; -1: psi is given */
+    int *start;  /* [count + 1], index of an unknown's first vertex */
+    int *vertex; /* vertices of the unknowns */
+    int *index;  /* unknown of a vertex; -1: psi is given */
     bool closed;
 };
 
@@ -22,7 +22,8 @@ void gm_unknowns_close(struct gm_unknowns *unknowns);
 /* into[i] = the sum of values over the vertices of unknown i: E' values */
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into);
 
-/* The factor of K between unknowns, E' K E. NULL when memory is short or it is not positive definite. */
+/* The factor of K between unknowns, E' K E. Returns NULL when out of memory, or if it is not positive
+   definite. */
 struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns,
                                                const struct gm_flow *flow);
 

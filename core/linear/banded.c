@@ -48,8 +48,8 @@ static inline void subtract(double *restrict y, const double *restrict x, double
     }
 }
 
-/* y -= factor x after `other` has taken the place of y[pivot - 1]; nothing takes one where the pivot is 0. Written there
-   before, a single number would be waited for by the registers that are read next. */
+/* y -= factor x after `other` has taken the place of y[pivot - 1]; nothing takes one where the pivot is 0.
+   A single number that is written first would delay the registers that are read next. */
 static inline void subtract_swapped(double *restrict y, const double *restrict x, double factor, size_t count,
                                     double other, size_t pivot)
 {
@@ -74,8 +74,8 @@ static inline size_t without_zeros(const double *values, ptrdiff_t step, size_t 
     return count;
 }
 
-/* Unknowns of nodes leave the corners of a band empty, and without row exchanges its upper third is empty, too. Zeros
-   there are skipped, which can change only the sign of a 0. */
+/* Unknowns of nodes leave the corners of a band empty, and without row exchanges its upper third is empty,
+   too. Zeros there are skipped, which can change only the sign of a 0. */
 GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
 {
     const size_t n = matrix->n, band = matrix->band, step = matrix->stride - 1;
@@ -118,7 +118,8 @@ GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
     return true;
 }
 
-/* Numbers next to the diagonal that are held beside x, so that no column waits for what the one before has written. */
+/* Numbers next to the diagonal that are held beside x, so that no column waits for what the one before has
+   written. */
 enum { HELD = 3 };
 
 GM_CLONES void gm_banded_solve(const struct gm_banded *matrix, double *x)

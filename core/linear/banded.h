@@ -10,11 +10,11 @@
    dgbtrf stores it, so that both sweeps of a solve run along columns. */
 struct gm_banded {
     size_t n, band;
-    size_t stride;  /* of a column: 3 band + 1, of which `band` are for the fill-in of pivoting */
+    size_t stride;  /* stride of a column: 3 band + 1, of which `band` are for the fill-in of pivoting */
     double *values; /* stride * n */
     size_t *pivots; /* n */
     size_t *above,
-        *below; /* of the factors: entries of each column above and below the diagonal, without outer zeros */
+        *below; /* factors' entries of each column above and below the diagonal, without outer zeros */
 };
 
 /* Returns false when out of memory; then nothing is allocated. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. It is opened when a flow is: with its
-   LAPACK, BLAS and METIS it is a quarter of all that the program would load at every start. */
+/* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. It is opened when a flow is:
+   with its LAPACK, BLAS and METIS it is a quarter of all that the program would load at every start. */
 #include "core/linear/cholesky.h"
 
 #include <dlfcn.h>
@@ -20,7 +20,7 @@
 struct gm_cholesky {
     cholmod_common common;
     cholmod_factor *factor;
-    struct gm_supernodes triangle; /* of the factor's memory */
+    struct gm_supernodes triangle; /* the triangle, in the factor's memory */
     double *numbers;               /* the memory of the next two, and of the triangle's */
     double *permuted, *scratch;
 };
@@ -46,8 +46,8 @@ static bool find(void *library, const char *function, void *pointer)
     return found;
 }
 
-/* Makes the libraries use the program's allocator, which notes refusals. After a refusal CHOLMOD may continue with an
-   ordering that needs less memory and rounds differently. */
+/* Makes the libraries use the program's allocator, which notes refusals. After a refusal CHOLMOD may continue
+   with an ordering that needs less memory and rounds differently. */
 static bool let_libraries_take(void *library)
 {
 #if SUITESPARSE_MAIN_VERSION >= 7
@@ -112,8 +112,9 @@ static size_t largest_panel(const struct gm_supernodes *triangle)
 }
 
 /* Stores the factor in half the memory or less, which halves the time of a solve. The test is the loss of the
-   solution of A x = 1, which consists mostly of the softest modes of a Laplacian. If a twentieth of it is lost, an
-   iteration takes 8 % more steps, for a third 60 %. Returns false if too much is lost; the factor is then unusable. */
+   solution of A x = 1, which consists mostly of the softest modes of a Laplacian. If a twentieth of it is
+   lost, an iteration takes 8 % more steps, for a third 60 %. Returns false if too much is lost; the factor is
+   then unusable. */
 static bool narrow(struct gm_cholesky *cholesky)
 {
     const double good_enough = .25;
@@ -233,7 +234,8 @@ bool gm_lu_solve(size_t n, const int *start, const int *column, const double *va
         return false;
     }
     suite.umfpack_di_defaults(control);
-    /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this size on */
+    /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this
+       size on */
     control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
     /* the rows are the columns of the transpose */
     bool good =

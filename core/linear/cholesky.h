@@ -10,24 +10,24 @@
    allocates nothing, and its bits do not depend on a BLAS but through the factor's. */
 struct gm_cholesky;
 
-/* Opens the libraries on the first call. Returns NULL, or why they cannot be opened. Without them no matrix is
-   factored. */
+/* Opens the libraries on the first call. Returns NULL, or why they cannot be opened. Without them no matrix
+   is factored. */
 const char *gm_cholesky_missing(void);
 
-/* A rough factor is a preconditioner. It is stored in single precision or, if it is large and the solution loses
-   little, in 16-bit integers. */
+/* A rough factor is a preconditioner. It is stored in single precision or, if it is large and the solution
+   loses little, in 16-bit integers. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 
-/* Rows start[i] .. start[i + 1] of columns, those <= i. NULL when memory is short or the
-   matrix is not positive definite. */
+/* Factors a matrix: row i has the columns column[k] <= i, start[i] <= k < start[i + 1]. NULL when out of
+   memory or not positive definite. */
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision);
 void gm_cholesky_close(struct gm_cholesky *cholesky);
 /* b, x: n; may be the same */
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
 
-/* Solves A x = b once by sparse LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as above,
-   all columns. Allocates. False when memory is short or A is singular. */
+/* Solves A x = b once by sparse LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as in
+   gm_cholesky_open, with all columns. Allocates. False when out of memory or if A is singular. */
 bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
                  double *x);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small complex matrices. The phi functions of a number follow from the exponential where that loses nothing,
+/* Small complex matrices. The phi functions of a number follow from the exponential if that loses nothing,
    and of a matrix by Taylor's formula of z / 2^s, doubled s times:
        phi_k(2z) = 2^-k [phi_0(z) phi_k(z) + sum_{j=1..k} phi_j(z) / (k-j)!]
    M. Hochbruck & A. Ostermann, Acta Numerica 19 (2010) 209; B. Skaflestad & W.M. Wright, Appl. Numer. Math.

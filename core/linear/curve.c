@@ -6,9 +6,9 @@
 
 #include "core/linear/fourier.h"
 
-/* The trapezoidal rule, which on a closed curve converges faster than any power of `count`. A chord is the mean
-   derivative at its ends times a length that is exact for every ellipse. If this differs by a hundredth of the
-   curve's length, the area of a pendulum's disc of 8 and more points has an error of 1e-6. */
+/* The trapezoidal rule, which on a closed curve converges faster than any power of `count`. A chord is the
+   mean derivative at its ends times a length that is exact for every ellipse. If this differs by a hundredth
+   of the curve's length, the area of a pendulum's disc of 8 and more points has an error of 1e-6. */
 double gm_curve_area(const double complex *points, const double complex *derivatives, size_t count)
 {
     const double most = 0.01, step = 2 * M_PI / (double)count, chord = tan(step / 2);

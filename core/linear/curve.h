@@ -5,14 +5,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Signed area within a closed smooth curve, given by `count` points x + i y at equal distances of a parameter
-   from 0 to 2 pi, and its derivatives there. NaN where points and derivatives part: too few points are left
-   between two bends. */
+/* Signed area within a closed smooth curve, given by `count` points x + i y at equal distances of a
+   parameter from 0 to 2 pi, and its derivatives there. NaN if points and derivatives disagree: too few
+   points are between two bends. */
 double gm_curve_area(const double _Complex *points, const double _Complex *derivatives, size_t count);
 #define GM_UNRESOLVED_EDGE "the members no longer resolve the edge of the disc"
 
-/* Points become derivatives: of the trigonometric polynomial through them, whose alternating part has none there.
-   False: out of memory. */
+/* Replaces points by derivatives of the trigonometric polynomial through them, without its alternating
+   part. Returns false when out of memory. */
 bool gm_curve_differentiate(double _Complex *points, size_t count);
 
 #endif

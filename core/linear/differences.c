@@ -10,8 +10,9 @@
 
 enum { DISTANCES = 4 };
 
-/* Fills `table`, DISTANCES rows of which the last is the slope, from `widest` on; *change is what the last step of the
-   extrapolation still changed, beside the largest slope. False if the map fails. `at` and `to` are scratch. */
+/* Fills `table`, DISTANCES rows of which the last is the slope, from `widest` on; *change is the change by
+   the extrapolation's last step, relative to the largest slope. Returns false if the map fails. `at` and
+   `to` are scratch. */
 static bool extrapolate(gm_map *map, const void *context, size_t from_count, const double *from,
                         const double *direction, size_t to_count, double widest, double *at, double *to,
                         double *table, double *change)

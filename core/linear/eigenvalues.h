@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The eigenvalues of a real matrix, n * n row by row, which is destroyed: n real and n imaginary parts. False
-   where memory is short or they are not found. */
+/* The eigenvalues of a real matrix, n * n row by row, which is destroyed: n real and n imaginary parts.
+   Returns false when out of memory, or if they are not found. */
 bool gm_eigenvalues(double *matrix, size_t n, double *real, double *imaginary);
 
 #endif

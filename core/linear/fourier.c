@@ -22,7 +22,7 @@ struct gm_fourier {
     size_t count;
     gsl_fft_complex_wavetable *table;
     gsl_fft_complex_workspace *space;
-    size_t length;                    /* of the convolution, a power of 2; 0: no convolution */
+    size_t length;                    /* length of the convolution, a power of 2; 0: no convolution */
     double complex *chirp;            /* w, count of them */
     double complex *kernel, *scratch; /* the transform of conj(w); length */
 };

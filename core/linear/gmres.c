@@ -37,8 +37,8 @@ static void add(double *y, double factor, const double *x, size_t n)
     }
 }
 
-/* One cycle on the residual r: adds its correction to x. The residual's norm by the recurrence. Memory behind
-   the vectors that are made is not touched. */
+/* One cycle on the residual r: adds its correction to x. Returns the residual's norm from the recurrence.
+   Memory after the computed vectors is not touched. */
 static double cycle(const struct gm_system *system, const double *r, double *x, double small, double *scratch,
                     unsigned long *iterations)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sweeps, and Newton's method with halved steps (Deuflhard, Newton Methods for Nonlinear Problems (2004), 3.1). */
+/* Sweeps, and Newton's method with halved steps (Deuflhard, Newton Methods for Nonlinear Problems (2004),
+   3.1). */
 #include "core/linear/iteration.h"
 
 bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implicit equations z = G(z) of a few unknowns: by sweeps z := G(z), and by Newton's method. The loops over kernels
-   include this too, so what they need of it is inline. */
+/* Implicit equations z = G(z) of a few unknowns: by sweeps z := G(z), and by Newton's method. The loops over
+   kernels include this too, so what they need of it is inline. */
 #ifndef GM_CORE_LINEAR_ITERATION_H
 #define GM_CORE_LINEAR_ITERATION_H
 
@@ -12,8 +12,9 @@
 #include "core/linear/settled.h"
 #include "core/problem.h"
 
-/* Solves a x = r for `columns` right sides, a an n * n matrix by rows, by Gaussian elimination with partial pivoting.
-   Each x overwrites its r; a becomes what elimination left above and on its diagonal. False if a is singular. */
+/* Solves a x = r for `columns` right sides, a an n * n matrix by rows, by Gaussian elimination with
+   partial pivoting. Each x overwrites its r; a becomes the upper triangle of the elimination. Returns
+   false if a is singular. */
 static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n, double *restrict a,
                                                                        size_t columns, double *restrict r)
 {
@@ -63,14 +64,14 @@ static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n,
     return true;
 }
 
-/* The same of one right side. */
+/* Solves a x = r for one right side. */
 static inline bool gm_eliminate(size_t n, double *a, double *r)
 {
     return gm_eliminate_columns(n, a, 1, r);
 }
 
-/* residual := G(z) - z, and matrix := 1 - G'(z) by rows, or both times the same matrix. Adds to *scale the size with
-   which changes are compared. Returns false if G or G' has no value at z. */
+/* residual := G(z) - z, and matrix := 1 - G'(z) by rows, or both times the same matrix. Adds to *scale the
+   size with which changes are compared. Returns false if G or G' has no value at z. */
 typedef bool gm_linear_equations(void *data, const double *z, double *residual, double *matrix,
                                  double *scale);
 
@@ -79,12 +80,13 @@ typedef bool gm_swept_equations(void *data, const double *z, double *next, doubl
 
 struct gm_implicit_equations {
     size_t size; /* unknowns */
-    void *data;  /* of the two functions */
+    void *data;  /* data of the two functions */
     gm_swept_equations *sweep;
     gm_linear_equations *linear; /* NULL: sweeps alone */
     size_t counted; /* the first of these, whose changes Newton's method compares; sweeps compare all */
-    /* If z are increments of stages y + z of n components each, Newton's method ends by gm_newton_is_settled. */
-    const double *y; /* NULL: z are others */
+    /* If z are increments of stages y + z of n components each, Newton's method ends by
+       gm_newton_is_settled. */
+    const double *y; /* NULL: z are not increments */
     size_t n;
     /* Otherwise it ends by gm_is_settled, as sweeps do, or when a change is at most `least` of |z|. */
     double least, roundoff; /* the level of round-off is this part of the scale */
@@ -98,19 +100,19 @@ static inline size_t gm_newton_scratch(size_t size)
     return size * (size + 3);
 }
 
-/* Sweeps from z to the solution. False: they do not lead there, or contract too slowly where Newton's method may be
-   taken; progress says why. */
+/* Sweeps from z to the solution. Returns false if they diverge, or contract too slowly and `linear` is
+   given; *progress has the reason. */
 bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
                      struct gm_progress *progress);
 
-/* The same by Newton's method. */
+/* Solves the equations by Newton's method. */
 bool gm_newton_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
                      struct gm_progress *progress);
 
 /* ---- what follows is inline for the loops over kernels ---- */
 
-/* The sum of |h a_ij J_cd Y_jd|, the terms of h f that rounding acts on, from the matrix I - h a_ij J(Y_j) and the
-   stages Y_j = y + z_j, of n components each. */
+/* The sum of |h a_ij J_cd Y_jd|, the terms of h f that rounding acts on, from the matrix I - h a_ij J(Y_j)
+   and the stages Y_j = y + z_j, of n components each. */
 static inline double gm_rounding_of_stages(size_t size, size_t n, const double *matrix, const double *y,
                                            const double *z)
 {
@@ -145,8 +147,8 @@ static inline enum gm_obstacle gm_obstacle_of(size_t entries, const double *matr
 
 enum { GM_SWEEPS_MOST = 150, GM_NEWTON_STEPS = 50, GM_NEWTON_HALVINGS = 40 };
 
-/* z := z + change, or a part of that where the residual there would be larger than *off; of a small change it may be.
-   The residual, *off its 1-norm, and the matrix are those there. */
+/* z := z + change, or a part of that where the residual there would be larger than *off; of a small change it
+   may be. The residual, *off its 1-norm, and the matrix are those there. */
 static inline __attribute__((always_inline)) bool
 gm_newton_move(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
                double *restrict scratch, double *restrict z, bool small, double *off, double *scale)

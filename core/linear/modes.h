@@ -13,7 +13,7 @@ struct gm_modes {
     struct gm_fourier *fourier;
 };
 
-/* False: out of memory. To be closed in both cases. */
+/* Returns false when out of memory; the caller closes it in both cases. */
 bool gm_modes_open(struct gm_modes *modes, size_t points, size_t fields);
 void gm_modes_close(struct gm_modes *modes);
 
@@ -25,7 +25,7 @@ static inline size_t gm_modes_half(size_t points)
 
 /* sum_j y_j exp(-2 pi i j k / points) of every field */
 void gm_modes_forward(const struct gm_modes *modes, const double *y, double _Complex *waves);
-/* And back, from the modes that are their own; the waves are destroyed. */
+/* The inverse of gm_modes_forward, from modes 0 .. points / 2; the waves are destroyed. */
 void gm_modes_back(const struct gm_modes *modes, double _Complex *waves, double *y);
 
 #endif

@@ -43,8 +43,8 @@ void gm_supernodes_invert_diagonal(struct gm_supernodes *triangle)
     }
 }
 
-/* Writes `count` doubles below a diagonal as integers and returns their unit, for which the largest integer has its
-   largest value. Here and below the output overwrites doubles that are not needed any more. */
+/* Writes `count` doubles below a diagonal as integers and returns their unit, for which the largest integer
+   has its largest value. Here and below the output overwrites doubles that are not needed any more. */
 static double make_whole(size_t count, const double *below, double diagonal, char *into)
 {
     double most = 1e-9 * diagonal;

@@ -171,7 +171,7 @@ static struct reach reach(const struct gm_mesh *mesh, double r, double d)
     return mesh->reach == GM_REACH_LIMITED ? limited(square, limit, r, d) : tempered(square, limit, r, d);
 }
 
-/* What regularisation takes off the part of ell that grows with the rise. */
+/* Subtracts the regularisation from the part of ell that grows with the rise. */
 static void regularise(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
     const double square = mesh->alpha * mesh->alpha;

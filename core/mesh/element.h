@@ -27,7 +27,7 @@ struct gm_elements {
     double *force_d;                       /* dl/dX1 = -dl/dX0 */
     double *momentum_u0, *momentum_u1;     /* dl/du; dl/dV is -slope times them */
     double *ell, *ell_y0, *ell_y1, *ell_d; /* ell and its gradient; d ell/dX1 = -d ell/dX0 = ell_d */
-    double *rate;                          /* of ell: its gradient times the velocity */
+    double *rate;                          /* rate of ell: its gradient times the velocity */
     double *bend_y0, *bend_y1, *bend_d; /* the Hessian of ell times the velocity, as the gradient is given */
 };
 
@@ -37,21 +37,21 @@ struct gm_element_matrices {
     double mixed[4][4];   /* d2l / dzdot dz */
     double stiff[4][4];   /* d2l / dz dz */
     double hessian[4][4]; /* d2 ell / dz dz */
-    double gradient[4];   /* of ell */
+    double gradient[4];   /* gradient of ell */
     double bend[4];       /* hessian zdot */
 };
 
-/* False: out of memory. The ends' places and values are set once and for all. */
+/* Returns false when out of memory. Sets the ends' places and values, which never change. */
 bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh);
 void gm_elements_close(struct gm_elements *stage);
 
 /* Fills the nodes from a canonical state. */
 void gm_elements_place(struct gm_elements *stage, const double *state);
 
-/* From the nodes: geometry, forces, momenta. False if a width is not positive (the mesh is tangled) or
-   anything is not finite; the rest is void then. */
+/* Computes geometry, forces and momenta from the nodes. Returns false if a width is not positive (the mesh
+   is tangled) or a value is not finite; the rest is void then. */
 bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh);
-/* Then: ell and what comes of it. */
+/* Computes ell and its derivatives. */
 void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh);
 
 /* Both only at the places y, X: true if all widths are positive. */

@@ -12,9 +12,9 @@
 
    Canonical state, n = 4 N components of one member, N = points between the ends: the field y_1 ... y_N at
    the nodes, the nodes' places X_1 ... X_N, and the velocities dy/dt (following the node) and dX/dt of both.
-   Every strategy starts from it and ends every step with it, so one may take over from another. A state of a
+   Every strategy starts from it and ends every step with it, so a run may change its strategy. A state of a
    moving mesh meets the constraint, and its velocities the constraint's derivative; of a uniform mesh, X is
-   uniform and dX/dt = 0. Where a scheme is handed a state of the other kind it interpolates the field and its
+   uniform and dX/dt = 0. A scheme that receives a state of the other kind interpolates the field and its
    velocity phi_t = dy/dt - phi_X dX/dt onto a mesh of its own kind. */
 
 struct gm_potential {
@@ -32,7 +32,7 @@ struct gm_potential {
 extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
 extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
-/* What a mesh equidistributes: every element has the same
+/* The mesh density that a mesh equidistributes: every element has the same
        ell = alpha^2 R + d^2 sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2),
    d its width, y0 and y1 the field at its ends, r its rise, and R = r^2 as a rule. alpha alone: generalised
    arclength (their eq. 28). curvature alone: the error of linear interpolation, as phi_XX is W'(phi) but for
@@ -47,7 +47,7 @@ enum gm_mesh_reach { GM_REACH_FULL, GM_REACH_LIMITED, GM_REACH_TEMPERED };
 
 struct gm_mesh {
     size_t points;
-    double first, length; /* where it begins */
+    double first, length; /* left end and length */
     double left, right;   /* the field at both ends */
     double alpha, curvature;
     enum gm_mesh_reach reach;
@@ -55,11 +55,12 @@ struct gm_mesh {
     const struct gm_potential *potential;
 };
 
-/* Of those, which one is meant: arclength, the error of interpolation, half of each, or arclength regularised. */
+/* The mesh density: arclength, the error of interpolation, half of each, or arclength regularised in one
+   of two ways. */
 enum gm_mesh_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED };
 
-/* Sets alpha, curvature, reach and steepest. `bend` times alpha^2 is the curvature with which the first two densities
-   have the same greatest value; the regularised ones begin to be at the slope `steepest`. */
+/* Sets alpha, curvature, reach and steepest. `bend` times alpha^2 is the curvature with which the first two
+   densities have the same greatest value; the regularised ones begin to be at the slope `steepest`. */
 void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
                    double bend);
 
@@ -70,8 +71,8 @@ typedef void gm_mesh_profile(const void *context, double x, double *value, doubl
 struct gm_moving_mesh {
     /* the mesh for the problem's parameters */
     void (*describe)(const struct gm_problem *problem, struct gm_mesh *mesh);
-    gm_mesh_profile *start; /* of the problem's parameters */
-    /* the solution, of them too; NaN where none is known */
+    gm_mesh_profile *start; /* the start, from the problem's parameters */
+    /* the exact solution for these parameters; NaN if it is not known */
     double (*exact)(const void *parameters, double x, double t);
 };
 
@@ -88,8 +89,8 @@ enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme);
 
 /* Writes the canonical state of a profile on a mesh of that kind: nodes by continuation from the uniform
-   mesh, velocities consistent with the constraint (their section 5.2). False: no mesh was found, or out of
-   memory. */
+   mesh, velocities consistent with the constraint (their section 5.2). Returns false if no mesh was found,
+   or when out of memory. */
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state);
 
@@ -103,8 +104,8 @@ double gm_mesh_energy(const struct gm_mesh *mesh, const double *state);
 double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state);
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state);
 
-/* Of the run's scheme at its last step: the largest Lagrange multiplier (0: it has none), and how many
-   matrices it has factored since it was started. */
+/* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of
+   matrices factored since the start. */
 double gm_mesh_multiplier_norm(const struct gm_run *run);
 double gm_mesh_factorisations(const struct gm_run *run);
 

@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-/* The rows or columns of z = (y0, X0, y1, X1) that there are, and how many: the ends are fixed and have none. */
+/* The rows or columns of z = (y0, X0, y1, X1) that there are, and how many: the ends are fixed and have
+   none. */
 static inline size_t locate(const struct gm_assembly *assembly, struct gm_places places, size_t entries[4],
                             size_t indices[4])
 {
@@ -101,7 +102,7 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
     }
 }
 
-/* The field at the nodes where they are now, if it is a function of the place; true if all widths are
+/* The field at the nodes in their current places, if it is a function of the place; true if all widths are
    positive. */
 static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                  const void *context)

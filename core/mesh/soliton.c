@@ -15,7 +15,7 @@ static double encounter(const struct gm_soliton *soliton)
     return soliton->length / 5;
 }
 
-/* Where the right one of two phi^4 kinks is at the start. */
+/* The position of the right one of two phi^4 kinks at the start. */
 static double kink_place(const struct gm_soliton *soliton)
 {
     return soliton->velocity * encounter(soliton);
@@ -122,7 +122,7 @@ void gm_soliton_profile(const void *context, double x, double *value, double *sl
     *rate = -velocity * *slope;
 }
 
-/* How long a soliton takes from the middle of a box to its wall. */
+/* The time that a soliton takes from the middle of a box to its wall. */
 static double passage(const struct gm_soliton *soliton, double box)
 {
     const double gamma = lorentz(soliton), a = gamma * box / 2;

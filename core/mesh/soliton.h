@@ -26,8 +26,8 @@ double gm_soliton_alpha(const struct gm_soliton *soliton);
 /* The field at the start, a gm_mesh_profile of a struct gm_soliton. */
 void gm_soliton_profile(const void *soliton, double x, double *value, double *slope, double *rate);
 
-/* The solution, exact but for what an image of the soliton behind a wall contributes there (about 1e-12); NaN
-   where none is known: of phi^4 once a kink has come near a wall or another kink. Their eq. 168. */
+/* The solution, exact up to the contribution of images of the soliton beyond the walls (about 1e-12); NaN
+   if none is known, as for phi^4 after a kink has come near a wall or another kink. Their eq. 168. */
 double gm_soliton_exact(const struct gm_soliton *soliton, double x, double t);
 
 /* The energy of the solitons on the line. */

@@ -10,25 +10,26 @@
 
 enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
-static const double tolerance = 1e-11; /* of a change of the unknowns */
-static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
+static const double tolerance = 1e-11; /* change of unknowns, when solved */
+static const double contracts = 0.2;   /* the ratio of changes that gives the remaining error */
 
 enum {
-    MEMORY_PAST,       /* how many steps are remembered, at most 6 */
-    MEMORY_STAMP,      /* factorisations so far: a name for the present factors */
-    MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors are made again */
+    MEMORY_PAST,       /* number of stored steps, at most 6 */
+    MEMORY_STAMP,      /* number of factorisations: names the current factors */
+    MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors must be recomputed */
     MEMORY_MULTIPLIER, /* largest multiplier of the last step */
     MEMORY_STEP,       /* length of the step that the factors were made for */
-    MEMORY_HEAD,       /* then 6 past unknowns, newest first, then state and unknowns of the factors */
+    MEMORY_HEAD,       /* offset of 6 past unknowns, newest first, then the factors' state and unknowns */
 };
 
-/* Of a change that solves the equations: what round-off makes need not be smaller. */
+/* The change below which the equations are solved: round-off need not be smaller. */
 static double enough(const struct gm_mesh_solver *solver)
 {
     return fmax(tolerance, 4 * solver->noise);
 }
 
-/* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
+/* The limit of a change that no longer shrinks: multipliers carry noise, velocities the round-off of
+   places over dt. */
 static double stagnation(const struct gm_mesh_solver *solver)
 {
     return fmax(1e-9, 10 * solver->noise);
@@ -163,8 +164,8 @@ static double *past(double *memory, size_t n, size_t back)
     return memory + MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. The steps k and order - k have
-   the same binomial coefficient, and signs alternate. */
+/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. The steps k and
+   order - k have the same binomial coefficient, and signs alternate. */
 static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t order)
 {
     static const double binomial[PAST + 1][PAST / 2 + 1] = {
@@ -202,7 +203,7 @@ static bool factor(struct gm_mesh_solver *solver)
     return gm_banded_factor(&solver->matrix);
 }
 
-/* Of the step from solver->state. */
+/* Factors the step's matrix and stores its data. False if singular. */
 static bool refresh(struct gm_mesh_solver *solver, double *memory)
 {
     const size_t n = solver->matrix.n;
@@ -214,8 +215,8 @@ static bool refresh(struct gm_mesh_solver *solver, double *memory)
     return factor(solver);
 }
 
-/* Makes the factors that the memory names, if others or none are at hand. Where they cannot be made, the step makes new
-   ones. */
+/* Makes the factors that the memory names, unless the solver has them. If they cannot be made, the step
+   makes new ones. */
 static void restore(struct gm_mesh_solver *solver, double *memory)
 {
     if (memory[MEMORY_STAMP] != solver->stamp) {
@@ -271,7 +272,7 @@ static enum outcome iterate(struct gm_mesh_solver *solver, double *memory, struc
         progress->iterations++;
         const double change = move(solver, solver->residual, 1);
         const double ratio = change / before;
-        /* what is left after this change is about ratio / (1 - ratio) of it */
+        /* the error after this change is about ratio / (1 - ratio) of it */
         const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(solver);
         if (stands || change < enough(solver) ||
             (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {
@@ -346,8 +347,8 @@ static void remember(struct gm_mesh_solver *solver, double *memory)
     memory[MEMORY_PAST] = fmin(PAST, memory[MEMORY_PAST] + 1);
 }
 
-/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products beside them,
-   and remembers. */
+/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products
+   beside them, and stores both in the memory. */
 static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const double *state, double h,
                             struct gm_progress *progress)
 {

@@ -6,31 +6,30 @@
 #include "core/mesh/tableau.h"
 #include "core/scheme.h"
 
-/* The steps of all schemes on meshes: the same number of unknowns at every node, node by node, so that matrices are
-   banded. A strategy says which equations they meet.
+/* The steps of all schemes on meshes: the same number of unknowns at every node, node by node, so that
+   matrices are banded. A strategy defines their equations.
 
    The LU factors are kept over iterations and steps until they converge too slowly. They are derived data:
    what they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed
-   makes the same factors again and goes on with the same bits. First guesses are extrapolated from the last
+   recomputes the same factors and continues with the same bits. First guesses are extrapolated from the last
    six steps. */
 
 struct gm_mesh_solver;
 
 struct gm_mesh_strategy {
     enum gm_mesh_kind kind;
-    size_t unknowns; /* at a node, of each stage */
-    size_t
-        projected; /* unknowns at a node in the projection of momenta to velocities, as gm_nodes_project has them */
-    /* of a change of an unknown of a node in the test of convergence; NULL: 1 */
+    size_t unknowns;  /* unknowns per node and stage */
+    size_t projected; /* unknowns per node in gm_nodes_project */
+    /* weight of a change of a node's unknown in the test of convergence; NULL: 1 */
     double (*weight)(size_t stages, size_t unknown, double step);
     /* the unknowns of a scheme that has no past */
     void (*guess)(const struct gm_mesh_solver *solver, double *unknowns);
     /* false: a cell is not positive */
     bool (*residual)(struct gm_mesh_solver *solver, const double *unknowns, double *residual);
-    /* adds the derivative of the residual by the unknowns of one element, where they were at the last call of it */
+    /* adds the derivative of the residual by the unknowns of one element, at the unknowns of its last call */
     void (*jacobian)(struct gm_mesh_solver *solver, const struct gm_assembly *assembly);
-    /* The end of the step: the elements there, with the momenta at them in solver->motion; and the largest multiplier.
-       NULL: the mesh is tangled. */
+    /* The end of the step: the elements there, with the momenta at them in solver->motion; and the largest
+       multiplier. NULL: the mesh is tangled. */
     struct gm_elements *(*end)(struct gm_mesh_solver *solver, double *multiplier);
 };
 
@@ -47,7 +46,7 @@ struct gm_mesh_solver {
     struct gm_mesh mesh;
     const struct gm_mesh_row *row;
     size_t stages, per_node;
-    /* of the step that is solved: its length, its start, and the momenta there, y and X node by node */
+    /* the current step: its length, its start, and the momenta there, y and X node by node */
     double h;
     const double *state;
     double *momenta;
@@ -55,22 +54,22 @@ struct gm_mesh_solver {
     struct gm_elements stage[GM_STAGES];
     struct gm_banded matrix, projection;
     struct gm_banded places; /* N, for the mesh at the end */
-    double stamp;            /* of the factors it holds; 0: none */
+    double stamp;            /* identifies the factors; 0: none */
     double noise;            /* change of the unknowns that round-off alone makes */
     double weights[3 * GM_STAGES];
     double *unknowns, *residual, *trial;
     double *motion;                   /* at the end: momenta, then velocities */
     double *forces[GM_STAGES];        /* y and X, node by node */
-    double *slack, *share[GM_STAGES]; /* of the elements, of unknowns at the nodes (gm_nodes_spread) */
+    double *slack, *share[GM_STAGES]; /* arrays of elements, from unknowns at the nodes (gm_nodes_spread) */
 };
 
 /* The largest of these unknowns of a node, numbered from 0. */
 double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown);
 
-/* What the families have in common. */
+/* The functions that all families share. */
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_mesh_restart(const struct gm_task *task);
-/* In place if task->out is task->y. */
+/* Makes steps, in place if task->out is task->y. */
 struct gm_progress gm_mesh_loop(const struct gm_task *task);
 void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void gm_mesh_workspace_close(void *workspace);

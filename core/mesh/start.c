@@ -7,7 +7,7 @@
 #include "core/mesh/nodes.h"
 
 /* Continuation: the density's parameters grow from 0, the uniform mesh, to their values in this many steps
-   (Tyranowski & Desbrun 2019, section 5.2), which are halved where they are too long. */
+   (Tyranowski & Desbrun 2019, section 5.2), which are halved when they are too long. */
 enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
 
 void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,

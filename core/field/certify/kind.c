@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of fields in one space dimension as the hall sees it: its facets, the families of schemes that
-   need them, and how those are certified. */
+/* The kind of fields in one space dimension: its facets, the families of schemes that need them, and their
+   certification. */
 #include "core/field/field.h"
 
 #include <math.h>
@@ -88,8 +88,8 @@ static void exact_heat(const struct gm_problem *problem, double x, double t, dou
     values[0] = gm_heat_exact(gm_heat_of(problem), false, x, t);
 }
 
-/* Frames of reference: the same solution from a moving one, the value at node i that the original frame sees of a run,
-   and the defect of one step under a symmetry, NaN where there is none. */
+/* Frames of reference: the same solution from a moving one, the value at node i that the original frame
+   sees of a run, and the defect of one step under a symmetry, NaN without one. */
 struct frames {
     const void *parameters;
     double (*seen)(const struct gm_run *run, size_t i);
@@ -165,18 +165,19 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
     return scheme->family == &gm_family_schroedinger_nodes;
 }
 
-/* An equation with an exact solution to start from, the runs that the order is measured by, and what else is measured;
-   of several rows for an equation a scheme takes the first that is meant for it. */
+/* An equation with an exact solution to start from, the runs that the order is measured by, and what else is
+   measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
     const struct gm_problem *problem;
-    const char *file; /* of share/subjects, a multisymplectic form, in the place of that */
+    const char *file; /* file of share/subjects with a multisymplectic form, instead of `problem` */
     const void *parameters;
     void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
-    size_t numbers; /* of the exact solution at a node; 0: one, of which the state holds two levels */
+    size_t numbers; /* numbers of the exact solution at a node; 0: one, with two levels in the state */
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;
     double dt, until;
-    int power; /* dt falls as this power of dx, and errors give the order in space and time; 0: order in time alone */
+    int power; /* dt falls as this power of dx, and errors give the order in space and time; 0: order in time
+                  alone */
     enum gm_claim claim;
     double (*kept)(const struct gm_problem *problem, const double *y);
     const struct frames *frames;
@@ -205,8 +206,9 @@ struct equation {
 #define FRONT .frame = GM_FRAME_MOVING, .viscosity = 0.1, .a = -0.3, .d = 0.2
 #define KERNELS .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .age = 0.25
 
-/* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring that the
-   breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by less than a quarter. */
+/* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring
+   that the breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by
+   less than a quarter. */
 static const struct equation equations[] = {
     {SINE_GORDON, .meant = is_above_second_order, .line = {.points = 1200, .dx = 0.05, .first = -30},
      .dt = 0.025},
@@ -262,7 +264,7 @@ static struct gm_problem problem_of(const struct equation *equation, const void 
     return problem;
 }
 
-/* The exact state at 0, or the levels 0 and dt, malloc'ed; NULL where memory is short. */
+/* The exact state at 0, or the levels 0 and dt, which the caller frees; NULL when out of memory. */
 static double *start_of(const struct equation *equation, const struct gm_problem *problem, double dt)
 {
     const size_t points = problem->line.points;
@@ -300,8 +302,8 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
     return largest;
 }
 
-/* The difference between a run and one from the moving frame, or the defect of a step under a symmetry where that is
-   larger; INFINITY for a failure. */
+/* The difference between a run and one from the moving frame, or the defect of a step under a symmetry if
+   it is larger; INFINITY for a failure. */
 static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
                            const double *y)
 {
@@ -391,7 +393,7 @@ struct read {
     struct gm_problem problem;
 };
 
-/* False: out of memory. To be closed in both cases. */
+/* Returns false when out of memory; the caller closes it in both cases. */
 static bool open_file(struct read *read, struct equation *equation)
 {
     const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, equation->file);
@@ -440,7 +442,7 @@ static double form_energy(const void *subject, const double *y, const double *me
     return gm_form_energy(&of->problem, of->scheme, memory);
 }
 
-/* Why no step of this length can tell of a claim; NULL: steps can. */
+/* The reason why steps of this length cannot test a claim, or NULL. */
 static const char *no_steps(struct gm_field_subject *subject, const double *y)
 {
     const struct gm_step_limit *limit = subject->scheme->limit;
@@ -455,8 +457,8 @@ static const char *no_steps(struct gm_field_subject *subject, const double *y)
     return good ? NULL : "a run of steps of this dt fails: take a shorter one";
 }
 
-/* The order, and what an equation has that is not one of this program's: symmetry and the multisymplectic law, the
-   energy, and what the system says that it keeps. */
+/* Measures the order and the properties of a user-defined equation: symmetry and the multisymplectic law,
+   the energy, and the conserved quantities that the system lists. */
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {

@@ -10,7 +10,8 @@
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
-/* The velocity of the frame that an equation is seen from, and since when; false where its nodes do not move. */
+/* The velocity of the frame that an equation is seen from, and since when; false where its nodes do not
+   move. */
 static bool find_frame(const struct gm_run *run, double *lambda, double *t0)
 {
     const struct gm_problem *problem = run->problem;
@@ -31,7 +32,7 @@ static bool find_frame(const struct gm_run *run, double *lambda, double *t0)
     }
 }
 
-/* Where the nodes are by now that move with a frame. */
+/* The current places of nodes that move with a frame. */
 static void places(const struct gm_run *run, double *values)
 {
     double lambda = 0, t0 = 0;

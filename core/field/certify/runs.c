@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Short runs of a field: there and back, over what a scheme keeps, and on finer and finer grids. */
+/* Short runs of a field: forward and back, for conserved quantities, and on finer and finer grids. */
 #include "core/field/certify/runs.h"
 
 #include <float.h>
@@ -32,8 +32,8 @@ bool gm_field_begin(struct gm_field_subject *subject, const double *y)
     return subject->run != NULL;
 }
 
-/* Whether a component has a rate that is its own: others follow from those by slopes and sums, with the round-off and,
-   where they begin as sums, with the errors that these have. */
+/* Returns true if a component has a rate of its own. The others follow by slopes and sums, with round-off
+   and, if they begin as sums, with the errors of these. */
 static bool moves(const struct gm_problem *problem, size_t component)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
@@ -48,7 +48,8 @@ static bool moves(const struct gm_problem *problem, size_t component)
     return rate;
 }
 
-/* How far states are apart where both have nodes: one grid has `finer` nodes for every one of the problem's. */
+/* The largest difference of two states at common nodes: `other` has `finer` nodes for each of the
+   problem's. */
 static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
 {
     const size_t points = problem->line.points, components = gm_field_numbers(problem) / points;
@@ -81,20 +82,20 @@ static double return_defect(struct gm_field_subject *subject, const double *y)
     return largest;
 }
 
-/* What slopes in space and time may multiply a number by. */
+/* The factor of a number in slopes in space and time. */
 static double slopes_of(const struct gm_field_subject *subject)
 {
     return 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
 }
 
-/* What round-off may make of slopes in space and time of a state, with what a scheme's own equations multiply it by. */
+/* A bound of the round-off in slopes in space and time of a state, multiplied by a scheme's equations. */
 static double round_off(const struct gm_field_subject *subject, const double *y)
 {
     enum { MULTIPLIED = 100 };
     return MULTIPLIED * DBL_EPSILON * gm_field_size(&subject->problem, y) * slopes_of(subject);
 }
 
-/* What round-off may make of what is kept refutes no claim. */
+/* Notes a defect; one below `hidden`, the round-off, refutes no claim. */
 static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, double hidden,
                  const char *name)
 {
@@ -110,8 +111,8 @@ static void note(struct gm_certificate *certificate, enum gm_claim claim, double
 void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
                         double size)
 {
-    /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of steps that
-       are long beside dx add as much as ten times that */
+    /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of
+       steps that are long beside dx add as much as ten times that */
     const double over = 0.05 / 8 / 10;
     const char *const name = subject->problem.name;
     note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, round_off(subject, y) / size, name);
@@ -175,11 +176,11 @@ enum { LEVELS = 4, STEPS = 16 };
 
 /* The errors of runs, and by how much each differs from the next finer one. */
 struct refined {
-    double dt[LEVELS], error[LEVELS], change[LEVELS]; /* error: NaN where no exact solution is told */
+    double dt[LEVELS], error[LEVELS], change[LEVELS]; /* error: NaN without an exact solution */
     size_t count;
 };
 
-/* One level more: the state after the same time, malloc'ed; NULL where a step fails or memory is short. */
+/* Adds a level; returns its state, which the caller frees. NULL if a step fails or when out of memory. */
 static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct refined *refined)
 {
@@ -198,8 +199,8 @@ static double *refine(const struct gm_certified_system *system, const struct gm_
     return end;
 }
 
-/* An exact solution closes on its ring but for a thousandth of its size: where that hides what is left of an error,
-   differences tell the order. */
+/* An exact solution closes on its ring up to a thousandth of its size. If that hides the remaining error,
+   differences give the order. */
 static double tell(const struct refined *refined, double by_differences, double wanted, double size,
                    struct gm_ladder *ladder, const char **reason)
 {
@@ -219,7 +220,7 @@ static double tell(const struct refined *refined, double by_differences, double 
     return exactly ? by_errors : by_differences;
 }
 
-/* The largest difference of so many nodes around the ring, of the start. */
+/* The largest difference of this order of the start around the ring. */
 static double largest_difference(const struct gm_certified_system *system, int order)
 {
     const struct gm_grid1 *grid = &system->problem->line;
@@ -240,8 +241,8 @@ static double largest_difference(const struct gm_certified_system *system, int o
     return largest;
 }
 
-/* Whether a start has the derivatives that an order takes: where one jumps, differences fall by less from grid to
-   grid. */
+/* Returns true if a start has the derivatives that an order needs: if one jumps, differences fall by less
+   from grid to grid. */
 static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_certified_system *fine,
                       int order)
 {

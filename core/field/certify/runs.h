@@ -5,35 +5,36 @@
 #include "core/certify.h"
 #include "core/run.h"
 
-/* Short runs of a field that tell what a scheme does to it. */
+/* Short runs of a field that measure properties of a scheme. */
 
-enum { GM_FIELD_STEPS = 61 }; /* that none is longer than, of those from a system's own start */
+enum { GM_FIELD_STEPS = 61 }; /* most steps of a run from a system's own start */
 
-/* What is certified on an equation. */
+/* An equation on which a scheme is certified. */
 struct gm_field_subject {
     struct gm_problem problem;
     const struct gm_scheme *scheme;
     double dt;
-    struct gm_run *run; /* of gm_field_begin, to be closed */
+    struct gm_run *run; /* opened by gm_field_begin; the caller closes it */
 };
 
-/* How many numbers of the state the field itself has: u, or all components; the rest is what a scheme of two steps
-   holds. */
+/* The number of values of the field in a state: u, or all components, without those that only a two-step
+   scheme holds. */
 size_t gm_field_numbers(const struct gm_problem *problem);
 
-/* The largest of them; 1 where that is less. */
+/* The largest magnitude of the field; 1 if it is less. */
 double gm_field_size(const struct gm_problem *problem, const double *y);
 
-/* A run from the state y at 0; false where memory is short. */
+/* Opens a run from the state y at time 0. Returns false when out of memory. */
 bool gm_field_begin(struct gm_field_subject *subject, const double *y);
 
-/* Notes the defects of symmetry, after 8 steps forth and 7 back, of numbers of this size, and of the multisymplectic
-   law after 25 steps, where the scheme has one. */
+/* Notes the defects of symmetry, after 8 steps forth and 7 back, of numbers of this size, and of the
+   multisymplectic law after 25 steps, where the scheme has one. */
 void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subject *subject, const double *y,
                         double size);
 
-/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY where a step fails,
-   under the name of what is kept. Like the law it is withheld where round-off alone may have made it. */
+/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY if a step
+   fails, under the name of what is kept. Like the law it is withheld where round-off alone may have made
+   it. */
 void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
                         struct gm_field_subject *subject, const double *y, const struct gm_kept *kept,
                         const char *name);
@@ -41,10 +42,10 @@ void gm_field_note_kept(struct gm_certificate *certificate, enum gm_claim claim,
 /* The order in time on one grid from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
 double gm_field_order_in_time(const struct gm_field_subject *subject, const double *y, double until);
 
-/* The order over 16 steps, by a system and what is finer, as a slope of the error where an exact solution is told that
-   closes on the ring, else of the differences between a run and the next finer one. NaN with the reason where none can
-   be told, or where it is low and the start has not the derivatives that the order takes; a reason also where the exact
-   solution alone refutes it, NULL else. */
+/* The order over 16 steps, from a system and its refinements: the slope of the error if the exact solution
+   closes on the ring, else of the differences between a run and the next finer one. NaN with *reason if it
+   cannot be measured, or is low because the start lacks derivatives. *reason is also set if the exact
+   solution alone refutes it; else NULL. */
 double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
                       struct gm_ladder *ladder, const char **reason);
 

@@ -41,7 +41,7 @@ GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct 
     const double convection = k / (2 * h), diffusion = viscosity * k / (h * h);
     progress->evaluations++;
     if (step->burgers->printed) {
-        /* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
+        /* the order of the formula matters: at h/nu > 2 rounding errors grow */
         for (size_t j = 1; j + 1 < step->points; j++) {
             v[j] = u[j] - k * u[j] * (u[j + 1] - u[j - 1]) / (2 * h) +
                    k * viscosity * (u[j + 1] - 2 * u[j] + u[j - 1]) / (h * h);

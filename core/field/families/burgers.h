@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of a scheme for Burgers' equation, and what its rows say. */
+/* A step of a scheme for Burgers' equation, and the scheme's coefficients. */
 #ifndef GM_CORE_FIELD_FAMILIES_BURGERS_H
 #define GM_CORE_FIELD_FAMILIES_BURGERS_H
 
@@ -14,7 +14,7 @@ struct gm_burgers_step {
     double h, k, sigma;
     const double *u;
     double *out;
-    double *scratch; /* 3 points, of implicit schemes */
+    double *scratch; /* [3 * points], for implicit schemes */
 };
 
 typedef enum gm_status gm_burgers_method(const struct gm_burgers_step *step, struct gm_progress *progress);
@@ -23,7 +23,7 @@ struct gm_burgers_row {
     gm_burgers_method *method;
     bool implicit;
     bool invariant;
-    bool family; /* its frame is that of a and d */
+    bool family; /* the frame depends on a and d */
 };
 
 /* A projection and a boost (eq. 98), then a scaling, about (t, x) = (0, 0):
@@ -39,7 +39,7 @@ struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, s
 struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
                                             double h, const double u[3]);
 
-/* Whether the nodes rest in the new frame when this scheme runs. */
+/* Returns true if the nodes rest in the new frame when this scheme runs. */
 bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme);
 
 /* The defect of one step of a scheme under a symmetry from t = 0 on the three nodes x - h, x, x + h: the step

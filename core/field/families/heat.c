@@ -13,8 +13,8 @@
    It is exact where ln u is a quadratic in x. Both need u > 0, the last one p k < 1; the one of boosts, like
    convection by centred differences, is stable for a^2 k < 2 nu.
 
-   Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers' equation,
-   whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
+   Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers'
+   equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
 #include "core/field/families/heat.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes for u_t + eta u u_x + mu u_xxx = 0 that step in a moving frame, and so commute with its boosts and
-   scalings (kdv_moving_frames.h). The time step is k, the nodes are h apart and move by sigma a step, which the boost
-   of velocity b turns into sigma + b k;
+   scalings (kdv_moving_frames.h). The time step is k, the nodes are h apart and move by sigma per step, which
+   the boost of velocity b turns into sigma + b k;
        D0 u = (u_{j+1} - u_{j-1})/(2h),   D3 u = (u_{j+2} - 2 u_{j+1} + 2 u_{j-1} - u_{j-2})/(2 h^3)
 
    Leapfrog of Zabusky and Kruskal has the convection eta A u D0 u, A u the mean of u_{j-1}, u_j and u_{j+1}.
@@ -12,15 +12,15 @@
 
    Evolution and projection: b = -eta w, w the mean of the value where a point that moves with the wave leaves
    the old level and of v where it arrives on the new one, at a node. There the point rests, and its step is
-   that of a linear equation; the old level is known at nodes, and what it is between them, six of them tell
+   that of a linear equation; the old level is known at nodes, and interpolated from six of them
    (P, the polynomial of degree 5):
        v + (mu k/2) D3 v = (P (u - (mu k/2) D3 u))(y),   y = x_j + sigma - eta w k,   w = ((P u)(y) + v_j)/2
-   It is iterated to round-off, which it reaches where neighbours that move with the wave do not meet in a
+   It is iterated to round-off, which it reaches if neighbours that move with the wave do not meet in a
    step, eta |u_x| k < 2; it has no other limit.
 
-   Scalings both keep as every scheme does whose terms are all of one degree in h^-1, k^-1/3 and u^1/2.
-   After A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose schemes are of first order
-   in time, and explicit; the frames as those of Razafindralandy et al. (2018), eqs. 86 to 91. */
+   Both preserve scalings, as does every scheme whose terms are all of one degree in h^-1, k^-1/3 and u^1/2.
+   After A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose schemes are of first
+   order in time, and explicit; the frames as those of Razafindralandy et al. (2018), eqs. 86 to 91. */
 #include "core/field/families/kdv_moving_frames.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@
 #include "core/linear/settled.h"
 
 enum {
-    REACH = 2 /* of D3 */,
+    REACH = 2 /* radius of D3 */,
     PAD = 3,
     KNOWN = 6 /* nodes that P goes through */
 };
@@ -304,7 +304,8 @@ bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme)
 
 static const struct gm_kdv_symmetry identity = {.scale = 1};
 
-/* A first step of length k from values at nodes, each as a symmetry carries it; the next level is in work->level[2]. */
+/* A first step of length k from values at nodes, each as a symmetry carries it; the next level is in
+   work->level[2]. */
 static bool make_carried(struct work *work, const struct gm_problem *problem, const struct gm_scheme *scheme,
                          double k, const struct gm_kdv_symmetry *symmetry, const double *y)
 {

@@ -15,21 +15,22 @@ struct gm_kdv_symmetry {
 struct gm_event gm_kdv_carried(const struct gm_kdv *kdv, const struct gm_kdv_symmetry *symmetry,
                                struct gm_event event);
 
-/* Whether the nodes rest in the frame of the problem when this scheme runs; every other scheme's do. */
+/* Returns true if the nodes rest in the problem's frame when this scheme runs; true for all other schemes. */
 bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme);
 
-/* Whether a scheme steps in a moving frame, and whether it then solves a system, so that no step is too long. */
+/* Returns true if a scheme steps in a moving frame, and if it then solves a system, so that every step is
+   allowed. */
 bool gm_kdv_has_frames(const struct gm_scheme *scheme);
 bool gm_kdv_solves(const struct gm_scheme *scheme);
 
-/* The boosts of the frames in which a step of length k is made at all nodes, from a state of the problem;
-   false where the step is not solved, or memory is short. The scheme has frames. */
+/* The boosts of the frames in which a step of length k is made at all nodes, from a state of the problem.
+   Returns false if the step fails, or when out of memory. The scheme has frames. */
 bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                           const double *y, double *boosts);
 
 /* The defect of one step of length k under a symmetry: the step of the carried state against the carried
-   step, in units of what u becomes, at the node where it is largest. NaN for schemes without frames, and
-   where a step is not solved. */
+   step, in units of the carried u, the largest over all nodes. NaN for schemes without frames, and if a
+   step is not solved. */
 double gm_kdv_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                      const struct gm_kdv_symmetry *symmetry, const double *y);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loop of schemes of two steps: three levels that change places, the first step after a change of dt, and
-   what a scheme remembers. */
+/* The loop of schemes of two steps: three levels that change places, the first step after a change of dt,
+   and the memory of a scheme. */
 #include "core/field/families/two_step.h"
 
 #include <math.h>

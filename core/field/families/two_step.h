@@ -11,19 +11,20 @@ struct gm_two_step_work {
     size_t points;
     double *level[3];              /* past, present, next */
     double *force;                 /* points + 2, from [-1] */
-    double *right, *guess, *cells; /* of implicit schemes */
-    double *change;                /* from the past to the present level, of schemes that keep it */
-    double *rate[3];               /* of the levels, likewise */
+    double *right, *guess, *cells; /* arrays of implicit schemes */
+    double *change;                /* from the past to the current level, of schemes that store it */
+    double *rate[3];               /* rates of the levels */
     struct gm_ring ring;
     struct gm_ring_newton newton; /* opened by schemes that use it */
 };
 
-/* One step of length dt: the next level from the past and the present one, both with their end points; status GM_OK. */
+/* One step of length dt: the next level from the past and the current one, both with their end points;
+   status GM_OK. */
 typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                    struct gm_progress *progress);
 
-/* The next level, at t + dt, from the present one and that of the past, which is at t + gap here, gap neither dt nor
-   -dt. */
+/* The next level, at t + dt, from the current one and the past one, which is at t + gap here; gap is
+   neither dt nor -dt. */
 typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                double gap);
 gm_two_step_start gm_wave_start;
@@ -31,16 +32,16 @@ gm_two_step_start gm_wave_start;
 /* The longest step dt of a wave for which (w dt)^2 <= square, w^2 = stiffness/dx^2 + V'' wherever u is. */
 double gm_wave_longest(const struct gm_problem *problem, const double *y, double square, double stiffness);
 
-/* Whose discrete conservation laws a scheme has: those of nodes, those of nodes at twice the distance in time
-   and space, those of cells, or others. */
+/* The discrete conservation laws of a scheme: laws of nodes, of nodes at twice the distance in time and
+   space, of cells, or others. */
 enum gm_wave_law { GM_LAW_NODES, GM_LAW_CENTRED, GM_LAW_CELLS, GM_LAW_NONE };
 
-/* What a row of such a scheme points to. */
+/* The coefficients of a two-step scheme. */
 struct gm_two_step_row {
     gm_two_step *step;
     gm_two_step_start *start;
     enum gm_wave_law law;
-    bool average;      /* the force is the quotient of V, not V' at the present level */
+    bool average;      /* the force is the quotient of V, not V' at the current level */
     bool keeps_change; /* work->change is the scheme's memory */
     bool keeps_rates; /* work->rate of the present and the past level is, and steps and starts set the next */
 };

@@ -18,7 +18,7 @@ struct gm_burgers {
     int test, frame; /* enum gm_burgers_test, gm_frame_nodes */
     int printed;     /* the convection is u D u, not D(u^2/2) */
     double viscosity, lambda;
-    double a, d; /* of the moving frames of the family (core/field/families/burgers.c) */
+    double a, d; /* parameters of the family of moving frames (core/field/families/burgers.c) */
 };
 
 static inline const struct gm_burgers *gm_burgers_of(const struct gm_problem *problem)

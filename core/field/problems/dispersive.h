@@ -32,14 +32,15 @@ static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
 }
 /* At the place x of the frame, NaN for the cosine at t > 0; the formulas above are those for lambda = 0. */
 double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double x, double t);
-/* Whether that solves the equation on the ring too, but for tails of a thousandth of a soliton's height. */
+/* Returns true if gm_kdv_exact solves the equation on the ring too, up to tails of a thousandth of a
+   soliton's height. */
 bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_grid1 *grid, double t);
 /* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with
    exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
 
-/* Of the original frame:  dx sum u;  dx sum v^2;  dx sum [mu s^2 / 2 - eta v^3 / 6], with the values v and then the
-   slopes s of a profile (gm_field_profile). */
+/* Integrals in the original frame:  dx sum u;  dx sum v^2;  dx sum [mu s^2 / 2 - eta v^3 / 6], with the
+   values v and then the slopes s of a profile (gm_field_profile). */
 double gm_kdv_mass(const struct gm_problem *problem, const double *y);
 double gm_kdv_square(const struct gm_problem *problem, const double *profile);
 double gm_kdv_energy(const struct gm_problem *problem, const double *profile);
@@ -60,7 +61,7 @@ static inline const struct gm_nls *gm_nls_of(const struct gm_problem *problem)
 /* NaN for a collision at t > 0. */
 void gm_nls_exact(const struct gm_nls *nls, const struct gm_grid1 *grid, double x, double t, double *re,
                   double *im);
-/* Whether that solves the equation on the ring too, but for tails of a thousandth of the amplitude. */
+/* Returns true if the exact solution holds on the ring too, up to tails of a thousandth of the amplitude. */
 bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_grid1 *grid, double t);
 
 /* dx sum |A psi|^2;  dx sum [|s|^2 - |v|^4 / 2], of the profiles of both parts;  dx sum |psi|^2 */

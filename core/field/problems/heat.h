@@ -12,7 +12,7 @@
 /* All are made of kernels K(x, s) = exp(-x^2/(4 nu s)) / sqrt(s), whose age s is t + `age`. */
 enum gm_heat_start {
     GM_HEAT_KERNEL, /* K(x, s) sqrt(age): of the height 1 at t = 0 */
-    GM_HEAT_TWO,    /* that at -1.5, and one at 1.5 of the height 0.6 that is three times as old */
+    GM_HEAT_TWO,    /* a kernel at -1.5, and one at 1.5 of the height 0.6 and three times the age */
     GM_HEAT_FRONT,  /* 0.1 + 0.45 erfc(x / sqrt(4 nu s)): from 1 down to a tenth */
 };
 
@@ -29,7 +29,7 @@ static inline const struct gm_heat *gm_heat_of(const struct gm_problem *problem)
 /* The exact value at time t, in the new frame, at the node that was at x at t = 0 and rests there (fixed) or
    moves. */
 double gm_heat_exact(const struct gm_heat *heat, bool fixed, double x, double t);
-/* By what a value at that node is divided to be the value of the original frame there. */
+/* The divisor of a value at the node of gm_heat_exact that gives the value in the original frame. */
 double gm_heat_factor(const struct gm_heat *heat, bool fixed, double x, double t);
 
 /* The caller sets parameters (struct gm_heat), line and n, the points. */

@@ -42,14 +42,14 @@ static void linearised(const struct gm_problem *problem, const double *base, con
 
 enum { PHI, U, V, W, DIMENSION };
 
-/* What the scheme left out of s, each from one equation:
+/* The components of s that the scheme eliminated, each from one equation:
        phi   from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes
              with it
        v     from D_x u = A_x v / mu
        w     from D_t A_x u/2 + D_x w = 0, and from the mean over the ring of
                  -D_t phi/2 - D_x v = -A_x w + eta m u,
-             which else is the scheme; its alternating part is that of v on an even number of points
-   To take w from the last one would invert A_x twice and rounding with it. */
+             which else is the scheme; its alternating part is the one of v on an even number of points
+   Taking w from the last one would invert A_x twice and rounding with it. */
 static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
                      const double *next, struct gm_faces *faces)
 {
@@ -136,7 +136,8 @@ static double around(const struct gm_grid1 *grid, double distance)
     return distance - period * floor(distance / period + 0.5);
 }
 
-/* The k of the two solitons, whose heights are 3 mu k^2 / eta and velocities mu k^2, and where they start. */
+/* The k of the two solitons, whose heights are 3 mu k^2 / eta and velocities mu k^2, and their places at
+   the start. */
 static const double fast = 1.2, slow = 0.8, fast_start = -30, slow_start = -15;
 
 /* (ln F)_xx with F = 1 + e^a + e^b + A e^(a + b), everything divided by the largest exponential; a is fast
@@ -223,7 +224,7 @@ void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y)
     y[2 * grid->points] = dt;
 }
 
-/* What the original frame sees 0 as. */
+/* The value of u = 0 in the original frame. */
 static double level_of(const struct gm_problem *problem)
 {
     return gm_kdv_of(problem)->lambda / gm_kdv_of(problem)->eta;

@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
-/* Where the nodes are of an equation that is seen from a frame with the velocity lambda: at rest in that
-   frame, or moving by lambda dt a step. */
+/* The nodes of an equation in a frame with the velocity lambda: at rest in that frame, or moving by lambda
+   dt per step. */
 enum gm_frame_nodes {
-    GM_FRAME_EACH, /* moving for invariant schemes, which know of it, fixed for the others */
+    GM_FRAME_EACH, /* moving for invariant schemes, fixed for the others */
     GM_FRAME_FIXED,
     GM_FRAME_MOVING,
 };

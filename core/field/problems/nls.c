@@ -95,8 +95,8 @@ static double potential(const struct gm_problem *problem, double re, double im)
     return square * square / 4;
 }
 
-/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is what the derivative
-   of g at m/sqrt 3 makes of m, so that the solution itself can be completed as a tangent. */
+/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is the derivative
+   of g at m/sqrt 3 applied to m, so that the solution itself can be completed as a tangent. */
 static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
                     const double *next, struct gm_faces *faces, double *residual)
 {

@@ -25,7 +25,7 @@ static double met_at(const struct gm_sine_gordon *solution)
     return solution->initial != GM_KINK_COLLISION ? 0 : c == 0 ? x0 : x0 / c;
 }
 
-/* Of one meeting, at x = 0 and t = 0, on the line. */
+/* The solution of one meeting, at x = 0 and t = 0, on the line. */
 static double pair(double c, double x, double t)
 {
     const double g = 1 / sqrt((1 - c) * (1 + c));
@@ -92,7 +92,7 @@ void gm_sine_gordon_levels(const struct gm_problem *problem, double t, double ga
     y[2 * grid->points] = gap;
 }
 
-/* As a run leaves it: the other level is the one before. */
+/* The state that a run leaves: the other level is the one before. */
 static void solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
 {
     (void)m;

@@ -22,11 +22,11 @@ struct gm_sine_gordon {
 };
 
 /* u(x, t) on the ring x in [-half_length, half_length): a travelling kink comes back 2 pi higher, and two
-   that part meet again on the other side. */
+   that separate meet again on the other side. */
 double gm_sine_gordon_exact(const struct gm_sine_gordon *solution, double half_length, double x, double t);
 
-/* Whether that solves the equation on the ring as well, but for tails of a thousandth of the height; of two
-   kinks, whether their images change their velocity by no more than a part in 10^4. */
+/* Returns true if gm_sine_gordon_exact solves the equation on the ring, up to tails of a thousandth of the
+   height, and if images change the velocity of two kinks by at most one part in 10^4. */
 bool gm_sine_gordon_is_known(const struct gm_sine_gordon *solution, double half_length, double t);
 
 /* u(x + 2 half_length) - u(x) */

@@ -9,7 +9,7 @@
 extern const struct gm_problem gm_problem_sine_gordon; /* parameters: struct gm_sine_gordon */
 extern const struct gm_problem gm_problem_wave;
 
-/* Of every such equation, in s = (u, u_t, u_x). */
+/* The form of every wave equation, in s = (u, u_t, u_x). */
 extern const struct gm_form gm_form_of_waves;
 
 #endif

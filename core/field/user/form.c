@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A multisymplectic form that somebody wrote: S, its gradient and its second derivatives are formulas. A component
-   that S does not hold and whose slope an equation without K tells is a potential: it is integrated from the others,
-   and what it gains around the ring is its jump. */
+/* A user-defined multisymplectic form: S, its gradient and its second derivatives are formulas. A
+   component that S does not contain and whose slope an equation without K gives is a potential: it is
+   integrated from the others, and its change around the ring is its jump. */
 #include "core/field/user/form.h"
 
 #include <stdio.h>
@@ -18,7 +18,7 @@ struct own {
     struct gm_form form;
     const struct gm_user_form *source;
     double k[GM_MOST_OF_FORM * GM_MOST_OF_FORM], l[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
-    double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* what lines say of it; NAN: nothing */
+    double jump[GM_MOST_OF_FORM], told[GM_MOST_OF_FORM]; /* jumps; those in the lines (NAN: none) */
     const char *names[GM_MOST_OF_FORM];
     struct gm_form_potential potentials[GM_MOST_OF_FORM];
     struct gm_tape function, gradient, hessian;

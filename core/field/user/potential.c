@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves in a potential that somebody wrote: V, V' and V'' are formulas. The quotient of V is the mean of its
+/* Waves in a user-defined potential: V, V' and V'' are formulas. The quotient of V is the mean of its
    slope,
        [V(a) - V(b)] / (a - b) = integral of V'(b + s (a - b)) over 0 < s < 1,
    by Gauss's formula of six points on one, two, four .. pieces, until two results agree: nothing cancels,
-   however near a and b are. Where they do not, the quotient is taken as it stands if rounding leaves more of
-   it. */
+   however near a and b are. If they do not, the quotient is computed directly when rounding leaves more
+   of it. */
 #include "core/field/user/potential.h"
 
 #include <float.h>
@@ -17,7 +17,7 @@
 #include "core/field/problems/wave.h"
 #include "core/tape.h"
 
-enum { ROOM = 128 }; /* of slopes that a tape computes together */
+enum { ROOM = 128 }; /* slopes that a tape computes together */
 
 struct own {
     struct gm_user_line line; /* first */
@@ -71,9 +71,8 @@ static const double abscissas[HALF] = {0.238619186083196908630501721680712,
 static const double weights[HALF] = {0.467913934572691047389870343989551, 0.360761573048138607569833513837716,
                                      0.171324492379170345040296142172733};
 
-/* The mean of a formula over so many pieces of what lies between a and b; weighted by s, which is 1 at a and
-   0 at b, where that is asked for. *size is the largest value. Exchanging a and b changes no bit of what is
-   not weighted. */
+/* The mean of a formula between a and b, on `pieces` pieces; if `weighted`, with the weight s, which is 1
+   at a and 0 at b. *size is the largest value. Without weight, exchanging a and b changes no bit. */
 static double mean_of(const struct gm_tape *tape, double a, double b, size_t pieces, bool weighted,
                       double *size)
 {
@@ -116,7 +115,7 @@ static double quotient(const struct gm_problem *problem, double a, double b)
             break;
         }
     }
-    /* Near an extremum of V what is left of V' may be rounding alone, and means differ by that for ever;
+    /* Near an extremum of V the values of V' may be rounding alone, and means always differ by that;
        between points that lie far apart they may differ by more than rounding leaves of the quotient. */
     const double at_a = potential(problem, a), at_b = potential(problem, b);
     const double rounding = DBL_EPSILON * fmax(fabs(at_a), fabs(at_b)) / fabs(a - b);

@@ -7,19 +7,19 @@
 #include "core/model/potential.h"
 #include "core/user/line.h"
 
-/* The problem with these values of all variables (gm_equations_start) on that ring, or between walls. False where
-   memory was refused. To be closed in both cases. */
+/* The problem with these values of all variables (gm_equations_start) on that ring, or between walls.
+   False when out of memory; the caller closes it in both cases. */
 bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_grid1 *grid);
 void gm_user_wave_close(struct gm_problem *problem);
 
-/* Writes the state of a wave problem: the level at t = 0, and that at `gap`, which is the exact one where
-   that is told. */
+/* Writes the state of a wave problem: the level at t = 0, and the level at `gap`, which is exact if the
+   exact solution is given. */
 void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y);
 
-/* Whether the field closes on the problem's line: it is finite everywhere; u at one end is that at the other,
-   further by the jump, but for a thousandth of its range; and V' is the same further by the jump. Between walls nothing
-   closes, and there is no jump. A sentence if not. */
+/* Returns true if the field closes on the problem's line: it is finite everywhere; u at the ends differs
+   by the jump, up to a thousandth of its range; and V' has the jump as a period. Walls need no closure and
+   have no jump. Else `sentence` is the reason. */
 bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of flows on complexes as the hall sees it: the families of schemes, and how those are
-   certified. */
+/* The kind of flows on complexes: its families of schemes and their certification. */
 #include "core/flow/flow.h"
 
 #include <math.h>
@@ -27,7 +26,7 @@ static struct gm_problem problem_of(const struct gm_flow *flow)
         .name = "flow", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
 }
 
-/* Swirls on an irregular torus, and the state that they start in; NULL where memory is short. */
+/* Swirls on an irregular torus, and their start; NULL when out of memory. */
 static struct gm_flow *open_torus(double viscosity, double *start)
 {
     const struct gm_rectangle torus = {

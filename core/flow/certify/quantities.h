@@ -4,10 +4,10 @@
 
 #include "core/quantity.h"
 
-/* Of the complex: points and triangles. At its vertices: stream_function, vorticity and, where it is carried,
-   scalar. On its triangles: velocity and, where there is a boundary, pressure: the total pressure over the
-   density, of mean 0, after the last step, and no number before the first one. Of the tracers: tracer_x and
-   tracer_y. */
+/* The arrays of a run. The complex: points and triangles. At its vertices: stream_function, vorticity and,
+   if it is carried, scalar. On its triangles: velocity and, with a boundary, pressure: the total pressure
+   over the density, of mean 0, after the last step, and NaN before the first one. The tracers: tracer_x
+   and tracer_y. */
 size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 
 #endif

@@ -43,8 +43,8 @@ static void close_workspace(void *workspace)
     gm_flow_solver_close(workspace);
 }
 
-/* What the steady scheme carries: the Reynolds number it has come to, the corrections made for it, and
-   whether the last one was round-off. */
+/* The memory of the steady scheme: its current Reynolds number, the corrections made for it, and 1 if the
+   last one was round-off. */
 enum { LEVEL, CORRECTIONS, DONE, MEMORY };
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -198,8 +198,8 @@ static void correct(const struct gm_flow_solver *solver, double *y)
     gm_flow_vorticity(flow, y, omega);
 }
 
-/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step
-   did. */
+/* The step for psi, and for omega at vertices without a formula. The first guess extrapolates the last
+   step. */
 static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
                            const double *psi_before, struct gm_progress *progress)
 {
@@ -226,8 +226,8 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     return true;
 }
 
-/* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. transport, rate:
-   scratch. */
+/* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. transport,
+   rate: scratch. */
 static bool advance_carried(struct gm_flow_solver *solver, struct gm_transport *transport, double *rate,
                             double dt, double *theta, const bool *fixed, const double *source,
                             unsigned long *iterations)
@@ -258,7 +258,7 @@ static bool advance_temperature(struct gm_flow_solver *solver, double dt, double
                            flow->temperature_fixed, flow->heating, &progress->iterations);
 }
 
-/* The scalar's part of a step, which needs of the flow's nothing but the fluxes before. */
+/* The scalar's part of a step, which needs only the previous fluxes of the flow. */
 struct scalar_part {
     struct gm_flow_solver *solver;
     double dt, *theta;
@@ -294,7 +294,7 @@ static void keep_carried(const struct gm_flow *flow, double *y)
     }
 }
 
-/* What the boundary gives takes its place in the state. */
+/* Copies the values that the boundary gives into the state. */
 static void take_given(const struct gm_flow_solver *solver, double *y)
 {
     const struct gm_flow *flow = solver->flow;
@@ -374,7 +374,7 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
                n * sizeof *y);
     }
     if (solver->now) {
-        return GM_NO_CONVERGENCE; /* what changes in time has no steady state */
+        return GM_NO_CONVERGENCE; /* a boundary that changes has no steady state */
     }
     if (carried[DONE] != 0) {
         return GM_OK;

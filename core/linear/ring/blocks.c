@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* With a left vector u of the pencil, u' (B + z C) = 0, the number e_i = u' C y_i obeys
        e_{i+1} = z e_i + u' g_i
-   which runs forwards where |z| < 1 and backwards where |z| > 1, so that rounding dies out; what it starts from is a
-   geometric sum around the ring. y follows from the n of them. G.W. Stewart & J. Sun, Matrix Perturbation Theory (1990),
-   chapter VI. */
+   which runs forwards where |z| < 1 and backwards where |z| > 1, so that rounding dies out; what it starts
+   from is a geometric sum around the ring. y follows from the n of them. G.W. Stewart & J. Sun, Matrix
+   Perturbation Theory (1990), chapter VI. */
 #include "core/linear/ring/blocks.h"
 
 #include <complex.h>
@@ -15,7 +15,8 @@
 
 enum { MOST = GM_RING_BLOCKS_MOST };
 
-/* Solves a x = b for `columns` right sides, which it overwrites; false where a, which is destroyed, is singular. */
+/* Solves a x = b for `columns` right sides, which it overwrites. Returns false if a, which is destroyed,
+   is singular. */
 static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], size_t n, size_t columns)
 {
     for (size_t p = 0; p < n; p++) {
@@ -54,7 +55,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
     return true;
 }
 
-/* -C^-1 B; false where C is singular or nearly so. */
+/* -C^-1 B; returns false if C is singular or nearly so. */
 static bool find_roots(size_t n, const double *b, const double *c, double *real, double *imaginary)
 {
     double complex left[MOST][MOST], right[MOST][MOST];
@@ -128,7 +129,7 @@ bool gm_ring_blocks_make(struct gm_ring_blocks *blocks, size_t count, size_t n, 
     }
     for (size_t k = 0; k < n; k++) {
         if (imaginary[k] < 0) {
-            continue; /* its pair says the same */
+            continue; /* its pair gives the same */
         }
         struct gm_ring_block_root *root = &blocks->root[blocks->roots++];
         root->value = real[k] + I * imaginary[k];

@@ -25,8 +25,8 @@ struct gm_ring_newton {
 bool gm_ring_newton_open(struct gm_ring_newton *newton, size_t count, size_t parts, size_t reach);
 void gm_ring_newton_close(struct gm_ring_newton *newton);
 
-/* Solves from the guess u to round-off, halving steps until the residual falls. Returns GM_NO_CONVERGENCE if it
-   does not fall, or if F' is singular. */
+/* Solves from the guess u to round-off, halving steps until the residual falls. Returns GM_NO_CONVERGENCE if
+   it does not fall, or if F' is singular. */
 enum gm_status gm_ring_newton_solve(struct gm_ring_newton *newton, const struct gm_ring_equations *equations,
                                     double *u, struct gm_progress *progress);
 

@@ -4,7 +4,7 @@
    rounding errors die out:
        (1 - r / z) f = b   f_i = b_i + r f_{i-1}
        (1 - r z) f = b     f_i = b_i + r f_{i+1}
-   What the recursion starts from follows from the closed ring: a geometric sum, cut where it no longer
+   The recursion's start follows from the closed ring: a geometric sum, cut where it no longer
    counts.
 
    A band around a ring that is folded flat, 0, n - 1, 1, n - 2, ..., is a band of twice the width. */
@@ -153,7 +153,7 @@ void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *i
             im[at] = x_im;
         }
     }
-    /* what is left: z^shift f = x, times the factor */
+    /* the rest: z^shift f = x, times the factor */
     memcpy(scratch, re, n * sizeof *re);
     memcpy(scratch + n, im, n * sizeof *im);
     const double f_re = creal(factor), f_im = cimag(factor);

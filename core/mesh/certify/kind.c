@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of fields on moving meshes as the hall sees it: the families of schemes, and how those are
-   certified. */
+/* The kind of fields on moving meshes: its families of schemes and their certification. */
 #include "core/mesh/moving_mesh.h"
 
 #include <math.h>
@@ -16,13 +15,13 @@
 #include "core/run.h"
 
 enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
-/* Where derivatives of motions are taken, two for each node, before and after a step. */
+/* Numbers of tangent directions, two for each node before and after a step, and of their values. */
 enum { DIRECTIONS = 2 * FINE_POINTS, OBSERVED = 8 * FINE_POINTS };
 
 static const struct gm_settings settings = {0};
 
-/* Differences of the field and nodes between runs with halved steps, of which the longest is `dt`. A scheme that
-   chooses its steps ends at times that differ in second order; what that makes is taken off with the velocities. */
+/* Differences of the field and nodes between runs with halved steps, of which the longest is `dt`. Runs of
+   an adaptive scheme end at times that differ in second order; the velocities correct for that difference. */
 static double measure_order(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                             struct gm_ladder *ladder)
 {
@@ -56,7 +55,7 @@ static double measure_order(const struct gm_mesh_subject *subject, const struct 
     return order;
 }
 
-/* How far a run that turns round ends from its start. */
+/* The distance from its start at which a reversed run ends. */
 static double return_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                             bool reflected)
 {
@@ -140,10 +139,11 @@ static double energy_drift(const struct gm_mesh_subject *subject, const struct g
     return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
 }
 
-/* The order, from differences between runs with halved steps; return after a reversed step; the change of dy dp_y +
-   dX dp_X over a step, on the states that the mesh constraint allows; the energy; and the defect of the local law of the
-   trapezoidal discrete Lagrangian, or on a uniform mesh of that of the midpoint rule where it is less, over all stretches
-   of three nodes (not where the step varies). Defects are of numbers of a size, or of products of two. */
+/* The order, from differences between runs with halved steps; return after a reversed step; the change of
+   dy dp_y + dX dp_X over a step, on the states that the mesh constraint allows; the energy; and the defect
+   of the local law of the trapezoidal discrete Lagrangian, or on a uniform mesh of that of the midpoint
+   rule if that is less, over all stretches of three nodes (not where the step varies). Defects are of
+   numbers of a size, or of products of two. */
 static void measure(struct gm_certificate *certificate, const struct gm_mesh_subject *subject, double dt,
                     double size, const char *name)
 {

@@ -34,7 +34,7 @@ struct motion {
     double lambda[POINTS + 2], ell[ELEMENTS];
 };
 
-/* Where the Lagrangian of an element is taken in a step. */
+/* The quadrature rule of an element's Lagrangian in a step. */
 enum rule { TRAPEZOIDAL, MIDPOINT };
 
 struct stages {

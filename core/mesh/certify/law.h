@@ -4,7 +4,7 @@
 
 #include "core/mesh/certify/subject.h"
 
-/* The defect of the local law that core/mesh/certify/law.c states; NaN where it does not apply. */
+/* The defect of the local law that core/mesh/certify/law.c states; NaN if it does not apply. */
 double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt);
 
 #endif

@@ -37,7 +37,7 @@ bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct
     return gm_trial_advance(&trial, from, end);
 }
 
-/* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow as the constraint says. */
+/* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow from the constraint. */
 static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, const double *by,
                   double *state)
 {

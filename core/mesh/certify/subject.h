@@ -5,11 +5,11 @@
 #include "core/mesh/soliton.h"
 #include "core/scheme.h"
 
-/* What schemes on meshes are certified on: a field on a few nodes, one soliton as a rule, and derivatives along its
-   motions. */
+/* Test problems of schemes on meshes: a field on a few nodes, usually one soliton, and derivatives along
+   its motions. */
 
 enum {
-    GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
+    GM_MESH_SUBJECT_POINTS = 7, /* most nodes of the mesh */
     GM_MESH_SUBJECT_STATE = 4 * GM_MESH_SUBJECT_POINTS,
 };
 
@@ -25,11 +25,11 @@ struct gm_mesh_step {
     double dt;
 };
 
-/* A soliton on a mesh of `points` nodes for a scheme, with its start; false where memory is short. The subject holds
-   its parameters, and stays where it is. */
+/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory.
+   The subject holds its parameters, so it must not be moved. */
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points);
 
-/* The same of a problem of as many nodes at most, with its own start. */
+/* Opens a subject on a problem of at most `points` nodes, with its own start. */
 bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
                              const struct gm_problem *problem);
 
@@ -41,8 +41,9 @@ bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct
 typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
                              double *values);
 
-/* The derivatives of `count` such numbers by component `direction` of dy and then d(dy/dt), X and dX/dt following as the
-   constraint says, by differences (core/linear/differences.h). False if a run fails. */
+/* The derivatives of `count` observed numbers by component `direction` of dy and then d(dy/dt), where X
+   and dX/dt follow from the constraint, by differences (core/linear/differences.h). Returns false if a run
+   fails. */
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
 

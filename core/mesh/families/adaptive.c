@@ -43,7 +43,7 @@ static double growth(const struct gm_mesh *mesh, const double *state)
 
 static enum gm_status start(const struct gm_task *task)
 {
-    /* a run that turns round keeps its density; that of a new run is still zero */
+    /* a reversed run keeps its density; a new run has the density zero */
     double *rho = density(task);
     *rho = *rho > 0 ? *rho : 1;
     return gm_mesh_restart(task);

@@ -6,10 +6,10 @@
        P_i = dL/dydot(Y_i, Q_i, Ydot_i, Qdot_i),   F_j = dL/dy(Y_j, Q_j, Ydot_j, Qdot_j)
        g(Y_i, Q_i) = 0,   d/dt g = Dg(Y_i, Q_i) (Ydot_i, Qdot_i) = 0
        unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and only Ydot_i and P_i are left
-   The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not keep its
-   energy. On the uniform mesh the methods of order 2 come from discrete Lagrangians of the elements, that of
-   the midpoint rule (gauss2) and the trapezoidal one (lobatto2), and are multisymplectic; more stages couple
-   all elements. Tyranowski & Desbrun (2019), eq. 21 and sections 2.6 and 4.2. */
+   The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not conserve
+   its energy. On the uniform mesh the methods of order 2 come from discrete Lagrangians of the elements, that
+   of the midpoint rule (gauss2) and the trapezoidal one (lobatto2), and are multisymplectic; more stages
+   couple all elements. Tyranowski & Desbrun (2019), eq. 21 and sections 2.6 and 4.2. */
 #include <string.h>
 
 #include "core/mesh/families/families.h"
@@ -81,8 +81,8 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
     return true;
 }
 
-/* Of the equations of a stage, by the unknowns of a stage: Ydot, which z follows by `moved`, and X alike in one block,
-   Xdot in another. Columns of X, which are odd, are there where the mesh moves. */
+/* Assembles the derivative of the equations of a stage by its unknowns: Ydot, which z follows by `moved`,
+   and X in one block, Xdot in another. The odd columns, of X, exist only if the mesh moves. */
 static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *assembly)
 {
     const struct gm_tableau *tableau = solver->row->tableau;

@@ -13,12 +13,12 @@
 /* The multiplier strategy with the stages of Lobatto's order 4. */
 extern const struct gm_mesh_row gm_mesh_multiplier4;
 
-/* What the families have in common, beside the array of their schemes. */
+/* The common fields of all families; each adds only its array of schemes. */
 #define GM_MESH_FAMILY                                                                                       \
     .kind = &gm_kind_mesh, .schemes = schemes, .count = GM_COUNT(schemes),                                   \
     .workspace_open = gm_mesh_workspace_open, .workspace_close = gm_mesh_workspace_close,                    \
     .workspace_reset = gm_mesh_workspace_reset
-/* of those with steps of one length */
+/* Fields of families with a fixed step size. */
 #define GM_MESH_FAMILY_OF_STEPS                                                                              \
     GM_MESH_FAMILY, .memory = gm_mesh_memory, .start = gm_mesh_restart, .loop = gm_mesh_loop
 

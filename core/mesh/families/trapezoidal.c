@@ -14,11 +14,11 @@
 
 #include "core/mesh/families/families.h"
 
-/* The elements are at q_j in solver->ends, and at q_{j+1} in solver->stage[0], both with the velocity v. A node has the
-   unknowns y and X of q_{j+1} and lambda. */
+/* The elements are at q_j in solver->ends, and at q_{j+1} in solver->stage[0], both with the velocity v. A
+   node has the unknowns y and X of q_{j+1} and lambda. */
 
-/* Places to as many digits as make velocities, places over dt, ten times better than those of other schemes: it takes
-   that for 200 steps to be undone to 1e-11. */
+/* Places to as many digits as make velocities, places over dt, ten times better than those of other schemes:
+   it takes that for 200 steps to be undone to 1e-11. */
 static double weight(size_t stages, size_t unknown, double step)
 {
     (void)stages;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves in a potential that somebody wrote, on moving meshes. The mean of V over a linear element is taken by Gauss's
-   formula with nodes s_k in (-1, 1) and weights g_k that add up to 1,
+/* Waves in a potential that somebody wrote, on moving meshes. The mean of V over a linear element is taken by
+   Gauss's formula with nodes s_k in (-1, 1) and weights g_k that add up to 1,
        w(m, r) = sum_k g_k V(m + s_k r / 2),   w_m = sum_k g_k V'(..),   w_r = sum_k g_k s_k / 2 V'(..),
-   and all derivatives are those of this sum: schemes are of one Lagrangian, whatever it leaves of the integral. */
+   and all derivatives are those of this sum: schemes are of one Lagrangian, whatever it leaves of the
+   integral. */
 #include "core/mesh/user/potential.h"
 
 #include <math.h>
@@ -34,11 +35,11 @@ static const struct own *own_of(const struct gm_potential *potential)
 
 size_t gm_user_mesh_order(const struct gm_user_wave *wave)
 {
-    /* exact to degree 2 n - 1; that of V is one more than that of V' */
+    /* exact to degree 2 n - 1; V has one degree more than V' */
     return wave->degree + 1 <= 2 * MOST_NODES - 1 ? ((size_t)wave->degree + 3) / 2 : MOST_NODES;
 }
 
-/* Gauss's nodes, and weights that add up to 1, which GSL has in tables; false where it is refused memory. */
+/* Gauss's nodes, and weights that add up to 1, which GSL has in tables. Returns false when out of memory. */
 static bool set_rule(void *data)
 {
     struct own *self = data;
@@ -138,8 +139,9 @@ static void weigh(struct own *self, const struct gm_user_mesh *chosen)
         strongest = fmax(strongest, fabs(at[0]));
         before = u;
     }
-    /* 3/2 makes cells 1.8 times closer where it is steepest; that many waves do not draw all nodes at once is half of
-       Tyranowski and Desbrun's choice for one soliton, 2.5 where it rises by 2 pi in a box of 25 */
+    /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
+       drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
+       rise of 2 pi in a box of 25 */
     const double usual =
         variation > 0 && steepest > 0 ? fmin(1.5 / steepest, M_PI / 10 * mesh->length / variation) : 0;
     self->alpha = isnan(chosen->alpha) ? usual : chosen->alpha;

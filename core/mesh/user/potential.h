@@ -13,12 +13,12 @@ struct gm_user_mesh {
     enum gm_mesh_density density;
 };
 
-/* By how many of Gauss's points the mean of V over an element is taken: as many as make it exact where V is a
-   polynomial of degree 19 or less in u, else 10. */
+/* The number of Gauss points for the mean of V over an element: exact if V is a polynomial of degree 19 or
+   less in u, else 10. */
 size_t gm_user_mesh_order(const struct gm_user_wave *wave);
 
-/* The problem with these values of all variables (gm_equations_start). False where memory was refused. To be closed
-   in both cases. */
+/* The problem with these values of all variables (gm_equations_start). Returns false when out of memory;
+   the caller closes it in both cases. */
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen);
 void gm_user_mesh_close(struct gm_problem *problem);
@@ -26,7 +26,8 @@ void gm_user_mesh_close(struct gm_problem *problem);
 /* alpha, resolved */
 double gm_user_mesh_alpha(const struct gm_problem *problem);
 
-/* Whether the start is finite, and rests at both ends but for a thousandth of its largest rate. A sentence if not. */
+/* Returns true if the start is finite, and rests at both ends up to a thousandth of its largest rate; else
+   `sentence` is the reason. */
 bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif

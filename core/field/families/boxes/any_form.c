@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes, and for waves, whose state
-   is u at two levels: Gauss-Legendre collocation in space and time (collocation.c),
-       r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
-   S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The memory is s
-   at the stages of the cells, and the stages of three steps, of which the next step's are guessed. What the form
-   calls M and K are the K and L of a system's file, and of the formulas that users read.
+/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes, and for waves,
+   whose state is u at two levels: Gauss-Legendre collocation in space and time (collocation.c),
+       r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),
+               A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
+   S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The
+   memory is s at the stages of the cells, and the stages of three steps, of which the next step's are
+   guessed. What the form calls M and K are the K and L of a system's file, and of the formulas that users
+   read.
 
-   Values at the nodes are found of those at the stages, and the other way round at the start: of one stage they are
-   means, so that on an odd number of cells a step is the box's of nodes to the last digits. On an even number no mean
-   shows the part that alternates from node to node; it is left out. */
+   Values at the nodes are found of those at the stages, and the other way round at the start: of one stage
+   they are means, so that on an odd number of cells a step is the box's of nodes to the last digits. On an
+   even number no mean shows the part that alternates from node to node; it is left out. */
 #include "core/field/families/boxes/any_form.h"
 
 #include <math.h>
@@ -39,8 +41,8 @@ static const struct gm_collocation_tableau gauss6 = {
     {0.5 - ROOT15 / 10, 0.5, 0.5 + ROOT15 / 10},
 };
 
-/* What is remembered: how many steps' stages there are, + 1 (0: nothing yet), whether Newton's method was needed, s at
-   the stages of the level, and the stages and sides of the last steps. */
+/* The stored memory: 1 + the number of steps with stored stages (0: nothing yet), a flag for Newton's
+   method, s at the stages of the level, and the stages and sides of the last steps. */
 enum { KNOWN, NEWTON, ARRAYS };
 
 static size_t of_level(const struct gm_collocation *work)
@@ -92,8 +94,9 @@ static size_t recall(struct gm_collocation *work, const double *memory)
     return (size_t)memory[KNOWN];
 }
 
-/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them: from values at
-   the nodes they would differ by an error of the grid, which would change its sign from step to step for ever. */
+/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them:
+   from values at the nodes they would differ by an error of the grid, which would change its sign at every
+   step. */
 static void integrate_potentials(struct gm_collocation *work)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
@@ -164,11 +167,11 @@ static void guess(struct gm_collocation *work, size_t known)
     anchor(work);
 }
 
-/* Where a potential ties components without a rate to rates of others, waves of the branches that no smooth field has
-   are too fast for a step: two stages leave them where they are, three turn them around, and such a component is 1/dt
-   of them, which two stages add up step after step. What the start has of them goes here: the stages of a step there
-   and of one back have next to nothing of it, and the polynomial through both, even in time, is s at the start but for
-   dt^(2 r). */
+/* If a potential ties components without a rate to rates of others, waves of the branches that no smooth
+   field has are too fast for a step: two stages leave them unchanged, three change their sign, and such a
+   component is 1/dt of them, which two stages add up step after step. This removes them from the start:
+   the stages of a step forward and of one back have almost nothing of them, and the polynomial through
+   both, even in time, is s at the start up to dt^(2 r). */
 static void settle(struct gm_collocation *work, double dt)
 {
     const size_t points = work->points, r = work->r;

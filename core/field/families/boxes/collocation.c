@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gauss-Legendre collocation on a ring of cells for M s_t + K s_x = grad S(s), M and K skew, of any rank. With the
-   tableau (A, b, c) of r stages across a cell and as many across a step, s = Z_jm at stage j in time and m in space,
+/* Gauss-Legendre collocation on a ring of cells for M s_t + K s_x = grad S(s), M and K skew, of any rank.
+   With the tableau (A, b, c) of r stages across a cell and as many across a step, s = Z_jm at stage j in time
+   and m in space,
        M T_jm + K X_jm = grad S(Z_jm)
        T_jm = sum_k (A^-1)_jk (Z_km - s_m)/dt       X_jm = sum_l (A^-1)_ml (Z_jl - y_j)/dx
        s_m+ = (1 - rho) s_m + sum_k w_k Z_km        y_j+ = (1 - rho) y_j + sum_l w_l Z_jl
        w = b' A^-1,   rho = b' A^-1 1
-   s_m before and s_m+ behind the step, y_j on the left side of the cell and y_j+ on its right one, which is the left
-   one of the next. Of s only M s counts, of y only K y, so that y is kept in a basis of the range of K.
+   s_m before and s_m+ after the step, y_j on the left side of the cell and y_j+ on its right one, which is
+   the left one of the next. Of s only M s counts, of y only K y, so that y is kept in a basis of the range of
+   K.
 
-   The unknowns of a cell, Z, are eliminated from its equations with exchanges of rows, which leave equations between
-   the y of neighbours: a block for the left and one for the right side, folded to a band. Where S'' = S''(0) this is
-   the same in every cell, and made once; with it the equations are iterated, and by Newton's method where that is
-   slow. */
+   The unknowns of a cell, Z, are eliminated from its equations with exchanges of rows, which leave equations
+   between the y of neighbours: a block for the left and one for the right side, folded to a band. With S'' =
+   S''(0) this is the same in every cell, and made once. The equations are iterated with it, or by Newton's
+   method if that is slow. */
 #include "core/field/families/boxes/collocation.h"
 
 #include <complex.h>
@@ -23,7 +25,7 @@
 
 /* ---- the workspace ---- */
 
-/* NULL: memory is short; while a workspace is opened, that leaves the body. */
+/* Returns NULL when out of memory; leaves the body while a workspace is opened. */
 static double *take(const struct gm_collocation *work, size_t count)
 {
     return gm_arena_take(work->arena, count, sizeof(double));
@@ -57,7 +59,8 @@ void gm_collocation_close(void *workspace)
     gm_arena_close(work->arena);
 }
 
-/* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come first, each by itself. */
+/* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come
+   first, each by itself. */
 static void find_range(struct gm_collocation *work, const struct gm_form *form)
 {
     const size_t d = work->d;
@@ -173,7 +176,7 @@ static void open_arrays(struct gm_arena *arena, void *data)
     work->scratch = take(work, sides + 2 * points);
     work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
     work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
-    /* these a run does not do without, whose numbers would else depend on memory; those of Newton's method are many */
+    /* a run needs these, or its numbers would depend on memory; the factors of Newton's method are many */
     if (gm_field_of(work->problem)->form->potential_count == 0 &&
         !open_factors(work, &work->constant, true)) {
         gm_arena_leave(arena);
@@ -253,7 +256,7 @@ GM_CLONES static void add(double *restrict to, const double *restrict from, doub
     }
 }
 
-/* to += factor times what is in the next cell, which of the last is the first, further by the jump */
+/* to += factor times `from` of the next cell; after the last cell comes the first, plus the jump */
 static void add_next(double *restrict to, const double *restrict from, double factor, double jump,
                      size_t points)
 {
@@ -272,7 +275,7 @@ static double *row_of(const struct gm_collocation *work, size_t c, size_t j, siz
     return work->right + ((c * work->r + j) * work->r + m) * work->points;
 }
 
-/* What equations of sides are multiplied by, so that they are as large as those of stages. */
+/* The factor that makes equations of sides as large as the equations of stages. */
 static double weight_of_sides(const struct gm_collocation *work)
 {
     return 1 / work->problem->line.dx;
@@ -336,7 +339,8 @@ static void find_right(struct gm_collocation *work, double dt, bool tangent)
     }
 }
 
-/* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the right y. */
+/* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the
+   right y. */
 static void cell_matrix(const struct gm_collocation *work, double dt, double *matrix)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
@@ -384,7 +388,7 @@ static void subtract_hessian(const struct gm_collocation *work, const double *he
     }
 }
 
-/* The number in the basis of a potential, which stands there by itself. */
+/* The index of a potential's vector in the basis, which has no other component. */
 static size_t place_of(const struct gm_collocation *work, size_t component)
 {
     size_t place = 0;
@@ -394,8 +398,8 @@ static size_t place_of(const struct gm_collocation *work, size_t component)
     return place;
 }
 
-/* The constant of a potential is free, and that it closes around the ring follows from the other equations: in its
-   place, in the last cell, its first side is what the guess says. */
+/* The constant of a potential is free, and its closure around the ring follows from the other equations.
+   Instead of that equation, the first side in the last cell keeps the guess. */
 static void hold_potentials(const struct gm_collocation *work, double *matrix)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
@@ -421,7 +425,8 @@ static void hold_right(struct gm_collocation *work)
     }
 }
 
-/* Eliminates the stages in place, factors below the diagonal; false where they are not determined. */
+/* Eliminates the stages in place, with the factors below the diagonal. Returns false if they are not
+   determined. */
 static bool eliminate(const struct gm_collocation *work, double *matrix, size_t *pivots)
 {
     const size_t rows = work->stages + work->sides, columns = rows + work->sides;
@@ -453,7 +458,7 @@ static bool eliminate(const struct gm_collocation *work, double *matrix, size_t 
     return true;
 }
 
-/* The blocks of the sides as recursions; false where they are better solved as a band. */
+/* Makes the recursions of the blocks of the sides. Returns false if a band solves them better. */
 static bool make_blocks(const struct gm_collocation *work, struct gm_collocation_factors *factors)
 {
     const size_t sides = work->sides, columns = work->stages + 2 * sides;
@@ -479,7 +484,7 @@ static bool factor(struct gm_collocation *work, struct gm_collocation_factors *f
     if (!open_factors(work, factors, shared)) {
         return false;
     }
-    /* what all cells have stands in the last one until it is that one's turn */
+    /* the last cell holds the matrix that all cells share until its own turn */
     double *const last = factors->cells + (shared ? 0 : work->points - 1) * rows * columns;
     cell_matrix(work, dt, last);
     gm_ring_band_clear(&factors->sides);
@@ -611,7 +616,7 @@ static void solve_each(struct gm_collocation *work, struct gm_collocation_factor
     }
 }
 
-/* The largest magnitude; NAN where one is not finite. */
+/* The largest magnitude; NAN if one is not finite. */
 GM_CLONES static double largest(const double *values, size_t count)
 {
     double most[8] = {0}, none[8] = {0};
@@ -665,7 +670,7 @@ static void add_changes(struct gm_collocation *work)
     add(work->y, work->right + work->stages * work->points, 1, work->sides * work->points);
 }
 
-/* One iteration; the largest change of a stage, NAN where one is not finite. */
+/* Makes one iteration. Returns the largest change of a stage, NAN if one is not finite. */
 static double iterate(struct gm_collocation *work, double dt, bool newton, bool anew, double *left,
                       struct gm_progress *progress)
 {
@@ -708,9 +713,10 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;
         }
-        /* what further iterations would change, which contract as the last one did */
+        /* the change by further iterations, if they contract like the last one */
         const double rate = change / last, rest = k > 0 && rate < 0.5 ? change * rate / (1 - rate) : INFINITY;
-        /* or what is left of the equations is rounding: a component without a rate still moves by 1/dt of that */
+        /* or what is left of the equations is rounding: a component without a rate still moves by 1/dt of
+           that */
         const bool still = change >= last / 4 && (change <= 1e-11 * size || (near && left <= 1e-13 * terms));
         if (rest <= 5e-17 * size || still) {
             /* a potential that does not close leaves the equation in whose place its constant was held */
@@ -725,7 +731,7 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
     return GM_NO_CONVERGENCE;
 }
 
-/* s behind the step, from that before and the stages */
+/* s after the step, from s before it and the stages */
 static void find_high(struct gm_collocation *work)
 {
     const size_t points = work->points, r = work->r;
@@ -824,7 +830,7 @@ void gm_collocation_faces(const struct gm_collocation *work, struct gm_faces *fa
 
 /* ---- nodes and stages ---- */
 
-/* s - jump x / length is periodic; that of a place `part` of a cell behind node i. */
+/* jump x / length, `part` of a cell after node i: s without it is periodic. */
 static double slant(const struct gm_collocation *work, size_t c, size_t i, double part)
 {
     return work->jump[c] * ((double)i + part) / (double)work->points;
@@ -877,8 +883,8 @@ void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, 
     }
 }
 
-/* The weights that make of stage values of waves that the nodes do not tell apart the value at the node: the waves
-   of the angles angle, angle -+ 2 pi .. are 1 there. Of the alternating wave there are two. */
+/* The weights that turn stage values into the value at the node, exact for waves that are equal at the
+   nodes: waves of the angles angle, angle -+ 2 pi .. are 1 there. The alternating wave has two angles. */
 static void node_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
 {
     const size_t points = work->points, r = work->r;
@@ -916,8 +922,8 @@ static void node_weights(const struct gm_collocation *work, size_t mode, double 
     }
 }
 
-/* The same of the left side of a cell, whose right one is that of the next. Where the sides' own part is free, it is what
-   gives the slopes no part in it. */
+/* The weights of stage values for the left side of a cell; its right side is the next cell's left one. A
+   free part of the sides is chosen without a part in slopes. */
 static void side_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
 {
     const double complex rise = cexp(I * angle_of(mode, work->points)) - work->rest;

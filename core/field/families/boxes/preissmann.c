@@ -11,10 +11,10 @@
    lacks the averages.) For equations of first order in time see families/dispersive/box.c.
 
    The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by
-   dt^2/4 max |V''|. Where that is slow Newton's method goes on. The matrix of the equations of a step,
+   dt^2/4 max |V''|. If that is slow, Newton's method continues. The matrix of the equations of a step,
        A_x' (1/dt^2 + V''/4) A_x + D_x' D_x/4,
-   is that of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least one, maybe several,
-   beyond. */
+   is the Hessian of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least
+   one beyond. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,12 +76,12 @@ GM_CLONES static double largest_change(const double *restrict a, const double *r
 }
 
 /* The equations of a step: F = C u + V' - right with the circulant C, the force of the cells around a node
-   and what the past contributes. */
+   and the contribution of the past levels. */
 struct equations {
     struct gm_two_step_work *work;
     const struct gm_problem *problem;
     const double *now;
-    double diagonal, off; /* of C */
+    double diagonal, off; /* entries of C */
 };
 
 static void residual_at(void *context, const double *u, double *residual)
@@ -124,7 +124,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
 {
     const double *past = work->level[0], *now = work->level[1];
     double *next = work->level[2];
-    enum { MOST = 30 }; /* which cost what Newton's method does, 5 solves: reached for dt > 1 */
+    enum { MOST = 30 }; /* sweeps, at the cost of Newton's method, 5 solves: reached for dt > 1 */
     const size_t points = work->points;
     const double dx = problem->line.dx, jump = problem->line.jump;
     const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);

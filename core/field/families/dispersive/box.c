@@ -7,7 +7,7 @@
        Schroedinger            2   i   1    A     |psi|^2 psi   6
    U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255; A.L. Islas, D.A. Karpeev & C.M. Schober,
    J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by recursions; the rest is
-   iterated to round-off, and where that is slow or diverges solved by Newton's method. */
+   iterated to round-off, and solved by Newton's method if that is slow or diverges. */
 #include "core/field/families/dispersive/box.h"
 
 #include <complex.h>
@@ -18,7 +18,7 @@
 #include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
-/* Arrays of real parts, each followed by its imaginary parts, behind the work. */
+/* Arrays of real parts, each followed by its imaginary parts, after the workspace. */
 static double *array(const struct gm_two_step_work *work, size_t which)
 {
     return (double *)(void *)(work + 1) + 2 * which * work->points;
@@ -303,7 +303,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
         memcpy(now, next, 2 * size);
         progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
         if (!equation->complex_valued) {
-            /* what rounding leaves of an imaginary part */
+            /* the imaginary part is rounding */
             memset(next + points, 0, size);
         }
         if (!gm_field_stepped(task, &progress, next, 2 * points)) {

@@ -10,9 +10,9 @@
 struct gm_progress gm_dispersive_advance(const struct gm_task *task);
 void *gm_dispersive_open(const struct gm_problem *problem);
 
-/* One step of the linearised scheme: a tangent at the next level, from that at the present one, both as real
-   parts and then imaginary ones; `base` holds the means of the solution in the cells between the two levels,
-   likewise. */
+/* One step of the linearised scheme: the tangent at the next level, from the tangent at the current one,
+   both as real parts, then imaginary ones; `base` holds the means of the solution in the cells between the
+   two levels, likewise. */
 enum gm_status gm_dispersive_tangent(struct gm_two_step_work *work, const struct gm_problem *problem,
                                      double dt, const double *base, const double *now, double *next);
 

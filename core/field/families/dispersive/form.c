@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The laws of the box for equations of first order in time. The multisymplectic one: two tangents are advanced
-   by a step, and the variables that elimination left out follow from the box equations that hold them
-   (gm_dispersive). Those of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36): the product of
-   the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in space but for S, and
-   of S but for what is not quadratic in it, V. */
+/* The laws of the box for equations of first order in time. The multisymplectic one: two tangents are
+   advanced by a step, and the variables that elimination left out follow from the box equations that hold
+   them (gm_dispersive). The laws of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36):
+   the product of the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in
+   space but for S, and of S but for what is not quadratic in it, V. */
 #include "core/field/families/dispersive/form.h"
 
 #include <math.h>
@@ -93,7 +93,7 @@ static double beyond_quadratic(const struct gm_problem *problem, const double a[
     return (change - (b[0] - a[0]) * g[0] - (b[1] - a[1]) * g[1]) / step;
 }
 
-/* Which law is measured, and what it leaves in each cell. */
+/* The law that is measured, and its residual in each cell. */
 struct local {
     enum gm_local_law law;
     double *residual;

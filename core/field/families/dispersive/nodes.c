@@ -138,8 +138,8 @@ struct tangent {
     double *first[3], *second[3];
 };
 
-/* What a step makes of two arrays, u at the present level and the past one, or p and q, along the two of `direction`:
-   the first of the state behind it, or both. */
+/* The derivative of a step along the two arrays of `direction`, at u of the current and the past level or
+   at p and q: the first array of the next state, or both. */
 static void by_own_steps(const struct base *base, const double *first, const double *second,
                          const double *direction, double *slope)
 {

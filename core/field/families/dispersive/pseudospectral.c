@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fourier pseudo-spectral method for u_t + eta u u_x + mu u_xxx = 0: derivatives by Fourier modes u_k, products
-   at the nodes, the linear part exactly and the rest by the classical Runge-Kutta method for exp(-i mu k^3 t)
-   u_k,
+/* Fourier pseudo-spectral method for u_t + eta u u_x + mu u_xxx = 0: derivatives by Fourier modes u_k,
+   products at the nodes, the linear part exactly and the rest by the classical Runge-Kutta method for exp(-i
+   mu k^3 t) u_k,
        N(u)_k = -i k eta/2 (u^2)_k,   e = exp(i mu k^3 dt/2)
        a = N(u),   b = N(e (u + dt/2 a)),   c = N(e u + dt/2 b),   d = N(e^2 u + dt e c)
        u := e^2 u + dt/6 (e^2 a + 2 e (b + c) + d).
-   J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; B. Fornberg & G.B. Whitham, Phil. Trans. R. Soc. A 289 (1978)
-   373. It is not symplectic and has no local laws; its error in space falls faster than every power of dx
-   while the field has no finer parts than the nodes can tell apart, and what is finer comes back as coarse
+   J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; B. Fornberg & G.B. Whitham, Phil. Trans. R. Soc. A 289
+   (1978) 373. It is not symplectic and has no local laws; its error in space falls faster than every power of
+   dx while the nodes resolve the field; finer parts are aliased to coarse
    waves. D. Dutykh, M. Chhay & F. Fedele, Comput. Math. Math. Phys. 53 (2013) 221, compare such a method with
    the box. */
 #include <complex.h>
@@ -23,9 +23,9 @@
 struct work {
     size_t points;
     struct gm_fourier *fourier;
-    /* of each mode, `points` numbers */
+    /* arrays of `points` numbers, one per mode */
     double complex *modes, *turn, *square, *stage, *rate[4];
-    double *number; /* k; 0 of the mode that alternates */
+    double *number; /* k; 0 for the mode that alternates */
     double *level[2];
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Euler box for the nonlinear Schroedinger equation, psi = p + i q, all but the field eliminated, with the
-   state p^{n-1} and q^n (d2 is the second difference in x):
+/* The Euler box for the nonlinear Schroedinger equation, psi = p + i q, all but the field eliminated, with
+   the state p^{n-1} and q^n (d2 is the second difference in x):
        (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
        (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
    stable for dt < dx^2/2. B. Moore & S. Reich, Numer. Math. 95 (2003) 625. There is no midpoint scheme
@@ -21,7 +21,7 @@ static double second(const double *u, size_t i, const struct gm_grid1 *grid)
     return (u[(i + 1) % points] - 2 * u[i] + u[(i + points - 1) % points]) / (grid->dx * grid->dx);
 }
 
-/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; false where no real p' is left. */
+/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; returns false without a real p'. */
 static bool nls_first(const struct gm_grid1 *grid, double dt, double *p, const double *q)
 {
     for (size_t i = 0; i < grid->points; i++) {

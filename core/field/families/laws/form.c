@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Local laws of the box for any multisymplectic form: Razafindralandy et al. (2018), eqs. 35 and 36; B. Moore & S.
-   Reich, Numer. Math. 95 (2003) 625. */
+/* Local laws of the box for any multisymplectic form: Razafindralandy et al. (2018), eqs. 35 and 36; B. Moore
+   & S. Reich, Numer. Math. 95 (2003) 625. */
 #include "core/field/families/laws/form.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void at_node(const struct gm_problem *problem, const double *y, const dou
     }
 }
 
-/* Its mean in a cell, and its slope. */
+/* The mean of s in a cell, and the slope of s. */
 static void in_cell(const struct gm_problem *problem, const double *y, size_t i, double *mean, double *slope)
 {
     double right[GM_MOST_OF_FORM];
@@ -68,7 +68,7 @@ double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme
     return gm_any_form_integral(problem, scheme, memory, momentum_density);
 }
 
-/* The level after a step; NULL: memory is short, or it fails. */
+/* The level after a step; NULL if it fails, or when out of memory. */
 static double *next_level(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y)
 {

@@ -4,9 +4,9 @@
 
 #include "core/field/field.h"
 
-/* A field on a ring as a scheme has it, for integrals of it: `points` values and then as many slopes. Of cells
-   means and differences; of modes of Fourier what their polynomial is at the nodes; of nodes these, and the
-   differences between them. malloc'ed, NULL if memory is short. */
+/* A field on a ring as a scheme represents it, for integrals: `points` values, then `points` slopes. For
+   cells, means and differences; for Fourier modes, their polynomial at the nodes; for nodes, the values
+   and their differences. The caller frees it; NULL when out of memory. */
 double *gm_field_profile(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *u);
 
 #endif

@@ -84,7 +84,7 @@ double gm_wave_momentum(const struct gm_problem *problem, const double *y)
     const double *u = y, *o = y + grid->points, gap = y[2 * grid->points];
     double sum = 0;
     for (size_t i = 0; i < grid->points; i++) {
-        /* gap is the other time minus the present one */
+        /* gap is the other time minus the current one */
         sum += (o[i] - u[i]) / gap *
                (gm_grid1_value(grid, u, i, 1) - gm_grid1_value(grid, u, i, -1) +
                 gm_grid1_value(grid, o, i, 1) - gm_grid1_value(grid, o, i, -1)) /
@@ -101,7 +101,7 @@ static double node_law(const struct gm_problem *problem, const struct gm_levels 
            d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
 }
 
-/* Which law of the nodes is measured, and what it leaves at each. */
+/* The law of the nodes that is measured, and its residual at each node. */
 struct node_laws {
     enum gm_local_law law;
     double *residual;

@@ -12,15 +12,15 @@
 double gm_wave_energy(const struct gm_problem *problem, const double *y);
 /* dx sum over cells [ (A(u - o)/dt)^2 / 2 + (D(u + o)/2)^2 / 2 + V(A(u + o)/2) ] */
 double gm_wave_cell_energy(const struct gm_problem *problem, const double *y);
-/* The energy that belongs to the scheme's own laws: of nodes, of cells or of its family's stages. `memory` is that of a
-   run at y. */
+/* The energy that belongs to the scheme's own laws: of nodes, of cells or of its family's stages. `memory` is
+   that of a run at y. */
 double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory);
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 
-/* What is left of the scheme's local law of energy or of momentum at every node, or in every cell of the box.
-   False where the scheme has other laws, memory is short or the next step fails. */
+/* Measures the residual of the scheme's local law of energy or of momentum at every node, or in every cell
+   of the box. False if the scheme has other laws, when out of memory or if the step fails. */
 bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual);
 

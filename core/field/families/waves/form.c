@@ -16,7 +16,7 @@
 #include "core/field/multisymplectic.h"
 #include "core/linear/ring/ring.h"
 
-/* Where the state holds two levels, a step is made aside. */
+/* Makes a step to get three levels: the state holds only two. */
 struct gm_levels gm_levels_of(const struct gm_law *law)
 {
     const struct gm_two_step_row *row = law->scheme->coefficients;
@@ -184,7 +184,7 @@ static void complete_node(const void *tangent, size_t node, double *levels)
         double *s = levels + n * DIMENSION;
         const double left = u[n][left_of(node, points)], right = u[n][right_of(node, points)];
         s[U] = u[n][node];
-        /* that of the first level occurs in no flux */
+        /* v of the first level occurs in no flux */
         s[V] = nodes->centred ? v[n][node] : n ? (u[n][node] - u[n - 1][node]) / nodes->dt : 0;
         s[W] =
             nodes->centred ? (right - left) / (2 * nodes->line->dx) : (u[n][node] - left) / nodes->line->dx;

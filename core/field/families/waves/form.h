@@ -10,7 +10,8 @@ struct gm_levels {
     const double *v_past, *v_now, *v_next; /* u_t, of a scheme that keeps it in its memory; else NULL */
 };
 
-/* From the state and the memory of a scheme whose row is a struct gm_two_step_row, by a step ahead, two at the start. */
+/* The levels from the state and the memory of a scheme with a struct gm_two_step_row, by a step ahead, two
+   at the start. */
 struct gm_levels gm_levels_of(const struct gm_law *law);
 
 /* gm_family.form of the schemes for u_tt - u_xx + V'(u) = 0 whose rows are struct gm_two_step_row. */

@@ -112,7 +112,7 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
     return row->keeps_change ? problem->line.points : 0;
 }
 
-/* Of no use to a first step that is none of the scheme's own, which begins the change anew. */
+/* Starts the stored change, u at t less u at the other time; a first step of another formula replaces it. */
 static enum gm_status start(const struct gm_task *task)
 {
     const size_t points = task->problem->line.points;

@@ -5,7 +5,8 @@
        f = L u - V'(u)
        L u = (u_{i-1} - 2 u_i + u_{i+1}) 4/D^2                                          in the middle
        L u = (-u_{i-2} + 8 u_{i-1} - 14 u_i + 8 u_{i+1} - u_{i+2}) / D^2                at the ends
-       w   = (u_{i+2} - u_i)/D - D [(L u)_i/6 + (L u)_{i+1}/3]                          at an element's left end
+       w   = (u_{i+2} - u_i)/D - D [(L u)_i/6 + (L u)_{i+1}/3]                          at an element's left
+       end
    of fourth order in dx. In time u'' = f with
        two stages of Lobatto IIIA-IIIB, which is Verlet's scheme
        three stages     u_h = u + dt v/2 + dt^2 (f/12 + f_h/24)     solved by iteration, for dt < 2 dx
@@ -34,10 +35,10 @@ enum { STAGES = 3 };
 
 struct work {
     size_t points;
-    double *u, *v, *force;           /* points each; force is that of u where it is `fresh` */
+    double *u, *v, *force;           /* [points] each; force belongs to u if it is `fresh` */
     double *before;                  /* u before the last step */
     double *stage[GM_LOBATTO_KICKS]; /* u at the kicks of the last step */
-    double *last;                    /* what an iteration changes */
+    double *last;                    /* scratch of find_force */
     bool fresh;
 };
 
@@ -245,8 +246,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-/* u_t^2/2 + V(u) by Lobatto's rule on the elements, and u_x^2/2 of the parabolas through their stages, whose derivative
-   in u is -L u. */
+/* u_t^2/2 + V(u) with Lobatto's rule on the elements, and u_x^2/2 of the parabolas through their stages,
+   whose derivative in u is -L u. */
 static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory)
 {

@@ -82,7 +82,7 @@ static enum gm_status centred_step(struct gm_two_step_work *work, const struct g
     return GM_OK;
 }
 
-/* Of both levels, with the slopes that the scheme takes. */
+/* The energy of both levels, with the slopes of the scheme. */
 static double wave_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory)
 {
