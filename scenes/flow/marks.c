@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is drawn over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
+/* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
 #include "scenes/flow/marks.h"
 
 #include <math.h>
@@ -17,7 +17,6 @@ bool gm_flow_is_signed(int show)
     return show == GM_SHOW_VORTICITY || show == GM_SHOW_PRESSURE;
 }
 
-/* Levels of psi: equal parts of the flow that passes through; the same distance in what turns on its own. */
 void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                               const struct gm_flow_sheet *sheet, const struct gm_look *look)
 {
@@ -120,7 +119,6 @@ void gm_flow_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
-/* Tracers: a dot each, and a tail where it was a short time ago. */
 void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                           bool over, double size)
 {
@@ -220,7 +218,6 @@ size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_openi
     return e;
 }
 
-/* Names of openings outside the walls. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
                            const char *const *names, double size)
 {
@@ -244,7 +241,7 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
                          : opening->inlet ? "inlet"
                                           : "outlet");
         if (name) {
-            name->fixed = true; /* one that has no room outside is not to stand on the field */
+            name->fixed = true; /* a name without space outside must not cover the field */
         }
     }
 }

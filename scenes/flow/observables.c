@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is observed of flows: measures of their states, and errors against the exact solution that a room's file gives,
-   which are NAN where there is none. */
+/* Observables of flows: measures of their states, and errors against the exact solution that a room's file
+   gives (NAN without one). */
 #include "scenes/flow/observables.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static const struct gm_flow *flow_of(const struct gm_view *view)
     return gm_flow_of(view->problem);
 }
 
-/* What is measured of a flow and its state, by the observable's key. */
+/* Returns a measure of the state of a flow, by the observable's key. */
 static double measured(const struct gm_view *view)
 {
     static const struct {
@@ -59,7 +59,7 @@ static double change(const struct gm_view *view)
     return size > 0 ? change / size : 0;
 }
 
-/* What is measured of its mesh. */
+/* Returns a measure of the mesh of a flow, by the observable's key. */
 static double of_mesh(const struct gm_view *view)
 {
     static const char *const keys[] = {"triangles", "obtuse_share", "star_least", "mean_edge"};
@@ -220,7 +220,7 @@ static double pressure_error_middle(const struct gm_view *view)
 }
 
 /* The mean of |u - exact|, or of |theta - exact|, at fifty places along a profile, not at its ends: on the walls
-   velocity and temperature are given, and a polynomial fitted to one side says nothing of the flow. */
+   velocity and temperature are given, and a polynomial fitted to one side does not follow the flow. */
 static double profile_error(const struct gm_view *view)
 {
     enum { PLACES = 50 };

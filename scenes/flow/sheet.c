@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a mesh and values at its vertices to the triangles that are drawn. */
+/* The triangles that are drawn, from a mesh and values at its vertices. */
 #include "scenes/flow/sheet.h"
 
 #include <math.h>
