@@ -85,7 +85,7 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
     }
 }
 
-/* The values around the node at the present level. */
+/* Draws the values around the node at the current level. */
 static void draw_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                         const struct gm_moving_frame *stencils, const struct gm_axes_style *look,
                         bool carried)
