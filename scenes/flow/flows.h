@@ -28,7 +28,7 @@ enum gm_flows_show {
 
 enum { GM_FLOWS_OWN = 8 /* most parameters, or choices, of a single file */ };
 
-/* The parameters; a scene's table has rows for those that it uses. */
+/* The parameters; a scene's table has rows for some. */
 struct gm_flows {
     struct gm_timing timing;
     double reynolds, schmidt, viscosity, irregular, own[GM_FLOWS_OWN];
@@ -67,10 +67,10 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, c
 /* Writes why a boundary determines no flow; returns true for GM_BOUNDARY_OK. */
 bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence);
 
-/* Returns why a parameter has no effect, with a mesh file or without one; NULL if it has an effect. */
+/* Returns why a parameter has no effect, with a mesh file or without; NULL if it has one. */
 const char *gm_flows_idle(const void *parameters, const char *key);
 
-/* A profile: `count` points on the line from a to b. */
+/* A profile: `count` points from a to b. */
 struct gm_profile {
     const char *name;
     double a[2], b[2];

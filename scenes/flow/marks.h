@@ -15,23 +15,22 @@ bool gm_flow_is_signed(int show);
    closed eddies. */
 void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                               const struct gm_flow_sheet *sheet, const struct gm_look *look);
-/* Walls, bold; openings are left open. */
+/* Draws the walls, bold; openings are left open. */
 void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow);
-/* The edges of the mesh. */
+/* Draws the edges of the mesh. */
 void gm_flow_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
                        bool over);
 /* Draws tracers: a dot each, and a tail to its position a short time ago. */
 void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                           bool over, double size);
-/* Arrows of velocity; one of `speed` is as long as their distance. */
+/* Draws arrows of velocity on an even grid; one of `speed` is as long as their distance. */
 void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          bool over, double speed);
-/* The names of openings, or "inlet" and "outlet", outside the walls. */
+/* Writes the names of openings, or "inlet" and "outlet", outside the walls. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
                            const char *const *names, double size);
 
-/* Sets `outward` to the way out through an opening, as long as the opening; returns the boundary edge behind
-   it. */
+/* Sets `outward` to the way out through an opening, with its length; returns the boundary edge behind it. */
 size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening,
                                double outward[2]);
 

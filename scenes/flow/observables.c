@@ -124,7 +124,7 @@ static double solution_error(const struct gm_view *view)
     return largest;
 }
 
-/* An end of a dual edge: a dual vertex, or on the boundary the edge's middle. */
+/* Sets an end of a dual edge: a dual vertex, or on the boundary the edge's middle. */
 static void dual_end(const struct gm_complex *complex, size_t e, int side, double p[2])
 {
     const int t = complex->edge_triangle[2 * e + (size_t)side];
@@ -176,8 +176,8 @@ static double velocity_error(const struct gm_view *view)
     return sqrt(error / size);
 }
 
-/* The error of the total pressure over the triangles whose dual vertex is further than `margin` from the
-   boundary of the rectangle; both pressures with mean 0 there. */
+/* Returns the error of the total pressure over the triangles whose dual vertex is further than `margin` from
+   the boundary of the rectangle; both pressures with mean 0 there. */
 static double pressure_error_within(const struct gm_view *view, double margin)
 {
     const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
@@ -219,8 +219,8 @@ static double pressure_error_middle(const struct gm_view *view)
     return pressure_error_within(view, 0.2);
 }
 
-/* The mean of |u - exact|, or of |theta - exact|, at fifty places along a profile, not at its ends: on the walls
-   velocity and temperature are given, and a polynomial fitted to one side does not follow the flow. */
+/* Returns the mean of |u - exact|, or of |theta - exact|, at fifty points inside a profile: on the walls
+   velocity and temperature are given, and a polynomial fitted to one side misses the flow. */
 static double profile_error(const struct gm_view *view)
 {
     enum { PLACES = 50 };

@@ -60,7 +60,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     return values;
 }
 
-/* The ends of the colours; the same for all lanes. */
+/* Sets the ends of the colours, the same for all lanes. */
 static void colour_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                          const struct gm_look *look, double *low, double *high)
 {
@@ -195,7 +195,7 @@ static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t o
     return common;
 }
 
-/* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh from a file: the least entry of its star. */
+/* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh from a file: its least entry. */
 static const char *told_star(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_complex *complex = flow_of(lane)->complex;
@@ -258,7 +258,7 @@ static bool is_steady(const struct gm_lane *const *lanes, size_t count)
     return steady;
 }
 
-/* Errors against the mean edge length, a point for each lane. */
+/* Draws errors against the mean edge length, a point for each lane. */
 static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                              const struct gm_look *look)
 {
@@ -380,7 +380,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     for (size_t i = 0; i < count; i++) {
         struct gm_panel *panel = draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
         panel->title_role = graphs ? gm_lane_role(lanes[i]->shown.colour) : GM_INK;
-        panel->colour_bar &= i + 1 == count; /* the colours mean the same in all */
+        panel->colour_bar &= i + 1 == count; /* all panels have the same colours */
     }
     if (graphs && look->graphs[0]) {
         draw_graphs(picture, lanes, count, look);

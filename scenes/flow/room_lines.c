@@ -42,7 +42,7 @@ static double number(struct gm_user_room *user_room, struct gm_span span)
     return value;
 }
 
-/* Returns numbers that are separated by commas: the numbers of an option, or all if `word` is NULL. */
+/* Returns numbers separated by commas: the numbers of an option, or all if `word` is NULL. */
 static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
 {
     struct gm_span rest = pieces, piece;
@@ -64,7 +64,7 @@ static double option_number(struct gm_user_room *user_room, struct gm_span piece
     return count > 0 ? list[0] : otherwise;
 }
 
-/* Returns words that are separated by blanks or commas, NULL-terminated; NULL if there is no text. */
+/* Returns words separated by blanks or commas, NULL-terminated; NULL without a text. */
 static const char *const *list_words(struct gm_user_room *user_room, const char *text)
 {
     size_t count = 0;
@@ -269,8 +269,7 @@ static void check_options(struct gm_user_room *user_room, struct gm_span rest, c
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of an existing
-   one */
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
 static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
     static const char *const options[] = {"along", "title", "missing", NULL};
@@ -340,7 +339,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
 }
 
-/* table: NAME PROFILE; KEY = VALUE; place value, place value ... */
+/* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
 static void add_table(struct gm_user_room *user_room, struct gm_span rest)
 {
     user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
@@ -532,7 +531,7 @@ static double courant_time(const void *parameters)
     return time;
 }
 
-/* Rows of a map over Reynolds and Courant numbers: time-stepping schemes lose the speed there. */
+/* The Courant numbers and time-stepping schemes of a map of the speed's loss. */
 static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
 static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 

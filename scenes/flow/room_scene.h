@@ -31,8 +31,7 @@ enum {
 struct gm_room_profile {
     struct gm_profile line;
     const char *quantities,
-        *label; /* the letters of the quantities; the label of the axis of values, NULL: the quantity's
-                   name */
+        *label; /* the letters of the quantities; the label of values, NULL: the quantity's name */
     struct gm_room_range range; /* the range of that axis; NAN: the range of the values */
 };
 
@@ -87,7 +86,7 @@ __attribute__((format(printf, 2, 3))) char *gm_room_format(struct gm_user_room *
                                                            ...);
 /* Returns a part of a lane's text, for a picture. */
 const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span);
-/* Leaves the arena with what is wrong at a place of the file. */
+/* Leaves the arena with a fault in the file. Does not return. */
 _Noreturn void gm_room_refuse(struct gm_user_room *user_room, const struct gm_fault *fault);
 
 #endif

@@ -139,8 +139,8 @@ static double observe_local(const struct gm_view *view)
     }
 }
 
-/* Writes a fault of the room with its line, or else of the whole boundary without a line; nothing if both are
-   right. */
+/* Writes a fault of the room with its line, or of the whole boundary without a line; nothing without a
+   fault. */
 static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault,
                  enum gm_boundary_fault boundary, char *sentence)
 {
@@ -491,7 +491,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
         high = fmax(high, fmax(other->theta_high, enriched(other)));
     }
-    /* a quarter of the speed of a free fall by buoyancy: the largest of convection in a closed room */
+    /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
     const bool units = user_room->room.units, named = !room->rectangular;
@@ -662,8 +662,7 @@ static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
     return sum;
 }
 
-/* Returns the room's name with a checksum of its text and of the mesh, which distinguishes rooms of one
-   name. */
+/* Returns the room's name with a checksum of its text and mesh, which distinguishes rooms of one name. */
 static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
