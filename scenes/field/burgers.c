@@ -70,7 +70,7 @@ static bool setup(const void *self, struct gm_problem *problem, char *sentence)
     const double most = 1e7, lambda = scene->burgers.lambda;
     *problem = gm_problem_burgers;
     problem->parameters = &scene->burgers;
-    /* a grid at rest grows to where the front travels */
+    /* a grid at rest extends to the front's last position */
     const double travel =
         scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(self));
     const double more = round(fabs(travel) / scene->dx);

@@ -158,7 +158,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     bool one_colour = true, left = false;
     const struct gm_lane *first = NULL;
     for (;;) {
-        /* the frames by rising velocity */
+        /* the frames in order of velocity */
         const struct gm_lane *next = NULL;
         for (size_t i = 0; i < count; i++) {
             const double lambda = lambda_of(lanes[i]);
@@ -186,7 +186,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
         const double *before = k > 0 ? point - 2 : NULL;
         const bool inside = point[1] <= panel->y.high;
         if (!inside && before && before[1] > 0 && before[1] <= panel->y.high) {
-            /* to the upper edge: this is where the scheme fails */
+            /* the line ends at the upper edge: the scheme fails there */
             const double part = log(panel->y.high / before[1]) / log(point[1] / before[1]);
             const double line[] = {before[0], before[1], before[0] + part * (point[0] - before[0]),
                                    panel->y.high};
@@ -217,7 +217,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
    upwards. */
 static void part_names(struct curve *curves, size_t count, double low, double high, double line)
 {
-    for (size_t i = 1; i < count; i++) { /* by falling height */
+    for (size_t i = 1; i < count; i++) { /* sorted by falling height */
         for (size_t k = i; k > 0 && curves[k].at > curves[k - 1].at; k--) {
             const struct curve higher = curves[k];
             curves[k] = curves[k - 1];
@@ -262,7 +262,7 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
     gm_range_round(&low, &high, GM_LOG);
     panel->axes = true;
     panel->title_role = GM_INK;
-    /* with space for the names after the last point */
+    /* space for the names after the last point */
     panel->x = (struct gm_axis){.label = "λ", .low = least, .high = most + 1.25 * (most - least)};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low, .high = high};
     for (size_t i = 0; curves && points && i < count; i++) {

@@ -155,7 +155,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         panel->note = gm_lane_failure(picture, lane);
         if (!has_surface(lane)) {
             if (!panel->note[0] && rows->count > 0) {
-                /* in the empty surface, where small pictures have no line for a note either */
+                /* the note is in the empty surface: small pictures have no other line for it */
                 gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1},
                              (panel->x.low + panel->x.high) / 2, (panel->y.low + panel->y.high) / 2,
                              GM_ANCHOR_CENTRE, "the scheme has no such law");

@@ -33,7 +33,7 @@ static struct gm_panel *add(struct gm_picture *picture, const char *title, const
     return panel;
 }
 
-/* Later lanes are thinner, so that lanes on the same place are all seen. */
+/* Later lanes are thinner, so that coinciding lanes are all seen. */
 static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t count)
 {
     return gm_lane_style(lane, 1, 2 + 6 * (double)(count - 1 - i) / (double)count);

@@ -128,7 +128,7 @@ static double *values_of(const struct lane *lane, const char *given)
     return values;
 }
 
-/* ---- what is observed ---- */
+/* ---- observables ---- */
 
 /* Returns the free constant of a potential, by which it may differ from the exact solution; else 0. */
 static double constant_of(const struct gm_view *view, size_t component)
