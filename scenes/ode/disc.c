@@ -95,7 +95,7 @@ static double area(const struct gm_view *view)
 {
     const size_t m = view->problem->m, points = m - 1;
     const double *y = view->state, *q = view->start + Q * m, *p = view->start + P * m;
-    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
+    double complex *edge = malloc(2 * points * sizeof *edge); /* the edge, then its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
         const double dq = p[points] - p[i], dp = q[i] - q[points];
         edge[i] = y[Q * m + i] - y[Q * m + points] + I * (y[P * m + i] - y[P * m + points]);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Point vortices of equal strength g in the plane, and passive tracers that they carry, z = x + i y:
        H = -(1/2 pi) sum_{i<j} g^2 ln |z_i - z_j|,   q_i = g x_i,   p_i = y_i
-   Energy, impulse sum g z_i and angular impulse sum g |z_i|^2 are conserved. `reduced` has z3 = -z1 and z4 =
-   -z2 built in, so that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it does so in the
-   full system, whatever the scheme. What to look at: the Poincare section arg z2 - arg z1 = pi/2 of the
-   reduced system, a curve on which symplectic methods stay and RK4 does not; and the angular impulse.
+   Energy, impulse sum g z_i and angular impulse sum g |z_i|^2 are conserved. In `reduced` the symmetry
+   z3 = -z1 and z4 = -z2 is built in, so that rounding cannot break it; beyond a turn of 35.12 degrees it
+   does so in the full system, whatever the scheme. What to look at: the Poincare section
+   arg z2 - arg z1 = pi/2 of the reduced system, a curve on which symplectic methods stay and RK4 does not;
+   and the angular impulse.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", with the factor and the sense of
    rotation of Kirchhoff's equations (30) corrected:
@@ -259,7 +260,7 @@ static double section_shift(const struct gm_view *view)
 static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
 {
     const struct gm_vortices *vortices = parameters_of;
-    const double turned = atan2(y, x) - M_PI / 2; /* in the square the first one is at pi/2 */
+    const double turned = atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
     switch (vortices->configuration) {
     case GM_REDUCED:
     case GM_TWO_TURNED: /* its mirror image is as near */

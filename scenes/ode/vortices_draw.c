@@ -23,7 +23,7 @@ static double reach_of(const struct gm_lane *const *lanes, size_t count)
         }
         reach = vortices->tracers > 0 || vortices->configuration == GM_PATCHES ? fmax(reach, 1.75) : reach;
     }
-    /* in rare steps, so that a movie is calm */
+    /* the scale moves in rare steps, so that a movie is calm */
     return 0.25 * ceil(reach / 0.25 - 1e-9);
 }
 

@@ -20,7 +20,7 @@ static const double golden_angle = 2.3999632297286533; /* fills a disc evenly */
 static void place(const struct gm_vortices *vortices, size_t count, double *x, double *y)
 {
     uint64_t random = (uint64_t)vortices->seed;
-    const double patch = 0.4; /* radius; the pair within 1, 3 radii apart, where two become one below 3.2 */
+    const double patch = 0.4; /* radius; the pair fits into 1, 3 radii apart; two merge below 3.2 */
     static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
     for (size_t i = 0; i < count; i++) {
         double turn = 2 * M_PI * (double)i / (double)count, radius = 1;

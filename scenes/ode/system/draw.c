@@ -14,7 +14,7 @@
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 
-/* A path whose mean chord is longer, of the panel, is drawn as dots: between them it is not known. */
+/* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
 static const double longest_chord = 0.05;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)

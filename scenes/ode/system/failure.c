@@ -154,7 +154,7 @@ static void tell_rest(const struct gm_view *view, const double *slope, double *a
     }
 }
 
-/* Writes what is not finite in these states with slopes `slope`; false if all is finite. */
+/* Writes the fault of these states with slopes `slope`; false if all is finite. */
 static bool tell_states(const struct gm_view *view, const double *states, const double *slope, char *text,
                         size_t size)
 {

@@ -144,7 +144,7 @@ static double area(const struct gm_view *view)
     if (points == 0) {
         return NAN;
     }
-    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
+    double complex *edge = malloc(2 * points * sizeof *edge); /* the edge, then its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
         edge[i] = edge[points + i] = x[i] - x[points] + I * (y[i] - y[points]);
     }
@@ -360,7 +360,7 @@ static bool add_observed(struct gm_system_scene *system_scene, const struct gm_s
     row.error = row.symbol != NULL;
     row.logarithmic |= row.error;
     if (row.period > 0 && system_scene->scene.follow == 0) {
-        system_scene->scene.follow = FOLLOWED; /* so that an angle is seen in every part of a turn */
+        system_scene->scene.follow = FOLLOWED; /* an angle must be seen in every part of a turn */
     }
     return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
 }

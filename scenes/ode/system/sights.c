@@ -67,7 +67,7 @@ static bool open_plane(struct gm_system_scene *system_scene, struct gm_sight *si
            gm_system_open_tape(system_scene, &sight->tape, nodes, 2);
 }
 
-/* Copies the formulas of all lines of a word; returns where they end. */
+/* Copies the formulas of all lines of a word; returns their end. */
 static gm_node_id *copy_nodes(const struct gm_user_system *system, enum gm_system_word word, gm_node_id *to)
 {
     const struct gm_system_item *item;
@@ -213,7 +213,7 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         good = open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
     }
     if (n == 1) {
-        good = good && add_pair(system_scene, 1, 0); /* over time */
+        good = good && add_pair(system_scene, 1, 0); /* the component over time */
     }
     for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
         good = add_pair(system_scene, i, half + i);

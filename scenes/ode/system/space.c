@@ -7,7 +7,7 @@
 
 #include "scenes/common/graph.h"
 
-/* A path whose mean chord is longer, of what is seen, is drawn as dots: between them it is not known. */
+/* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
 static const double longest_chord = 0.05;
 /* The length of axes out of a surface, as a multiple of its size. */
 static const double axes_reach = 1.18;
