@@ -3,7 +3,7 @@
        u_t + u u_x = nu u_xx,   (t, x, u) -> (t, x + lambda t, u + lambda)
    It is not Hamiltonian: what counts are its symmetries, boosts and projections among them, with which the
    exact flow commutes. What to look at: the profiles, drawn at rest, from frames that are faster and faster.
-   Those of the invariantised schemes, on nodes that move along, are one and the same; the others part,
+   The profiles of the invariantised schemes, on nodes that move along, coincide; the others separate,
    overshoot and blow up. With form=printed the convection is u D0 u as in the document, whose error grows at
    the shock even at rest where nodes are coarse.
 
@@ -70,7 +70,7 @@ static bool setup(const void *self, struct gm_problem *problem, char *sentence)
     const double most = 1e7, lambda = scene->burgers.lambda;
     *problem = gm_problem_burgers;
     problem->parameters = &scene->burgers;
-    /* a grid at rest grows to where the front travels */
+    /* a grid at rest extends to the front's last position */
     const double travel =
         scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(self));
     const double more = round(fabs(travel) / scene->dx);
@@ -154,7 +154,8 @@ static double amplitude(const struct gm_view *view)
     return largest;
 }
 
-/* The companion's value as many nodes back as the frame has moved: between nodes, by a line. */
+/* Returns the largest difference from the companion's value as many nodes back as the frame has moved;
+   between nodes it is linear. */
 static double galilean_defect(const struct gm_view *view)
 {
     const struct gm_burgers *burgers = gm_burgers_of(view->problem);
@@ -183,7 +184,7 @@ static double galilean_defect(const struct gm_view *view)
     return largest;
 }
 
-/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15. */
+/* Returns the defect on the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15. */
 static double defect(const struct gm_view *view, const struct gm_burgers_symmetry *symmetry)
 {
     static const double u[3] = {0.4, 0.3, 0.15};
@@ -201,8 +202,7 @@ static double scaling_defect(const struct gm_view *view)
     return defect(view, &(const struct gm_burgers_symmetry){.scale = 1.3});
 }
 
-/* Where it is 1 or more, no projection turns D0 u into 0: the frame in which an invariant scheme steps does
-   not exist. */
+/* If this is 1 or more, no projection turns D0 u into 0, and the invariant scheme has no frame to step in. */
 static double compression(const struct gm_view *view)
 {
     const double half = view->dt / (2 * view->problem->line.dx);
@@ -234,7 +234,7 @@ static const char *const schemes[] = {"ftcs",
                                       "ftcs-family",
                                       NULL};
 
-/* Of frames, one that steps in it. */
+/* A frame needs a scheme that steps in it. */
 static const struct gm_preference preferences[] = {
     {"show=frame", {"ftcs-invariant"}},
     {NULL, {NULL}},

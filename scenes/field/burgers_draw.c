@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pictures of Burgers' equation: the profiles, drawn at rest, and their errors: over time, or, where
-   several schemes are seen from several frames, over the velocity of the frame. */
+/* The pictures of Burgers' equation: the profiles, drawn at rest, and their errors over time; for several
+   schemes in several frames, over the velocity of the frame. */
 #include <math.h>
 #include <string.h>
 
 #include "scenes/common/graph.h"
 #include "scenes/field/burgers_draw.h"
 
-enum { DRAWN = 1600 /* most points of a profile */, TOLD = 60 /* nodes that can be told apart */ };
+enum { DRAWN = 1600 /* most points of a profile */, TOLD = 60 /* most nodes that are seen apart */ };
 
 static double lambda_of(const struct gm_lane *lane)
 {
     return gm_burgers_of(&lane->problem)->lambda;
 }
 
-/* The nodes inside the panel, in the original frame; at most DRAWN and a little more. */
+/* Writes the nodes inside the panel, in the original frame: at most DRAWN and a little more. Returns their
+   number. */
 static size_t profile(const struct gm_panel *panel, const struct gm_view *view, double *points)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -34,7 +35,7 @@ static size_t profile(const struct gm_panel *panel, const struct gm_view *view, 
     return count;
 }
 
-/* The exact profile at the view's time in the original frame. */
+/* Draws the exact profile at the view's time in the original frame. */
 static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,
                        struct gm_style style, double *points)
 {
@@ -60,7 +61,7 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_la
     return panel;
 }
 
-/* Names a lane of several under the panel's title; the first panel tells the names of all. */
+/* Names a lane of several under the panel's title; the first panel has the names of all. */
 static void name_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       bool first)
 {
@@ -110,7 +111,7 @@ static void draw_panels(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* Whether the lanes are several schemes in several frames each, and differ in nothing else. */
+/* Returns true if the lanes are several schemes in several frames each, with no other difference. */
 static bool go_over_frames(const struct gm_lane *const *lanes, size_t count)
 {
     size_t schemes = 1, frames = 1;
@@ -131,7 +132,7 @@ static bool go_over_frames(const struct gm_lane *const *lanes, size_t count)
     return schemes > 1 && frames > 1;
 }
 
-/* The largest value of an observable so far; infinite of a lane that failed. */
+/* Returns the largest value of an observable so far; infinite if the lane failed. */
 static double largest(const struct gm_lane *lane, size_t series)
 {
     double most = 0;
@@ -144,7 +145,7 @@ static double largest(const struct gm_lane *lane, size_t series)
 /* One scheme's values over the velocity of the frame. */
 struct curve {
     const struct gm_scheme *scheme;
-    double end[2]; /* where its name stands: its last point, or where it leaves the panel */
+    double end[2]; /* the position of its name: its last point, or its exit from the panel */
     double at;     /* height of the name, in logarithms */
     enum gm_role role;
 };
@@ -157,7 +158,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     bool one_colour = true, left = false;
     const struct gm_lane *first = NULL;
     for (;;) {
-        /* the frames by rising velocity */
+        /* the frames in order of velocity */
         const struct gm_lane *next = NULL;
         for (size_t i = 0; i < count; i++) {
             const double lambda = lambda_of(lanes[i]);
@@ -185,7 +186,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
         const double *before = k > 0 ? point - 2 : NULL;
         const bool inside = point[1] <= panel->y.high;
         if (!inside && before && before[1] > 0 && before[1] <= panel->y.high) {
-            /* to the upper edge: this is where the scheme fails */
+            /* the line ends at the upper edge: the scheme fails there */
             const double part = log(panel->y.high / before[1]) / log(point[1] / before[1]);
             const double line[] = {before[0], before[1], before[0] + part * (point[0] - before[0]),
                                    panel->y.high};
@@ -212,11 +213,11 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     return any;
 }
 
-/* Names that would stand on each other move apart: those that end at the same place, from the top down, and
-   what then has no room above the axis from there up. */
+/* Moves overlapping names apart: names at the same end from the top down, then those below the axis
+   upwards. */
 static void part_names(struct curve *curves, size_t count, double low, double high, double line)
 {
-    for (size_t i = 1; i < count; i++) { /* by falling height */
+    for (size_t i = 1; i < count; i++) { /* sorted by falling height */
         for (size_t k = i; k > 0 && curves[k].at > curves[k - 1].at; k--) {
             const struct curve higher = curves[k];
             curves[k] = curves[k - 1];
@@ -254,14 +255,14 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
         const double value = largest(lanes[i], series);
         least = fmin(least, lambda_of(lanes[i]));
         most = fmax(most, lambda_of(lanes[i]));
-        if (value > 0) { /* of what has blown up, enough to see that it has */
+        if (value > 0) { /* a value that has blown up is shown in part */
             gm_range_add(&low, &high, fmin(value, 10));
         }
     }
     gm_range_round(&low, &high, GM_LOG);
     panel->axes = true;
     panel->title_role = GM_INK;
-    /* with room for the names behind the last point */
+    /* space for the names after the last point */
     panel->x = (struct gm_axis){.label = "λ", .low = least, .high = most + 1.25 * (most - least)};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low, .high = high};
     for (size_t i = 0; curves && points && i < count; i++) {
@@ -302,7 +303,7 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* At a node; of schemes that rest in a frame too. */
+/* Returns the moving frame at a node, also of schemes that rest in a frame. */
 static struct gm_moving_frame moving_frame(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);

@@ -5,7 +5,7 @@
 #include "core/field/families/burgers.h"
 #include "scenes/field/moving_frame.h"
 
-/* The pictures of scenes/field/burgers.c, and the parameters that they tell of. */
+/* The pictures of scenes/field/burgers.c, and its parameters. */
 
 struct gm_burgers_scene {
     struct gm_timing timing;

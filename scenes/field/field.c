@@ -101,15 +101,15 @@ static const char *law_name(const struct gm_field_look *look)
     return names[look->show - 1];
 }
 
-/* Whether there is anything to be drawn over space and time. */
+/* Returns true if the surface over space and time has values. */
 static bool has_surface(const struct gm_lane *lane)
 {
     const struct gm_entries *rows = &lane->entries[0];
     return rows->count > 0 && !isnan(rows->values[0]);
 }
 
-/* The colours of a law's residuals: as far on both sides as the largest of this lane. They differ by orders from
-   scheme to scheme, and on one scale for all the small ones would be blank. */
+/* Returns the colours of a law's residuals, symmetric, up to the largest of this lane. Residuals differ by
+   orders from scheme to scheme; on a common scale the small ones would be blank. */
 static struct gm_field_look look_of_law(struct gm_picture *picture, const struct gm_lane *lane,
                                         const struct gm_field_look *look)
 {
@@ -127,7 +127,7 @@ static struct gm_field_look look_of_law(struct gm_picture *picture, const struct
     return field_look;
 }
 
-/* A panel for every lane: the surface so far. */
+/* Draws a panel for every lane: the surface so far. */
 static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_field_look *shown)
 {
@@ -155,7 +155,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         panel->note = gm_lane_failure(picture, lane);
         if (!has_surface(lane)) {
             if (!panel->note[0] && rows->count > 0) {
-                /* in the empty surface, where small pictures have no line for a note either */
+                /* the note is in the empty surface: small pictures have no other line for it */
                 gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1},
                              (panel->x.low + panel->x.high) / 2, (panel->y.low + panel->y.high) / 2,
                              GM_ANCHOR_CENTRE, "the scheme has no such law");
@@ -164,7 +164,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         }
         panel->colour_bar = law || i + 1 == count;
         panel->colour_bar_label = look->name;
-        /* what is there at the start is seen as a thin strip */
+        /* the start is seen as a thin strip */
         const double thin = (panel->y.high - panel->y.low) / 200;
         const double reached = rows->times[rows->count - 1];
         const double corners[] = {grid->first, lane->t0, end_of(grid),
@@ -208,7 +208,7 @@ static size_t exact_profile(const struct gm_lane *lane, const struct gm_field_lo
     return count;
 }
 
-/* The lane whose time the clock shows. */
+/* Returns the lane whose time the clock shows. */
 static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_lane *ahead = lanes[0];
@@ -218,7 +218,7 @@ static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t
     return ahead;
 }
 
-/* Whether a profile goes far beyond what is shown at least. Where it does so, others have the graph first. */
+/* Returns true if a profile goes far beyond the least range. Others then have the graph first. */
 static bool is_wild(const struct gm_field_look *look, const double *points, size_t count)
 {
     const double most = 0.5 * (look->high - look->low);
@@ -230,7 +230,8 @@ static bool is_wild(const struct gm_field_look *look, const double *points, size
     return wild;
 }
 
-/* A profile that jumps from point to point as the band that it sweeps: its line would hide all others. */
+/* Draws a profile that jumps from point to point as the band that it sweeps: its line would hide all
+   others. */
 static void draw_band(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                       const double *points, size_t count)
 {
@@ -252,7 +253,7 @@ static void draw_band(struct gm_picture *picture, struct gm_panel *panel, struct
     gm_mark_polygon(picture, panel, style, band, 2 * places);
 }
 
-/* One graph: the profiles of all lanes now, over the exact one. A lane that froze is not there any more. */
+/* Draws one graph: the current profiles of all lanes, over the exact one. A lane that froze is left out. */
 static void draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_field_look *look)
 {
@@ -278,7 +279,7 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
             hold(&panel->y, points, profile(lanes[i], look, points));
         }
     }
-    /* of what goes wild, enough to see that it does: it does not flatten the others */
+    /* a profile far outside is shown in part, so that it does not flatten the others */
     panel->y.low = fmax(panel->y.low, look->low - most);
     panel->y.high = fmin(panel->y.high, look->high + most);
     gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);

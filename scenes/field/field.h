@@ -4,28 +4,28 @@
 
 #include "scenes/common/graph.h"
 
-/* What the scenes of fields on a line have in common: the profile now, and the field so far over space and
+/* The common part of all scenes of fields on a line: the current profile, and the field so far over space and
    time. */
 
-/* A row of the surface: the field at so many points, every two hundredth of the run. */
+/* The size of the surface: columns of the field, and rows, one every two hundredth of the run. */
 enum { GM_SURFACE_COLUMNS = 240, GM_SURFACE_ROWS = 256 };
 
 /* Why there is no residual of a law. */
 #define GM_NO_LAW "the scheme has no such law, or the step from here is not solved"
 
-/* What is drawn over space and time: the field, or a law, number GM_SHOW_FIELD + 1 + enum gm_local_law. */
+/* The choice drawn over space and time: the field, or a law, number GM_SHOW_FIELD + 1 + enum gm_local_law. */
 enum { GM_SHOW_FIELD };
 
-/* What of a lane is drawn. */
+/* The look of a lane's field. */
 struct gm_field_look {
     double (*value)(const struct gm_view *view, size_t node);
     double (*exact)(const struct gm_view *view, double x); /* NULL: not drawn */
-    const char *name;                                      /* of the value, for axes: "u" */
-    double low, high;                                      /* the values that are shown at least */
+    const char *name;                                      /* the name of the value, for axes: "u" */
+    double low, high;                                      /* the least range of values that is shown */
     enum gm_colour_map map;
-    enum gm_scale x_scale; /* GM_PI where the ring is a circle */
-    int show;              /* what the surfaces hold: scenes/field/observed.h */
-    const char *content;   /* how the third law is called: "mass" */
+    enum gm_scale x_scale; /* GM_PI if the ring is a circle */
+    int show;              /* the content of the surfaces: scenes/field/observed.h */
+    const char *content;   /* the name of the third law: "mass" */
 };
 
 /* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
@@ -34,29 +34,29 @@ struct gm_field_look {
 #define GM_POINTS(own, member, standard, least, help)                                                        \
     GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
-/* A ring from -half_length to half_length. */
+/* Returns a ring from -half_length to half_length. */
 struct gm_grid1 gm_ring(double half_length, long points);
-/* So many points from wall to wall. */
+/* Returns a grid of `points` nodes from wall to wall. */
 struct gm_grid1 gm_between_walls(double half_length, long points);
 
-/* Either the time step is given or the Courant number dt / dx, and the other follows. False with a sentence
-   where both are given and contradict. */
+/* Sets the time step from the Courant number dt / dx, or the reverse. Returns false with a sentence if both
+   are given and contradict. */
 bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
                        double *courant, char *sentence);
 
-/* The component u at a node; what most scenes show. */
+/* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);
 
-/* The largest difference of u from its exact value; NaN where that is not known. */
+/* Returns the largest difference of u from its exact value; NaN if that is not known. */
 double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x));
 
-/* How far the scheme is from its discrete multisymplectic law (core/field/multisymplectic.h). */
+/* Returns the residual of the discrete multisymplectic law of a scheme (core/field/multisymplectic.h). */
 double gm_field_form_residual(const struct gm_view *view);
 #define GM_FORM_RESIDUAL                                                                                     \
     GM_LOG_OBSERVABLE("multisymplectic_residual", gm_field_form_residual,                                    \
                       "residual of the multisymplectic law", .missing = GM_NO_LAW)
 
-/* The track of the surface; `record` fills a row by gm_surface_record, gm_surface_record_u with u. */
+/* The track of the surface; `record` fills a row with gm_surface_record, gm_surface_record_u with u. */
 #define GM_SURFACE_TRACK(record_)                                                                            \
     {                                                                                                        \
         .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
@@ -68,12 +68,12 @@ void gm_surface_record(const struct gm_view *view, double (*value)(const struct 
                        double *entry);
 void gm_surface_record_u(const struct gm_view *view, double *entry);
 
-/* The whole picture but its titles: the clock, the surfaces from track 0, the profiles and `graph_count`
-   graphs over time; of a law its residual in place of the second. */
+/* Draws the whole picture but its titles: the clock, the surfaces from track 0, the profiles and
+   `graph_count` graphs over time; if a law is shown, its residual replaces the second graph. */
 void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                    const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count);
 
-/* The Delta t that all lanes share, as ",  dt = 0.05"; "" where they differ. */
+/* Returns the Delta t that all lanes share, as ",  dt = 0.05"; "" if they differ. */
 const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
 
 #endif

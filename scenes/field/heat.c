@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The heat equation, seen from frames that move with the velocity lambda:
        u_t = nu u_xx,   (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu)))
-   Scalings, boosts and projections turn solutions into solutions. The ordinary scheme keeps the scalings
-   alone, and its error grows with the frame's velocity; schemes that step in a moving frame give one and the
-   same profile from each. What to look at: the error at the end, from frames that are faster and faster, and
-   how exact the scheme with projections is on a kernel. With show=frame: the nodes around one and the values
-   there, and where the moving frame carries them.
+   Scalings, boosts and projections turn solutions into solutions. The ordinary scheme preserves only the
+   scalings, and its error grows with the frame's velocity; schemes that step in a moving frame give one and
+   the same profile from each. What to look at: the error at the end, from frames that are faster and faster,
+   and how exact the scheme with projections is on a kernel. With show=frame: the nodes around one and the
+   values there, and where the moving frame carries them.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Invariant integrators", eqs. 73 to 75 and 83. */
 #include <math.h>
@@ -87,7 +87,7 @@ static void start(const void *self, const struct gm_problem *problem, double *y)
     }
 }
 
-/* The value at a node as the original frame sees it, and the exact one. */
+/* Returns the value at a node in the original frame. */
 static double at_rest(const struct gm_view *view, size_t j)
 {
     const struct gm_heat *heat = gm_heat_of(view->problem);
@@ -140,7 +140,7 @@ static const struct gm_observable observables[] = {
                       .missing = NO_FRAME),
 };
 
-/* Why an invariant scheme makes no step. */
+/* Writes why an invariant scheme cannot step. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -160,7 +160,7 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     }
 }
 
-/* At a node, by the frame of the lane's scheme, or by boosts where that has none. */
+/* Returns the moving frame at a node: the frame of the lane's scheme, or boosts if that has no frame. */
 static struct gm_moving_frame stencil(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
@@ -286,7 +286,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"heat-ftcs", "heat-boosts", "heat-projections", NULL};
 
-/* Of frames, the one that steps in one of boosts and projections. */
+/* A frame of boosts and projections needs the scheme that steps in it. */
 static const struct gm_preference preferences[] = {
     {"show=frame", {"heat-projections"}},
     {NULL, {NULL}},

@@ -3,9 +3,9 @@
        u_t + eta u u_x + mu u_xxx = 0,   H = integral of mu u_x^2/2 - eta u^3/6
    with the mass, the integral of u, and that of u^2. One soliton, two of which the faster overtakes the
    other, or the cosine of Zabusky & Kruskal (Phys. Rev. Lett. 15 (1965) 240), which breaks up into solitons.
-   What to look at: how long a step each scheme bears, and what it keeps: leapfrog is bound by dx^3, the
-   multisymplectic box by no such limit. Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic
-   integrators", which has no figure of it.
+   What to look at: the largest stable step of each scheme, and its conserved quantities. Leapfrog is bound by
+   dx^3, the multisymplectic box has no such limit. Razafindralandy, Hamdouni & Chhay (2018), section
+   "Multisymplectic integrators", which has no figure of it.
 
    And the same from frames that move with the velocity lambda,
        (t, x, u) -> (t, x + lambda t, u + lambda/eta)
@@ -115,14 +115,14 @@ static void start(const void *self, const struct gm_problem *problem, double *y)
     gm_kdv_levels(problem, ((const struct gm_timing *)self)->dt, y);
 }
 
-/* How far the nodes are from where they were, as the original frame sees them. */
+/* Returns how far the nodes have moved from their start, in the original frame. */
 static double travelled(const struct gm_view *view)
 {
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
     return gm_kdv_fixed(kdv, view->scheme) ? -kdv->lambda * view->t : 0;
 }
 
-/* Of the original frame; NaN where it is not known. */
+/* Returns the exact solution in the original frame; NaN if it is not known. */
 static double exact(const struct gm_view *view, double x)
 {
     struct gm_kdv kdv = *gm_kdv_of(view->problem);
@@ -133,7 +133,7 @@ static double exact(const struct gm_view *view, double x)
     return gm_kdv_exact(&kdv, &view->problem->line, x, view->t);
 }
 
-/* What the original frame sees where a node was at the start; between nodes, by a line. */
+/* Returns the value in the original frame at a node's start; between nodes it is linear. */
 static double at_rest(const struct gm_view *view, size_t node)
 {
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
@@ -151,7 +151,7 @@ static double mass(const struct gm_view *view)
     return gm_kdv_mass(view->problem, view->state);
 }
 
-/* As the scheme sees space: by another gauge the error would be that of the gauge. */
+/* Returns an integral with the scheme's own gauge of space: another would show the error of the gauge. */
 static double integral(const struct gm_view *view,
                        double (*of)(const struct gm_problem *problem, const double *profile))
 {
@@ -243,8 +243,8 @@ static size_t point(const void *self, double x, double u, struct gm_choice *choi
     return ((const struct scene *)self)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
 }
 
-/* At a node of the lane, in the frame that its scheme makes the next step in; the scaling by which the nodes
-   become `unit` apart follows the boost. */
+/* Returns the moving frame at a node in which the lane's scheme steps next; the scaling that makes the nodes
+   `unit` apart follows the boost. */
 static struct gm_moving_frame moving_frame(const struct gm_lane *lane, double unit)
 {
     const struct gm_view view = gm_lane_view(lane);
@@ -300,7 +300,7 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
     }
 }
 
-/* Why evolution and projection makes no step. */
+/* Writes why evolution and projection cannot step. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -366,7 +366,7 @@ static const char *const schemes[] = {
     "box",          "zabusky-kruskal",           "fourier-rk4",          "euler-box",
     "midpoint-box", "zabusky-kruskal-invariant", "evolution-projection", NULL};
 
-/* Of the laws and of frames, those that have any. */
+/* Laws and frames need schemes that have them. */
 static const struct gm_preference preferences[] = {
     {"show=energy-law", {"box"}},
     {"show=momentum-law", {"box"}},
@@ -387,7 +387,7 @@ static const struct gm_work work = {.arguments = "initial=soliton until=4",
                                     .resolution_count = GM_COUNT(mesh_points),
                                     .errors = compared};
 
-/* What leapfrog can take: 0.385 dx^3/mu (Zabusky & Kruskal). */
+/* Returns the scale of leapfrog's limit, 0.385 dx^3/mu (Zabusky & Kruskal). */
 static double dispersion_time(const void *self)
 {
     const struct scene *scene = self;

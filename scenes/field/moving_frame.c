@@ -33,7 +33,7 @@ static struct gm_panel *add(struct gm_picture *picture, const char *title, const
     return panel;
 }
 
-/* Later lanes are thinner, so that lanes on the same place are all seen. */
+/* Later lanes are thinner, so that coinciding lanes are all seen. */
 static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t count)
 {
     return gm_lane_style(lane, 1, 2 + 6 * (double)(count - 1 - i) / (double)count);
@@ -85,7 +85,7 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
     }
 }
 
-/* The values around the node at the present level. */
+/* Draws the values around the node at the current level. */
 static void draw_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                         const struct gm_moving_frame *stencils, const struct gm_axes_style *look,
                         bool carried)

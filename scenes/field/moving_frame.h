@@ -5,13 +5,13 @@
 #include "core/field/problems/moving_frames.h"
 #include "scenes/common/graph.h"
 
-/* What an invariant scheme does at a node: the nodes around it and the values there, and where the moving
-   frame carries both. Figures 19 to 23 of Razafindralandy, Hamdouni & Chhay (2018). */
+/* An invariant scheme at a node: the nodes around it and the values there, and their images under the moving
+   frame. Figures 19 to 23 of Razafindralandy, Hamdouni & Chhay (2018). */
 
 enum { GM_STENCIL = 5 /* nodes, the one that is stepped in the middle */ };
 
-/* Relative to the node in the middle, which the translations of the frame carry to t = x = 0: those nodes at
-   the present level, then at the next one, where only their places count. */
+/* Events relative to the node in the middle, which the frame's translations carry to t = x = 0: the nodes at
+   the current level, then at the next one, where only their positions count. */
 struct gm_moving_frame {
     bool known; /* there is such a node, and a frame */
     struct gm_event seen[2 * GM_STENCIL], carried[2 * GM_STENCIL];
@@ -27,17 +27,17 @@ extern const char *const gm_axes_shown[];
         GM_REAL_ROW(own, at, "at", standard, -1e4, 1e4,                                                      \
                     "show=frame: the node nearest to this place of the original frame")
 
-/* The node nearest to a place that has its stencil inside the line; its number there. */
+/* Returns the number of the node nearest to a position that has its stencil inside the line. */
 size_t gm_stencil_node(const struct gm_grid1 *grid, double place);
 
 struct gm_axes_style {
     double h, k;         /* the units of x and t */
-    const char *value;   /* what u of the events is, "u" */
-    const char *carried; /* and what it is when it is carried, "û" */
+    const char *value;   /* the name of u, "u" */
+    const char *carried; /* the name of the carried u, "û" */
     const char *section; /* the cross-section that defines the frame, "û = 0, D₀û = 0" */
 };
 
-/* Four panels: the nodes as the lanes see them and where they are carried, and the values likewise. */
+/* Draws four panels: the nodes as the lanes see them and as they are carried, and the values likewise. */
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_moving_frame *stencils, const struct gm_axes_style *look);
 

@@ -2,8 +2,8 @@
 /* Solitons of the nonlinear Schroedinger equation on a ring:
        i psi_t + psi_xx + |psi|^2 psi = 0,   H = integral of |psi_x|^2 - |psi|^4/2
    with the charge, the integral of |psi|^2. One soliton, or two that meet. What to look at: the charge, which
-   the box keeps as that of cell means and the split step as that of the nodes, to round-off; the energy is
-   kept only nearly, and dips while the solitons meet. Razafindralandy, Hamdouni & Chhay (2018), section
+   the box conserves for cell means and the split step for nodes, to round-off; the energy is conserved only
+   nearly, and dips while the solitons meet. Razafindralandy, Hamdouni & Chhay (2018), section
    "Multisymplectic integrators", which has no figure of it. */
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +64,7 @@ static double value(const struct gm_view *view, size_t node)
     return hypot(view->state[node], view->state[view->problem->line.points + node]);
 }
 
-/* NaN where it is not known. */
+/* Sets the exact parts at x; NaN if they are not known. */
 static void exact_parts(const struct gm_view *view, double x, double *re, double *im)
 {
     const struct gm_nls *nls = gm_nls_of(view->problem);
@@ -91,13 +91,13 @@ static double node_charge(const struct gm_view *view)
     return gm_nls_node_charge(view->problem, view->state);
 }
 
-/* What the scheme itself keeps. */
+/* Returns the charge that the scheme itself conserves. */
 static double own_charge(const struct gm_view *view)
 {
     return view->scheme->in_cells ? charge(view) : node_charge(view);
 }
 
-/* As the scheme sees space: by another gauge the error would be that of the gauge. */
+/* Returns the energy with the scheme's own gauge of space: another would show the error of the gauge. */
 static double energy(const struct gm_view *view)
 {
     double *re = gm_field_profile(view->problem, view->scheme, view->state);
@@ -132,7 +132,7 @@ static double modulus_error(const struct gm_view *view)
     return largest;
 }
 
-/* What a soliton at rest has; where it moves with c = 2a/√3 its energy is 0. */
+/* Returns the energy of solitons at rest; at c = 2a/√3 it would be 0. */
 static double natural_energy(const void *self)
 {
     const struct gm_nls *nls = &((const struct scene *)self)->nls;
@@ -143,7 +143,7 @@ static double natural_energy(const void *self)
 static const char missing_solution[] = "no exact solution is known of a collision, nor of tails that meet";
 
 static const struct gm_observable observables[] = {
-    /* two gauges of the charge, each of schemes of its kind; what a scheme loses is of its own */
+    /* two gauges of the charge for two kinds of schemes; own_charge_error is a scheme's own loss */
     GM_LOG_OBSERVABLE("charge_error", charge, "error of the charge ∫|Aψ|²", .error = true, .symbol = "N"),
     GM_LOG_OBSERVABLE("node_charge_error", node_charge, "error of the charge at the nodes", .error = true,
                       .symbol = "N"),
@@ -165,7 +165,7 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
-/* The soliton starts there; of two that meet the other one at the mirror image. */
+/* The soliton starts there; the second of two at the mirror image. */
 static size_t point(const void *self, double x, double u, struct gm_choice *choices)
 {
     const bool one = ((const struct scene *)self)->nls.initial == GM_NLS_SOLITON;
@@ -205,7 +205,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"box", "split-step2", "euler-box", NULL};
 
-/* Of the laws, the one that has them. */
+/* The laws need the scheme that has them. */
 static const struct gm_preference preferences[] = {
     {"show=energy-law", {"box"}},
     {"show=momentum-law", {"box"}},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is observed of fields on a line: of local laws the largest residual, and residuals over space and time; and of
+/* Observables of fields on a line: the largest residual of local laws, and residuals over space and time; for
    waves in a potential, u_tt = u_xx - V'(u), energies and momentum. */
 #include "scenes/field/observed.h"
 
@@ -68,7 +68,7 @@ void gm_surface_record_shown(const struct gm_view *view, int show,
     free(residual);
 }
 
-/* Between walls half of the ring's, whose other half is the mirror image. */
+/* Between walls half of the ring counts: its other half is the mirror image. */
 static double seen(const struct gm_view *view, double of_ring)
 {
     return view->problem->line.walls ? of_ring / 2 : of_ring;
@@ -98,7 +98,7 @@ double gm_view_amplitude(const struct gm_view *view)
     return largest;
 }
 
-/* A breather has none, a kink of the sine-Gordon equation that of its mass 8 at its velocity. */
+/* The scale is 1: the momentum of a breather is 0, of a sine-Gordon kink its mass 8 times its velocity. */
 double gm_unit_momentum(const void *parameters)
 {
     return (void)parameters, 1;

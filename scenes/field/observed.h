@@ -4,8 +4,8 @@
 
 #include "scenes/field/field.h"
 
-/* What a scheme leaves of the local laws of a field (enum gm_local_law), as observables, the largest over the
-   grid, and over space and time in place of the field. */
+/* Residuals of the local laws of a field (enum gm_local_law), as observables, the largest over the grid, and
+   over space and time instead of the field. */
 
 double gm_view_energy_residual(const struct gm_view *view);
 double gm_view_momentum_residual(const struct gm_view *view);
@@ -20,16 +20,16 @@ double gm_view_content_residual(const struct gm_view *view);
 /* clang-format on */
 
 /* The row of a parameter table that chooses between the field and a law, in an `int` of the scene's own
-   struct; `list` has "field", "energy-law", "momentum-law" and maybe the law of mass or charge. */
+   struct; `list` has "field", "energy-law", "momentum-law" and possibly the law of mass or charge. */
 #define GM_LAW_ROW(own, member, list)                                                                        \
     GM_CHOICE_ROW(own, member, "show", "field", list,                                                        \
                   "what is drawn over space and time: the field, or what each step leaves of a local law")
 
-/* A row of the surface: u, or what the choice `show` asks for. NaN where the scheme has no such law. */
+/* Fills a row of the surface: u, or the residual that `show` chooses. NaN if the scheme has no such law. */
 void gm_surface_record_shown(const struct gm_view *view, int show,
                              double (*value)(const struct gm_view *, size_t), double *entry);
 
-/* What scenes of u_tt = u_xx - V'(u) have in common: rows of observables, and the schemes. */
+/* The common part of scenes of u_tt = u_xx - V'(u): rows of observables, and the schemes. */
 
 double gm_view_energy(const struct gm_view *view);
 double gm_view_own_energy(const struct gm_view *view);
@@ -37,8 +37,8 @@ double gm_view_momentum(const struct gm_view *view);
 double gm_view_amplitude(const struct gm_view *view);
 double gm_unit_momentum(const void *parameters);
 
-/* The energy of nodes compares schemes and is no verdict: in boxes the grid errs in it. What a scheme loses is of its
-   own. */
+/* The energy of nodes compares schemes but does not judge them: for boxes it has an error of the grid.
+   own_energy_error is a scheme's own loss. */
 /* clang-format off */
 #define GM_WAVE_INVARIANTS                                                                                   \
     GM_LOG_OBSERVABLE("energy_error", gm_view_energy, "energy error", .error = true, .symbol = "H"),         \

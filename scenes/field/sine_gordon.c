@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solitons of the sine-Gordon equation on a ring: a breather, a kink, two kinks that meet,
        u_tt - u_xx + sin u = 0,   H = integral of u_t^2/2 + u_x^2/2 + 1 - cos u
-   What to look at: at dt = dx leapfrog roughens near t = 25 and breaks the breather, not for want of a
-   multisymplectic law, which it keeps to round-off, but because it is unstable there: its limit is 4/dt^2 >=
-   4/dx^2 + 1. The local laws of energy and momentum tell what each scheme breaks.
+   What to look at: at dt = dx leapfrog roughens near t = 25 and breaks the breather, although its
+   multisymplectic law holds to round-off: it is unstable there, as its limit is 4/dt^2 >= 4/dx^2 + 1. The
+   local laws of energy and momentum show what each scheme breaks.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators":
        figure 11   dt = dx, until the leapfrog has destroyed the breather
@@ -60,7 +60,7 @@ static void start(const void *self, const struct gm_problem *problem, double *y)
     gm_sine_gordon_levels(problem, 0, ((const struct gm_timing *)self)->dt, y);
 }
 
-/* NaN where it is not known. */
+/* Returns the exact solution; NaN if it is not known. */
 static double exact(const struct gm_view *view, double x)
 {
     const struct scene *scene = view->parameters;
@@ -70,7 +70,7 @@ static double exact(const struct gm_view *view, double x)
     return gm_sine_gordon_exact(&scene->solution, scene->half_length, x, view->t);
 }
 
-/* At the nodes as gm_sine_gordon_levels places them, so that the start has no error at all. */
+/* The error at nodes as gm_sine_gordon_levels places them: the start has no error at all. */
 static double solution_error(const struct gm_view *view)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -96,7 +96,7 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
-/* A kink starts there; of two that meet the other one at the mirror image. */
+/* A kink starts there; the second of two at the mirror image. */
 static size_t point(const void *self, double x, double u, struct gm_choice *choices)
 {
     const struct scene *scene = self;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A field that somebody wrote, as a scene, of four kinds:
+/* A user-defined field as a scene, of four kinds:
        u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),   on a ring or between walls,
        the same between ends that hold u, on a moving mesh,
        (M u)_t = R(u, u_x, ..),   of one field or several,
        K z_t + L z_x = grad S(z).
-   A kind is a row: its keys, its problem and its start, what is observed, its picture. Parameters of the file are keys,
-   with the ring and its grid; what it keeps or observes are integrals of densities. The scene is made while the program
-   runs, and does not change afterwards. */
+   A kind is a row: its keys, problem, start, observables and picture. Parameters of the file are keys, with
+   the ring and its grid; its conserved and observed quantities are integrals of densities. The scene is made
+   while the program runs, and does not change afterwards. */
 #include "scenes/field/user_field.h"
 
 #include <math.h>
@@ -33,67 +33,66 @@
 
 enum { DT, UNTIL, HALF_LENGTH, COMMON_ROWS };
 enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, MOST_OBSERVABLES = 48, MOST_GRAPHS = 3 };
-enum { SAMPLES = 4096 }; /* that tell what a start is */
+enum { SAMPLES = 4096 }; /* points at which a start is examined */
 
 struct lane;
 struct user_field;
 
 /* A kind of field. */
 struct kind {
-    const struct gm_parameter *rows; /* the points of the grid, and keys of its own behind them */
+    const struct gm_parameter *rows; /* the points of the grid, then keys of this kind */
     size_t row_count;
-    const char *no_walls; /* why the file's boundary cannot be walls; NULL: it can */
+    const char *no_walls; /* the reason that the boundary cannot be walls; NULL: it can */
     const char *const *schemes;
     const struct gm_observable *observables;
     size_t observable_count;
-    const char *
-        graphs[2]
-              [MOST_GRAPHS]; /* over time: without an exact solution, and with one; and as many of what its */
-    size_t graph_count;      /* file keeps as there is room for */
+    const char *graphs[2][MOST_GRAPHS]; /* graphs over time, without and with an exact solution; conserved */
+    size_t graph_count;                 /* quantities of the file fill the rest */
     bool (*open)(struct gm_problem *problem, const struct lane *lane, const double *values);
     void (*close)(struct gm_problem *problem);
-    /* Whether there is such a start; a sentence if not. */
+    /* Returns true if the start is possible; else false with a sentence. */
     bool (*closes)(const struct gm_problem *problem, char *sentence, size_t size);
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
-    /* Sets the variables that a density holds at one of the places where it is integrated, from 0 on, and its weight;
-       false behind the last. NULL: the problem integrates. */
+    /* Sets the variables of a density at integration point `number`, from 0 on, and its weight; false after
+       the last. NULL: the problem integrates. */
     bool (*place)(const struct gm_view *view, size_t number, double *values, double *weight);
 };
 static const struct kind waves, moving_waves, evolutions, forms;
 
 struct user_field {
-    struct gm_scene scene; /* first: a scene is found to be this */
+    struct gm_scene scene; /* first, so that a pointer to the scene is one to this */
     struct gm_arena *arena;
     struct gm_user_system system;
     const struct kind *kind;
-    struct gm_user_wave wave; /* that of its kind */
+    struct gm_user_wave wave; /* only the member of the kind is used */
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     bool solved; /* an exact solution is known */
     struct gm_parameter *rows;
-    size_t row_count, values; /* the first row of the file's own */
+    size_t row_count, values; /* the number of rows; the first row of the file's parameters */
     struct lane *initial;
     struct gm_observable observables[MOST_OBSERVABLES];
     size_t observable_count;
-    struct gm_tape densities[MOST_DENSITIES]; /* of all variables, so that lanes share them */
+    struct gm_tape densities[MOST_DENSITIES]; /* formulas of all variables, so that lanes share them */
     size_t first_density;
     const char *schemes[MOST_PREFERRED + 1];
     struct gm_work work;
     double resolutions[3], errors[3];
-    double low, high; /* of u at the start */
+    double low, high; /* the range of u at the start */
     struct gm_kept_texts texts;
 };
 
-/* Parameters of a run; behind the values of the file's own stand as many bytes: whether each was given. */
+/* Parameters of a run; after the values of the file's parameters follows a byte for each, 1 if it was
+   given. */
 struct lane {
     struct gm_timing timing;
-    int show; /* what the surfaces hold: scenes/field/observed.h; of a moving mesh enum gm_mesh_view */
+    int show; /* the content of the surfaces: scenes/field/observed.h; on a moving mesh enum gm_mesh_view */
     const struct user_field *owner;
     double half_length;
     long points;
     int space; /* enum gm_derivatives */
     int walls;
-    double alpha; /* of a moving mesh */
+    double alpha; /* only on a moving mesh */
     int density;  /* enum gm_mesh_density */
     double values[];
 };
@@ -103,7 +102,7 @@ static const struct user_field *field_of(const struct gm_view *view)
     return ((const struct lane *)view->parameters)->owner;
 }
 
-/* All problems of such files have it. */
+/* Returns the line, which all problems of such files have. */
 static const struct gm_user_line *line_of(const struct gm_view *view)
 {
     return view->problem->parameters;
@@ -114,7 +113,7 @@ static size_t parameter_count(const struct user_field *field)
     return field->row_count - field->values;
 }
 
-/* Values of all variables; `given`: of those parameters alone that were given, others follow. malloc'ed. */
+/* Returns values of all variables, malloc'ed; `given`: of the given parameters only, others follow. */
 static double *values_of(const struct lane *lane, const char *given)
 {
     const struct gm_user_system *system = &lane->owner->system;
@@ -129,9 +128,9 @@ static double *values_of(const struct lane *lane, const char *given)
     return values;
 }
 
-/* ---- what is observed ---- */
+/* ---- observables ---- */
 
-/* By how much a component may be off from the exact solution: a potential's constant is free. */
+/* Returns the free constant of a potential, by which it may differ from the exact solution; else 0. */
 static double constant_of(const struct gm_view *view, size_t component)
 {
     const struct kind *kind = field_of(view)->kind;
@@ -142,7 +141,7 @@ static double constant_of(const struct gm_view *view, size_t component)
                : 0;
 }
 
-/* Of all components. */
+/* Returns the largest error of all components. */
 static double solution_error(const struct gm_view *view)
 {
     const struct user_field *field = field_of(view);
@@ -168,7 +167,7 @@ static double form_momentum(const struct gm_view *view)
     return gm_form_momentum(view->problem, view->scheme, view->memory);
 }
 
-/* What linear theory says of a state, before a step beyond it blows up. */
+/* Returns the largest stable step by linear theory; NaN if the scheme has no limit. */
 static double limit_at(const struct gm_view *view, const double *state)
 {
     const struct gm_step_limit *limit = view->scheme->limit;
@@ -190,7 +189,8 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     }
 }
 
-/* Where the first field is highest: of the parabola through the highest node and both beside it. */
+/* Returns the position of the first field's crest: the top of the parabola through the highest node and its
+   neighbours. */
 static double crest(const struct gm_view *view)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -233,7 +233,7 @@ static double terms(const struct gm_view *view)
 
 /* ---- pictures ---- */
 
-/* Makes room for values, unless they are far beyond `most`. */
+/* Widens a range to values, except those far beyond `most`. */
 static void hold(double *low, double *high, double most, const double *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -253,7 +253,8 @@ static double exact_first(const struct gm_view *view, double x)
     return gm_user_line_exact(line_of(view), 0, x, view->t);
 }
 
-/* The error, where an exact solution is known, and what is kept. */
+/* Sets the graphs: the error, if an exact solution is known, and conserved quantities. Returns their
+   number. */
 static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 {
     const struct gm_graph kept = {.highest = true, .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
@@ -357,7 +358,7 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
 
 /* ---- the kinds ---- */
 
-/* The ring, or what lies between walls. */
+/* Returns the ring, or the grid between walls. */
 static struct gm_grid1 grid_of(const struct lane *lane)
 {
     return lane->walls ? gm_between_walls(lane->half_length, lane->points)
@@ -370,7 +371,7 @@ static bool open_wave(struct gm_problem *problem, const struct lane *lane, const
     return gm_user_wave_open(problem, &lane->owner->wave, values, &grid);
 }
 
-/* In the middle between the two levels of the state. */
+/* Evaluates in the middle between the two levels of the state. */
 static bool place_wave(const struct gm_view *view, size_t i, double *values, double *weight)
 {
     const struct gm_grid1 *grid = &view->problem->line;
@@ -415,7 +416,7 @@ static bool open_mesh(struct gm_problem *problem, const struct lane *lane, const
     return gm_user_mesh_open(problem, &lane->owner->wave, values, &mesh);
 }
 
-/* Field, place and the velocities of both at a node, from the left end, number 0, on. */
+/* Returns field, position or their velocities (`number`) at node k, counted from the left end. */
 static double at_node(const struct gm_view *view, const struct gm_mesh *mesh, size_t k, size_t number)
 {
     const double left[4] = {mesh->left, mesh->first}, right[4] = {mesh->right, mesh->first + mesh->length};
@@ -425,7 +426,7 @@ static double at_node(const struct gm_view *view, const struct gm_mesh *mesh, si
     return k > mesh->points ? right[number] : view->state[number * mesh->points + k - 1];
 }
 
-/* In the middle of an element. */
+/* Evaluates in the middle of an element. */
 static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, double *weight)
 {
     const size_t x = field_of(view)->system.velocities;
@@ -511,7 +512,8 @@ static bool open_form(struct gm_problem *problem, const struct lane *lane, const
     return gm_user_form_open(problem, &lane->owner->form, values, &grid);
 }
 
-/* By Gauss's rule at the stages of the cells, which a run remembers; at the nodes of a state that no run has come to. */
+/* Evaluates at the stages of the cells, which a run stores, by Gauss's rule; at the nodes before the first
+   step. */
 static bool place_in_cell(const struct gm_view *view, size_t number, double *values, double *weight)
 {
     static const double left = 0, whole = 1;
@@ -606,13 +608,14 @@ static bool start_mesh(const void *parameters, const struct gm_problem *problem,
                lane->points, lane->alpha);
 }
 
-/* The weight of the slope that was left to the start. */
+/* Notes the weight of the slope if the start chose it. */
 static void note_alpha(const struct gm_problem *problem, void *parameters)
 {
     ((struct lane *)parameters)->alpha = gm_user_mesh_alpha(problem);
 }
 
-/* The start on a grid: that of the ring, or of a moving mesh wherever its nodes will be. malloc'ed. */
+/* Returns the start on a grid: the ring's, or a fine one if the mesh moves. malloc'ed; NULL when out of
+   memory. */
 static double *start_on(const struct lane *lane, const struct gm_problem *problem, struct gm_grid1 *grid)
 {
     const bool moves = lane->owner->kind == &moving_waves;
@@ -628,7 +631,7 @@ static double *start_on(const struct lane *lane, const struct gm_problem *proble
     return y;
 }
 
-/* Whether the exact solution begins as the start does, but for what is hardly visible, at as many nodes as tell it. */
+/* Returns true if the exact solution begins like the start, up to 0.1 %, at enough nodes. */
 static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *grid, char *sentence)
 {
     const struct user_field *field = field_of(view);
@@ -652,10 +655,10 @@ static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *gr
     return true;
 }
 
-/* Whether the other level of a wave is one that a step can lead to. */
+/* Returns true if a step can lead to the other level of a wave; else false with a sentence. */
 static bool has_levels(const struct gm_problem *problem, const char *name, const double *y, char *sentence)
 {
-    const double most = 1e10; /* as a run takes for a blow-up */
+    const double most = 1e10; /* the growth that a run treats as a blow-up */
     const size_t points = problem->line.points;
     double begin = 1, further = 0;
     for (size_t i = 0; i < points; i++) {
@@ -715,7 +718,7 @@ struct making {
     const char *const *words;
     bool moves;
     struct user_field *field;
-    struct gm_problem problem; /* that of the file's own values */
+    struct gm_problem problem; /* the problem of the file's own values */
 };
 
 static void close_field(void *thing)
@@ -729,7 +732,7 @@ static void close_field(void *thing)
     gm_system_close(&field->system);
 }
 
-/* What a line of one number says; `usual` where there is none. */
+/* Returns the number of a line; `usual` without such a line. */
 static double number_of(const struct gm_user_system *system, const double *values, enum gm_system_word word,
                         double usual)
 {
@@ -751,7 +754,7 @@ static void make_rows(struct user_field *field)
     double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free),
            *all = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *all);
     gm_formula_evaluate(&system->graph, system->graph.count, values, all);
-    /* on a moving mesh nodes are where they are needed */
+    /* a moving mesh needs fewer nodes */
     const double half_length = number_of(system, all, GM_WORD_HALF_LENGTH, 20),
                  grid = number_of(system, all, GM_WORD_POINTS, 400),
                  points = kind == &moving_waves ? fmax(1, floor(grid / 4)) : grid,
@@ -857,9 +860,9 @@ static void make_schemes(struct user_field *field, const struct gm_problem *prob
     field->scene.lanes = field->system.texts[GM_WORD_LANES];
 }
 
-/* With an exact solution the grid is refined with the step, and on a moving mesh, where each strategy has a motion of
-   its own on given nodes, so that the same is measured against a run on more of them; else the distance from a reference
-   run on the same grid is measured. */
+/* Refines the grid with the step if there is an exact solution, or, on a moving mesh, against a run on more
+   nodes: each strategy moves given nodes differently. Else the distance from a reference run on the same grid
+   is measured. */
 static void make_work(struct user_field *field)
 {
     const double points = (double)field->initial->points;
@@ -897,7 +900,7 @@ static const char *title_of(struct user_field *field)
     }
     const struct gm_naming naming = gm_system_naming(system);
     char *formula = gm_formula_text(&system->graph, system->energy, &naming);
-    if (formula) { /* too long a one is not written */
+    if (formula) { /* a long formula is left out */
         gm_arena_keep(field->arena, formula, free);
     }
     return formula && strlen(formula) <= SHORT
@@ -929,7 +932,7 @@ static bool on_a_ring(const struct gm_scheme *scheme)
            !(scheme->needs & ~(unsigned)(GM_NEEDS_WAVE | GM_NEEDS_FORM | GM_NEEDS_PAIRS));
 }
 
-/* Between which values the field starts. */
+/* Finds the range of the field at the start. */
 static void find_range(struct user_field *field, const struct gm_problem *problem)
 {
     struct gm_grid1 grid;
@@ -969,7 +972,7 @@ static void make(struct gm_arena *arena, void *data)
     struct gm_user_system *system = &field->system;
     static const struct gm_track surface[] = {GM_SURFACE_TRACK(record_shown)},
                                  paths[] = {GM_MESH_PATHS_TRACK};
-    static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* a look takes as long as two steps */
+    static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
     char sentence[GM_MESSAGE];
     gm_arena_keep(arena, field, close_field);
     field->arena = arena;
@@ -1050,5 +1053,5 @@ const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const c
 
 void gm_user_field_close(const struct gm_scene *scene)
 {
-    gm_arena_close(((const struct user_field *)scene)->arena); /* which the scene is the first member of */
+    gm_arena_close(((const struct user_field *)scene)->arena); /* the scene is its first member */
 }

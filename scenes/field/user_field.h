@@ -5,11 +5,12 @@
 #include "core/model/system.h"
 #include "scenes/common/scene.h"
 
-/* Makes a scene of a system that is a field, and takes it: as gm_system_scene_open (scenes/ode/system.h) does
-   of all others. A wave equation is on a moving mesh where that is said. */
+/* Returns a scene of a system that is a field, and takes the system, as gm_system_scene_open
+   (scenes/ode/system.h) does for all others. If `moves`, a wave equation is on a moving mesh. */
 const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
                                           const char *const *words, bool moves, char *sentence);
-/* How many of these schemes, by blanks or commas, are of moving meshes; NULL: none. Of what is left: *others. */
+/* Returns how many of these schemes, separated by blanks or commas, or NULL, are on moving meshes; *others:
+   the number of the rest. */
 size_t gm_user_field_moving(const char *schemes, size_t *others);
 void gm_user_field_close(const struct gm_scene *scene);
 

@@ -2,7 +2,7 @@
 /* The wave equation
        u_tt = u_xx,   H = integral of (u_t^2 + u_x^2)/2
    by the variational scheme of Razafindralandy, Hamdouni & Chhay (2018), eqs. 62 to 67, on the uniform mesh
-   that it can be solved on, and what varying the mesh as well would ask for.
+   that it can be solved on, and the further equations of a variable mesh.
 
    The discrete action sum dt dx (-u_t^2 + u_x^2)/2 with forward differences gives, varied in u, t and x,
        (67a)   dt [ux_j - ux_{j-1}] - [dx ut_j^n - dx ut_j^{n-1}] = 0        leapfrog
@@ -93,8 +93,7 @@ static double energy(const struct gm_view *view)
     return gm_wave_own_energy(view->problem, view->scheme, view->state, view->memory);
 }
 
-/* What the terms of the printed equations are at a node, between the level before and one step of leapfrog
-   ahead. */
+/* The terms of the printed equations at a node, between the level before and one step of leapfrog ahead. */
 struct terms {
     double e_before, e, ut, ux_change;
 };
@@ -172,8 +171,9 @@ static double equations(const struct gm_view *view)
     return 3 * (double)view->problem->line.points;
 }
 
-/* Of the equations' Jacobian. (67a) determines every u_j^{n+1}; the x_j^{n+1} have empty columns; eliminating
-   the u_j^{n+1} from (67b) leaves the column of t^{n+1} with the entries ut_j (ux_j - ux_{j-1}). */
+/* Returns the rank of the equations' Jacobian. (67a) determines every u_j^{n+1}; the x_j^{n+1} have empty
+   columns; eliminating the u_j^{n+1} from (67b) leaves the column of t^{n+1} with the entries ut_j (ux_j -
+   ux_{j-1}). */
 static double rank(const struct gm_view *view)
 {
     const size_t points = view->problem->line.points;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From parameters to flows: meshes made or read, boundaries named; and what went wrong, in a sentence. */
+/* Flows from parameters: meshes are made or read, boundaries named, faults explained in a sentence. */
 #include "scenes/flow/flows.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@ const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[]
 
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
-/* What is wrong with a mesh: its name, the line where `where`, what comes before the thing, the thing, what comes after. */
+/* The faults of a mesh. Each message is the mesh's name, its line if `where` is set, `before`, the thing,
+   `after`. */
 static const struct {
     bool where;
     const char *before;
@@ -54,7 +55,7 @@ static const struct {
     [GM_TRIANGULATION_DUAL_CELL] = {false, ": the dual cell of node ", NODE, " has no positive area"},
 };
 
-/* The sentence for a mesh that was refused; `name` is "the mesh" or the file's. */
+/* Writes why a mesh was refused; `name` is "the mesh" or the file's. */
 static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
     const long *n = fault->nodes;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is drawn over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
+/* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
 #include "scenes/flow/marks.h"
 
 #include <math.h>
@@ -17,7 +17,6 @@ bool gm_flow_is_signed(int show)
     return show == GM_SHOW_VORTICITY || show == GM_SHOW_PRESSURE;
 }
 
-/* Levels of psi: equal parts of the flow that passes through; the same distance in what turns on its own. */
 void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                               const struct gm_flow_sheet *sheet, const struct gm_look *look)
 {
@@ -67,7 +66,7 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
                         sheet->count, levels, count);
 }
 
-/* Edges that run along the boundary in one go: walls bold, openings not drawn. */
+/* Draws edges along the boundary in one go: walls bold, openings not at all. */
 void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
@@ -120,7 +119,6 @@ void gm_flow_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
-/* Tracers: a dot each, and a tail where it was a short time ago. */
 void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                           bool over, double size)
 {
@@ -132,7 +130,7 @@ void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, co
     if (!tails || !dots || count == 0) {
         return;
     }
-    const double lag = 0.012 * size; /* over the speed 1 */
+    const double lag = 0.012 * size; /* the length of a tail at speed 1 */
     size_t met = 0;
     for (size_t k = 0; k < count; k++) {
         const double *tracer = gm_flow_tracer(flow, y, k);
@@ -153,7 +151,6 @@ void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, co
     gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 2.4}, dots, met);
 }
 
-/* Arrows on an even grid, at the nearest vertices. */
 void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          bool over, double speed)
 {
@@ -212,7 +209,7 @@ size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_openi
     for (size_t k = 0; k < opening->count; k++) {
         e = gm_complex_next(complex, e);
     }
-    /* outside is on the right of the way from its beginning to its end */
+    /* outside is on the right of the opening's direction */
     const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
                  *b = complex->point + 2 * complex->boundary_vertex[e];
     outward[0] = b[1] - a[1];
@@ -220,7 +217,6 @@ size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_openi
     return e;
 }
 
-/* Names of openings outside the walls. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
                            const char *const *names, double size)
 {
@@ -244,7 +240,7 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
                          : opening->inlet ? "inlet"
                                           : "outlet");
         if (name) {
-            name->fixed = true; /* one that has no room outside is not to stand on the field */
+            name->fixed = true; /* a name without space outside must not cover the field */
         }
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is observed of flows: measures of their states, and errors against the exact solution that a room's file gives,
-   which are NAN where there is none. */
+/* Observables of flows: measures of their states, and errors against the exact solution that a room's file
+   gives (NAN without one). */
 #include "scenes/flow/observables.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static const struct gm_flow *flow_of(const struct gm_view *view)
     return gm_flow_of(view->problem);
 }
 
-/* What is measured of a flow and its state, by the observable's key. */
+/* Returns a measure of the state of a flow, by the observable's key. */
 static double measured(const struct gm_view *view)
 {
     static const struct {
@@ -59,7 +59,7 @@ static double change(const struct gm_view *view)
     return size > 0 ? change / size : 0;
 }
 
-/* What is measured of its mesh. */
+/* Returns a measure of the mesh of a flow, by the observable's key. */
 static double of_mesh(const struct gm_view *view)
 {
     static const char *const keys[] = {"triangles", "obtuse_share", "star_least", "mean_edge"};
@@ -124,7 +124,7 @@ static double solution_error(const struct gm_view *view)
     return largest;
 }
 
-/* An end of a dual edge: a dual vertex, or on the boundary the edge's middle. */
+/* Sets an end of a dual edge: a dual vertex, or on the boundary the edge's middle. */
 static void dual_end(const struct gm_complex *complex, size_t e, int side, double p[2])
 {
     const int t = complex->edge_triangle[2 * e + (size_t)side];
@@ -176,8 +176,8 @@ static double velocity_error(const struct gm_view *view)
     return sqrt(error / size);
 }
 
-/* The error of the total pressure over the triangles whose dual vertex is further than `margin` from the
-   boundary of the rectangle; both pressures with mean 0 there. */
+/* Returns the error of the total pressure over the triangles whose dual vertex is further than `margin` from
+   the boundary of the rectangle; both pressures with mean 0 there. */
 static double pressure_error_within(const struct gm_view *view, double margin)
 {
     const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
@@ -219,8 +219,8 @@ static double pressure_error_middle(const struct gm_view *view)
     return pressure_error_within(view, 0.2);
 }
 
-/* The mean of |u - exact|, or of |theta - exact|, at fifty places along a profile, not at its ends: on the walls
-   velocity and temperature are given, and a polynomial fitted to one side says nothing of the flow. */
+/* Returns the mean of |u - exact|, or of |theta - exact|, at fifty points inside a profile: on the walls
+   velocity and temperature are given, and a polynomial fitted to one side misses the flow. */
 static double profile_error(const struct gm_view *view)
 {
     enum { PLACES = 50 };

@@ -4,12 +4,12 @@
 
 #include "scenes/flow/room_scene.h"
 
-/* An observable of flows by its key, or of a profile that its subject numbers; NULL: there is none of that key. */
+/* Returns the observable of flows with this key, or of a profile if `along`; NULL if the key is unknown. */
 const struct gm_observable *gm_room_observable(const char *key, bool along);
-/* What is exact at a place; NAN: it is not known. */
+/* Returns the exact value at a point; NAN if it is not known. */
 double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const double at[2]);
 
-/* u, v or s, the scalar, and its key. */
+/* The value and the key of a quantity: u, v or s (the scalar). */
 static inline double gm_room_quantity(const struct gm_sample *sample, char quantity)
 {
     return quantity == 'u' ? sample->u : quantity == 'v' ? sample->v : sample->theta;

@@ -15,7 +15,7 @@ static const struct gm_flow *flow_of(const struct gm_lane *lane)
     return gm_flow_of(&lane->problem);
 }
 
-/* The field that is shown, at the vertices; NULL for none. */
+/* Returns the field that is shown, at the vertices; may be NULL. */
 static const double *field_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_flows *flows = lane->parameters;
@@ -60,7 +60,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     return values;
 }
 
-/* The ends of the colours; the same for all lanes. */
+/* Sets the ends of the colours, the same for all lanes. */
 static void colour_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                          const struct gm_look *look, double *low, double *high)
 {
@@ -125,7 +125,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     const double size = fmax(box[1] - box[0], box[3] - box[2]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
     const double beside = flow->inflow.count > 0 && named && !look->sides ? 0.15 * size : edge;
-    /* names of openings stand outside, and need their width in small pictures too */
+    /* names of openings are outside, and need their width in small pictures too */
     double aside[2] = {beside, beside};
     bool stands[2] = {false, false};
     for (size_t i = 0; named && i < flow->openings; i++) {
@@ -153,8 +153,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     const bool coloured = flows->show <= GM_SHOW_PRESSURE || flows->show == GM_SHOW_TEMPERATURE,
                over = coloured && !gm_flow_is_signed(flows->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
-    /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the
-       time */
+    /* colours of fine meshes are smooth already, and four times the triangles cost three times the time */
     const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
     struct gm_flow_sheet sheet;
     if (!gm_flow_sheet_make(picture, complex, gm_run_state(lane->run), plain ? NULL : field, &sheet)) {
@@ -196,7 +195,7 @@ static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t o
     return common;
 }
 
-/* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh that was read: its least entry. */
+/* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh from a file: its least entry. */
 static const char *told_star(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_complex *complex = flow_of(lane)->complex;
@@ -213,7 +212,7 @@ static const char *told_star(struct gm_picture *picture, const struct gm_lane *l
                                  100 * (double)complex->obtuse / (double)complex->triangles, star);
 }
 
-/* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
+/* "6600 triangles,  semi-implicit"; the scheme if it is the same in all lanes */
 static const char *mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
                                    size_t count)
 {
@@ -249,7 +248,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
                            look->remark ? look->remark : "");
 }
 
-/* Whether all lanes look for a steady state, so that there is no time. */
+/* Returns true if all lanes seek a steady state, which has no time. */
 static bool is_steady(const struct gm_lane *const *lanes, size_t count)
 {
     bool steady = true;
@@ -259,7 +258,7 @@ static bool is_steady(const struct gm_lane *const *lanes, size_t count)
     return steady;
 }
 
-/* Errors against the mean edge length, a point for each lane. */
+/* Draws errors against the mean edge length, a point for each lane. */
 static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                              const struct gm_look *look)
 {
@@ -306,7 +305,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         if (!drawn) {
             gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
             panel->x.low *= 0.8;
-            panel->x.high *= 2.6; /* the names stand on the right */
+            panel->x.high *= 2.6; /* space for the names on the right */
         }
     }
 }
@@ -338,7 +337,7 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* The clock; none where there is no time: steady states. */
+/* Draws the clock, except for steady states, which have no time. */
 static void draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        const struct gm_look *look)
 {
@@ -381,7 +380,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     for (size_t i = 0; i < count; i++) {
         struct gm_panel *panel = draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
         panel->title_role = graphs ? gm_lane_role(lanes[i]->shown.colour) : GM_INK;
-        panel->colour_bar &= i + 1 == count; /* the colours mean the same in all */
+        panel->colour_bar &= i + 1 == count; /* all panels have the same colours */
     }
     if (graphs && look->graphs[0]) {
         draw_graphs(picture, lanes, count, look);

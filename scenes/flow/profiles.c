@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cuts through a room: drawn beside what is exact and what was published, and as rows of numbers. */
+/* Cuts through a room: drawn with exact and published values, and written as rows of numbers. */
 #include "scenes/flow/profiles.h"
 
 #include <math.h>
@@ -8,14 +8,14 @@
 #include "scenes/common/graph.h"
 #include "scenes/flow/observables.h"
 
-/* Whether published points hold for a lane's parameters. */
+/* Returns true if published points hold for a lane's parameters. */
 static bool holds(const struct gm_room_table *table, const struct gm_flows *flows)
 {
     return strcmp(flows->mesh, "none") == 0 &&
            (!table->row || gm_parameter_get(table->row, flows) == table->value);
 }
 
-/* The coordinate that runs along a profile: 0, or 1 where it is steeper. */
+/* Returns the coordinate that runs along a profile: 0, or 1 if it is steeper. */
 static int along(const struct gm_profile *line)
 {
     return fabs(line->b[1] - line->a[1]) >= fabs(line->b[0] - line->a[0]);

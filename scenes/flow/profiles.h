@@ -4,8 +4,8 @@
 
 #include "scenes/flow/room_scene.h"
 
-/* A panel for each quantity, the exact one broad and grey, published points in red;
-   rows of CSV. */
+/* Draws a panel for each quantity, the exact one broad and grey, published points in red; writes rows of
+   CSV. */
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                            enum gm_place place);
 void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream);

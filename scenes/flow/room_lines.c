@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lines of a room say beside its boundary: parameters, observables, pictures and studies. Everything stands in the
-   scene's arena, whose body this is called from. */
+/* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
+   scene's arena; its body calls this. */
 #include "scenes/flow/room_lines.h"
 
 #include <math.h>
@@ -11,14 +11,14 @@
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
-/* The text of the only line with a word; NULL: there is none. */
+/* Returns the text of the only line that begins so; NULL without such a line. */
 static const char *said(struct gm_user_room *user_room, const char *word)
 {
     struct gm_span value;
     return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(user_room, value) : NULL;
 }
 
-/* The text of an option; NULL: it is not given. */
+/* Returns the text of an option; NULL if it is not given. */
 static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
 {
     struct gm_span value;
@@ -42,7 +42,7 @@ static double number(struct gm_user_room *user_room, struct gm_span span)
     return value;
 }
 
-/* Numbers that are separated by commas; an option's or, where that has no word, all. */
+/* Returns numbers separated by commas: the numbers of an option, or all if `word` is NULL. */
 static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
 {
     struct gm_span rest = pieces, piece;
@@ -64,7 +64,7 @@ static double option_number(struct gm_user_room *user_room, struct gm_span piece
     return count > 0 ? list[0] : otherwise;
 }
 
-/* Words that are separated by blanks or commas, NULL behind them; NULL: there is no text. */
+/* Returns words separated by blanks or commas, NULL-terminated; NULL without a text. */
 static const char *const *list_words(struct gm_user_room *user_room, const char *text)
 {
     size_t count = 0;
@@ -78,7 +78,7 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* Where something is not as it should be. */
+/* Refuses the text at a place of the file. */
 _Noreturn static void refuse(struct gm_user_room *user_room, size_t place, const char *sentence)
 {
     struct gm_fault fault;
@@ -168,7 +168,7 @@ static char *format(struct gm_user_room *user_room, double value)
     return gm_room_format(user_room, "%s", gm_number_format(value, text, sizeof text));
 }
 
-/* The usual value of a row has to be one that it can have. */
+/* Checks that the usual value of a row is one of its values. */
 static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
 {
     struct gm_flows scratch;
@@ -177,7 +177,7 @@ static void check_row(struct gm_user_room *user_room, const struct gm_parameter 
     }
 }
 
-/* Adds choices as long as they stand before a place of the file. */
+/* Adds choices that come before a place of the file. */
 static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
 {
     const struct gm_written_choices *choices = &user_room->room.choices;
@@ -256,7 +256,7 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-/* Whether all pieces behind the first one begin with words that are known, NULL behind them. */
+/* Checks that all pieces after the first begin with one of `words`, NULL-terminated. */
 static void check_options(struct gm_user_room *user_room, struct gm_span rest, const char *const *words)
 {
     struct gm_span piece, word;
@@ -269,7 +269,7 @@ static void check_options(struct gm_user_room *user_room, struct gm_span rest, c
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new one, or what one that there is is called */
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
 static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
     static const char *const options[] = {"along", "title", "missing", NULL};
@@ -339,7 +339,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
 }
 
-/* table: NAME PROFILE; KEY = VALUE; place value, place value ... */
+/* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
 static void add_table(struct gm_user_room *user_room, struct gm_span rest)
 {
     user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
@@ -371,7 +371,8 @@ static void add_table(struct gm_user_room *user_room, struct gm_span rest)
     }
 }
 
-/* The next value in braces: the text before it, and its key; false: there is none, and the text is what is left. */
+/* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
+   the rest. */
 static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct gm_span *before,
                        struct gm_span *key, bool *nonzero)
 {
@@ -385,7 +386,7 @@ static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct 
     return open < close;
 }
 
-/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark behind mesh and scheme, with values in braces */
+/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
 static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
                           struct gm_span rest, struct gm_picture *picture, struct gm_look *look)
 {
@@ -414,7 +415,7 @@ static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_
     }
 }
 
-/* colours: vorticity F, speed F; false: there is another word, or a number that is not positive. */
+/* colours: vorticity F, speed F. Returns false at another word, or a number that is not positive. */
 static bool take_colours(const struct gm_room *room, struct gm_look *look, struct gm_fault *fault)
 {
     static const char *const words[] = {"vorticity", "speed", NULL};
@@ -432,7 +433,7 @@ static bool take_colours(const struct gm_room *room, struct gm_look *look, struc
     return true;
 }
 
-/* graph: KEY; low .. high, which may hold what is known of the flow */
+/* graph: KEY; low .. high, in terms of the flow's measures */
 static bool take_graph(const struct gm_room *room, size_t number, struct gm_span *key,
                        struct gm_room_range *range, struct gm_fault *fault)
 {
@@ -487,7 +488,7 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     }
 }
 
-/* What a picture will show can be read. */
+/* Checks that the lines of the picture can be read. */
 static void check_look(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
@@ -515,8 +516,8 @@ static void check_look(struct gm_user_room *user_room)
     }
 }
 
-/* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over
-   it. NAN if setup refuses. */
+/* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
+   over it. NAN if setup refuses. */
 static double courant_time(const void *parameters)
 {
     const struct gm_scene *scene = &gm_user_room_of(parameters)->scene;
@@ -530,7 +531,7 @@ static double courant_time(const void *parameters)
     return time;
 }
 
-/* Of a map over Reynolds and Courant numbers: where schemes that march through time lose the speed. */
+/* The Courant numbers and time-stepping schemes of a map of the speed's loss. */
 static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
 static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 

@@ -4,9 +4,9 @@
 
 #include "scenes/flow/room_scene.h"
 
-/* What lines say beside the boundary, while the scene is made in its arena. */
+/* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
-/* What the lines of a lane's room say of its picture, in place of what suits one without them. */
+/* Sets the look that the lines of a lane's room describe. */
 void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
                        struct gm_picture *picture, struct gm_look *look);
 

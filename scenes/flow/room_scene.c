@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What belongs to the scene of a room, in its arena. */
+/* Data of the scene of a room, in its arena. */
 #include "scenes/flow/room_scene.h"
 
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a mesh and values at its vertices to the triangles that are drawn. */
+/* The triangles that are drawn, from a mesh and values at its vertices. */
 #include "scenes/flow/sheet.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ static double *refine(struct gm_picture *picture, const struct gm_complex *compl
                     (complex->point[2 * b + c] - complex->point[2 * a + c]);
         }
         const double middle = (values[a] + values[b]) / 2, widest = fabs(values[a] - values[b]) / 2;
-        /* no more than a monotonic cubic bends, where the ends differ */
+        /* at most the bend of a monotonic cubic, if the ends differ */
         fine[n + e] =
             middle + fmin(fmax(bend / 8, -fmax(widest, fabs(bend) / 8)), fmax(widest, fabs(bend) / 8));
     }

@@ -5,14 +5,15 @@
 #include "core/flow/flow.h"
 #include "render/picture/picture.h"
 
-/* A mesh as it is drawn: refined where it is coarse, unfolded where it is a torus. */
+/* A mesh as it is drawn: refined if it is coarse, unfolded if it is a torus. */
 struct gm_flow_sheet {
     const double *points, *psi, *field; /* field: NULL for none */
     const int *triangles;
     size_t vertices, count;
 };
 
-/* psi, field: at the vertices of the complex. Lives in the picture's arena. False when memory is short. */
+/* Makes the sheet in the picture's arena; psi and field are values at the vertices. False when out of
+   memory. */
 bool gm_flow_sheet_make(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
                         const double *field, struct gm_flow_sheet *sheet);
 

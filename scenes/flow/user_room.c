@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rooms of one's own, from files: the scene that is made of one. Lengths, times and concentrations are in the
-   file's units. */
+/* Rooms from files: the scene of such a room. Lengths, times and concentrations are in the file's units. */
 #include "scenes/flow/user_room.h"
 
 #include <math.h>
@@ -21,7 +20,7 @@ struct powers {
     int of[3];
 };
 
-/* A product of powers of what the line `units:` names, "K m²/s"; "" where one of them is not named. */
+/* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
 static const char *name_unit(const struct gm_user_room *user_room, struct powers powers, char *name)
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
@@ -50,7 +49,7 @@ static const char *name_unit(const struct gm_user_room *user_room, struct powers
     return name;
 }
 
-/* " / (m/s)", behind what is measured in it. */
+/* Writes " / (m/s)", the unit after a title. */
 static const char *beside_unit(const struct gm_user_room *user_room, struct powers powers, char *text)
 {
     char unit[GM_ROOM_UNIT];
@@ -61,10 +60,10 @@ static const char *beside_unit(const struct gm_user_room *user_room, struct powe
     return text;
 }
 
-/* What is observed of an opening, a probe, a wall and a hole. */
+/* The observables of an opening, a probe, a wall and a hole. */
 enum local { FLOW, SCALAR_FLOW, SCALAR, SPEED, PRESSURE, TEMPERATURE, HEAT, DRAG, LIFT, CIRCULATION, LOCALS };
 
-/* Through the pieces of a side: air, or the scalar that goes with it. */
+/* Returns the flow through the pieces of a side: of air, or of the scalar in it. */
 static double through(const struct gm_view *view, size_t side, bool scalar)
 {
     const struct gm_flow *flow = gm_flow_of(view->problem);
@@ -85,7 +84,7 @@ static double through(const struct gm_view *view, size_t side, bool scalar)
     return sum;
 }
 
-/* The number, from 1, of the line of a lane's room that names a side, or a probe; 0: it has none. */
+/* Returns the number, from 1, of the line of a lane's room that names a side, or a probe; else 0. */
 static size_t find_line(const struct gm_room *room, const char *name, bool probe)
 {
     for (size_t i = 0; i < room->count; i++) {
@@ -140,7 +139,8 @@ static double observe_local(const struct gm_view *view)
     }
 }
 
-/* What is wrong with the room, at its line; of its boundary as a whole, without one. Nothing where nothing is. */
+/* Writes a fault of the room with its line, or of the whole boundary without a line; nothing without a
+   fault. */
 static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault,
                  enum gm_boundary_fault boundary, char *sentence)
 {
@@ -158,7 +158,7 @@ static void tell(const struct gm_user_room *user_room, const struct gm_fault *fa
               whole[0] ? whole : fault->sentence);
 }
 
-/* Whether the mesh is the room's rectangle, and no file that was named instead. */
+/* Returns true if the mesh is the room's rectangle, with no file named instead. */
 static bool has_rectangle(const struct gm_flows *chosen)
 {
     return gm_user_room_of(chosen)->room.rectangular && strcmp(chosen->mesh, "none") == 0;
@@ -172,7 +172,7 @@ static void close_room(struct gm_room *room)
     }
 }
 
-/* Of a problem that there was no flow for, too. */
+/* Closes a problem, also one without a flow. */
 static void close_problem(struct gm_problem *problem)
 {
     struct gm_flow *flow = (struct gm_flow *)(uintptr_t)gm_flow_of(problem);
@@ -182,8 +182,8 @@ static void close_problem(struct gm_problem *problem)
     close_room(room);
 }
 
-/* The room with a lane's parameters, where the outlet's is the names of its groups; NULL with a fault, whose sentence is
-   empty where memory was refused. */
+/* Returns the room with a lane's parameters; `outlet` names its group; the caller closes it. NULL with a
+   fault, whose sentence is empty when out of memory. */
 static struct gm_room *room_for(const struct gm_user_room *user_room, const struct gm_flows *chosen,
                                 const char *outlet, struct gm_fault *fault)
 {
@@ -226,7 +226,7 @@ static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room
            gm_flows_refine(path, (enum gm_star)chosen->star, chosen->refine, mesh, sentence);
 }
 
-/* What outlets are, and what names their groups, fits the mesh. */
+/* Reads the kind and group of outlets, and checks that the named groups fit the mesh. */
 static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *room,
                           enum gm_vertex_kind *kind, char *group, char *sentence)
 {
@@ -247,7 +247,7 @@ static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *r
            gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", chosen->outlet);
 }
 
-/* The flow of a lane's room; NULL with a sentence. */
+/* Returns the flow of a lane's room; NULL with a sentence on failure. */
 static struct gm_flow *open_flow(const struct gm_user_room *user_room, const struct gm_flows *chosen,
                                  struct gm_room *room, char *sentence)
 {
@@ -326,8 +326,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     return true;
 }
 
-/* Of edges and strips the one that was not given is the best for the other, unless both were given, or none, or the
-   strips are always the best (0). */
+/* If one of edges and strips is given, sets the other to its best value; strips 0 are always the best. */
 static bool settle(void *self, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
@@ -353,7 +352,7 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
         }
     }
     close_room(room);
-    return true; /* setup says what is wrong with a room */
+    return true; /* setup reports a wrong room */
 }
 
 static bool start(const void *parameters, const struct gm_problem *problem, const struct gm_scheme *scheme,
@@ -374,14 +373,14 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
                gm_fail(&fault, place, "the vorticity is not finite at (%.4g, %.4g)", p[0], p[1]);
     }
     good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
-    if (!good) { /* where memory was short the lane says so */
+    if (!good) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, GM_BOUNDARY_OK, sentence);
     }
     free(omega);
     return good;
 }
 
-/* Whether heat is carried that nothing takes away. */
+/* Returns true if heat is carried and nothing takes it away. */
 static bool is_free(const struct gm_flow *flow)
 {
     bool held = flow->openings > 0;
@@ -391,7 +390,7 @@ static bool is_free(const struct gm_flow *flow)
     return flow->heat && !held;
 }
 
-/* Why the boundary could give nothing in the next step, or there is no steady state. */
+/* Writes why the boundary is wrong in the next step, or why there is no steady state. */
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
@@ -413,8 +412,8 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     snprintf(text, size, "%s", sentence);
 }
 
-/* Over what a mesh and its halves share, the vertices of the coarser one: the distance in the mean square, relative
-   to what is furthest from its own mean there. */
+/* Returns the distance in the mean square at the vertices of the coarser mesh, relative to the deviation from
+   the mean there. */
 static double apart(const struct gm_complex *complex, const double *value, const double *finer)
 {
     double mean = 0, square = 0, size = 0;
@@ -428,7 +427,7 @@ static double apart(const struct gm_complex *complex, const double *value, const
     return square > 0 ? sqrt(square / size) : 0;
 }
 
-/* The largest of those of the stream function, the scalar and the temperature. */
+/* Returns the largest distance of the stream function, the scalar and the temperature. */
 static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 {
     const struct gm_flow *flow = gm_flow_of(&lane->problem), *reference = gm_flow_of(&finer->problem);
@@ -457,7 +456,7 @@ static bool readable(const void *parameters, char *sentence)
     return good;
 }
 
-/* About the largest that sources make of the scalar: twice what the air has when it leaves. */
+/* Returns about the largest scalar that sources produce: twice its value in the air that leaves. */
 static double enriched(const struct gm_flow *flow)
 {
     double sum = 0, through = 0;
@@ -492,7 +491,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
         high = fmax(high, fmax(other->theta_high, enriched(other)));
     }
-    /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
+    /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
     const bool units = user_room->room.units, named = !room->rectangular;
@@ -534,8 +533,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_flows_draw(lanes, count, picture, &look);
 }
 
-/* Adds observables "NAME_what" of a subject, from one to another, with their units; blanks and signs in names become _.
-   What has no room, or a key that is there already, is noted. */
+/* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names
+   become _. Too many of them, and a repeated key, are noted. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
                     struct gm_room_subject subject)
 {
@@ -588,7 +587,7 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
     }
 }
 
-/* What all rooms of files have: with its unit, or what it is of a scalar that has a name. */
+/* Adds the common observables of all rooms from files, with a unit, or with the name of the scalar. */
 static void observe_common(struct gm_user_room *user_room, bool heat)
 {
     static const struct {
@@ -654,7 +653,7 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
     }
 }
 
-/* FNV-1a of more bytes. */
+/* Continues a checksum (FNV-1a) with more bytes. */
 static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
 {
     for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
@@ -663,7 +662,7 @@ static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
     return sum;
 }
 
-/* The room's name with a checksum of its text and of the mesh, in which another room with the same name differs. */
+/* Returns the room's name with a checksum of its text and mesh, which distinguishes rooms of one name. */
 static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
@@ -676,7 +675,7 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
     return gm_room_format(user_room, "%s:%08x", user_room->file.name, (unsigned)sum);
 }
 
-/* Where the mesh is. */
+/* Finds the mesh: a file, or a built-in one. */
 static void find_mesh(struct gm_user_room *user_room)
 {
     const struct gm_room_file *file = &user_room->file;
@@ -698,7 +697,7 @@ static void close_read(void *room)
     gm_room_close(room);
 }
 
-/* A scene that is made, and what is wrong with its file. */
+/* A scene while it is made, and the fault of its file. */
 struct making {
     const struct gm_room_file *file;
     struct gm_fault *wrong;
@@ -801,5 +800,5 @@ const struct gm_scene *gm_user_room_open(const struct gm_room_file *file, struct
 
 void gm_user_room_close(const struct gm_scene *scene)
 {
-    gm_arena_close(((const struct gm_user_room *)scene)->arena); /* which the scene is the first member of */
+    gm_arena_close(((const struct gm_user_room *)scene)->arena); /* the scene is its first member */
 }

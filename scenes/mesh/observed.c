@@ -57,9 +57,9 @@ double gm_view_mesh_error(const struct gm_view *view)
     return largest;
 }
 
-/* The time by which the exact solution has to be shifted to fit the nodes best (least squares, by Gauss and
-   Newton's iteration): positive where the numerical one is ahead. At a bounce, where the field stands still,
-   it cannot be told: NaN where none below 1 is found, and where no exact solution is known. */
+/* Returns the time by which the exact solution has to be shifted to fit the nodes best (least squares, by
+   Gauss and Newton's iteration): positive if the numerical one is ahead. NaN if no shift below 1 is found, as
+   at a bounce, where the field is at rest, or if no exact solution is known. */
 double gm_view_lead(const struct gm_view *view)
 {
     enum { MOST_ITERATIONS = 6 };

@@ -5,12 +5,13 @@
 #include "core/mesh/moving_mesh.h"
 #include "scenes/common/scene.h"
 
-/* What is observed of every field on a moving mesh. */
+/* The observables of every field on a moving mesh. */
 
 struct gm_mesh gm_mesh_of(const struct gm_view *view);
-/* The solution; NaN where none is known. */
+/* Returns the exact solution; NaN if none is known. */
 double gm_mesh_exact(const struct gm_view *view, double x, double t);
-/* The largest difference of a lane's field at its nodes from that of another lane of more nodes, linear between them. */
+/* Returns the largest difference of a lane's field at its nodes from the field of a lane with more nodes,
+   linear between them. */
 double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer);
 
 double gm_view_mesh_error(const struct gm_view *view);
@@ -22,7 +23,7 @@ double gm_view_smallest_cell(const struct gm_view *view);
 double gm_view_newton_iterations(const struct gm_view *view);
 double gm_view_factorisations(const struct gm_view *view);
 
-/* With an exact solution; then what needs none. */
+/* The first rows need an exact solution, the others do not. */
 #define GM_MESH_ERRORS                                                                                       \
     GM_LOG_OBSERVABLE("solution_error", gm_view_mesh_error, "error  max |φ − exact| at the nodes"),          \
         GM_OBSERVABLE("lead", gm_view_lead, "time ahead of the exact solution",                              \

@@ -108,7 +108,7 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
     const struct gm_entries *entries = &lane->entries[0];
     const struct gm_view view = gm_lane_view(lane);
     const size_t points = view.problem->n / 4, rows = entries->count + 1;
-    const size_t stride = (points + entries->width - 1) / entries->width; /* of the nodes with a path */
+    const size_t stride = (points + entries->width - 1) / entries->width; /* nodes from path to path */
     const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
                                    GM_SOLID};
     double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
@@ -150,7 +150,7 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
     }
     for (panel = before ? before->next : picture->first; panel; panel = panel->next) {
         if (!(panel->y.high > panel->y.low)) {
-            panel->y.high = panel->y.low + 1; /* nothing is asked to pass */
+            panel->y.high = panel->y.low + 1; /* the axis needs a height */
         }
     }
 }
@@ -241,7 +241,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         fields && later ? "  red: at the start" : "");
 }
 
-/* How far a lane's energy has gone from its start so far. */
+/* Returns the largest change of a lane's energy since its start. */
 static double largest_change(const struct gm_lane *lane, size_t series)
 {
     const struct gm_history *history = &lane->history;
@@ -256,7 +256,7 @@ static double largest_change(const struct gm_lane *lane, size_t series)
     return largest;
 }
 
-/* Each panel's lanes in a graph of their own, one above another and all on one scale. */
+/* Draws each panel's lanes in graphs of their own, one above another, all on one scale. */
 static void draw_energies(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const int energy = gm_asked_series(picture, lanes[0]->scene, "energy");
@@ -292,7 +292,7 @@ void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
         draw_convergence(picture, lanes, count);
         return;
     }
-    /* of many lanes the paths alone are shown, which are what the scene is about */
+    /* with many lanes only the paths are shown, the subject of the scene */
     const bool all = show == GM_MESH_ALL, both = all && panels <= 4;
     if (both || show == GM_MESH_FIELD) {
         draw_fields(picture, lanes, count, look);
@@ -300,7 +300,7 @@ void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
     if (all || show == GM_MESH_PATHS) {
         draw_meshes(picture, lanes, count, !both);
     }
-    /* three side by side leave no hole */
+    /* three side by side leave no gap */
     if (both || (panels == 3 && !all)) {
         picture->state_columns = panels;
     }

@@ -15,20 +15,21 @@ enum gm_mesh_view {
     GM_MESH_CONVERGENCE,
 };
 
-/* The names of enum gm_mesh_view and of enum gm_mesh_density (core/mesh/moving_mesh.h), until NULL. */
+/* The names of enum gm_mesh_view and of enum gm_mesh_density (core/mesh/moving_mesh.h), NULL-terminated. */
 extern const char *const gm_mesh_views[], *const gm_mesh_densities[];
 
-/* The parameters of such a scene begin with these; its first track is that of the paths (scenes/mesh/observed.h). */
+/* The parameters of such a scene begin with these; its first track holds the paths
+   (scenes/mesh/observed.h). */
 struct gm_mesh_parameters {
     struct gm_timing timing;
     int show; /* enum gm_mesh_view */
 };
 
-/* What differs from scene to scene; the title is the picture's. */
+/* The differences between scenes; the picture has the title. */
 struct gm_mesh_look {
-    const char *front, *name; /* what the subtitle begins with; of the field */
+    const char *front, *name; /* the beginning of the subtitle; the name of the field */
     enum gm_scale scale;
-    double low, high; /* of the field */
+    double low, high; /* the range of the field */
 };
 
 void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,

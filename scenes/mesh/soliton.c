@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solitons between two walls on linear elements whose nodes follow them: r-adaptive variational integrators.
        L = integral of phi_t^2/2 - phi_X^2/2 - W(phi),   W = 1 - cos phi, or (phi^2 - 1)^2/4
-   What to look at: the paths of the nodes; the energy, which the multiplier strategy keeps and with the
-   control-theoretic one wanders, symplectic or not, although both meshes follow the soliton equally well; the
+   What to look at: the paths of the nodes; the energy, conserved by the multiplier strategy, wandering with
+   the control-theoretic one, symplectic or not, although both meshes follow the soliton equally well; the
    error over the number of nodes.
 
    Tyranowski & Desbrun (2019), section 5:
@@ -78,7 +78,7 @@ static bool start_with(const void *model, const struct gm_problem *problem, cons
     double wall, slope, rate;
     gm_soliton_profile(&soliton->model, 0, &wall, &slope, &rate);
     if (fabs(wall - mesh.left) > 0.01) {
-        /* a jump at the wall, which no cell can be small enough for */
+        /* the jump at the wall is narrower than any cell */
         gm_refuse(
             sentence,
             "no mesh was found: a box of length %g cuts the soliton off, which at velocity = %g is wider",
@@ -92,8 +92,8 @@ static bool start_with(const void *model, const struct gm_problem *problem, cons
         soliton->model.points, gm_soliton_alpha(&soliton->model), soliton->model.velocity);
 }
 
-/* Where the first soliton is: where the field, linear between the nodes, is half of its height, π. NaN where
-   it is not, or has no such height (phi^4). */
+/* Returns the position of the first soliton: the field, linear between the nodes, is half of its height, π.
+   NaN if it never is, or has no such height (phi^4). */
 static double position(const struct gm_view *view)
 {
     const struct parameters *soliton = view->parameters;
@@ -256,7 +256,7 @@ static const struct gm_figure figures[] = {
     },
 };
 
-/* Which nodes and which step a scheme does best with is its own affair: each is tried with all. */
+/* Schemes do best with different nodes and steps, so each scheme is tried with all of them. */
 static const double resolutions[] = {7, 15, 31, 63, 127, 255, 511, 1023};
 static const double compared[] = {1, 0.1, 0.01};
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The observables that every scene of ordinary differential equations has when they are asked for. */
+/* The observables that every scene of ordinary differential equations computes on request. */
 #ifndef GM_SCENES_ODE_ASKED_H
 #define GM_SCENES_ODE_ASKED_H
 
 #include "scenes/ode/indicators.h"
 #include "scenes/ode/modified.h"
 
-/* Errors of modified energies, which pictures with GM_SHOW_MODIFIED show, then indicators of chaos. */
+/* Errors of modified energies, shown by pictures with GM_SHOW_MODIFIED, then indicators of chaos. */
 enum { GM_INDICATORS = 6, GM_ODE_ASKED = GM_MODIFIED_OBSERVABLES + GM_INDICATORS };
 extern const struct gm_observable gm_ode_asked[GM_ODE_ASKED];
 
-/* For a scene of Hamiltonian systems that has GM_SHOW_ROW. */
+/* Members of a scene of Hamiltonian systems that has GM_SHOW_ROW. */
 #define GM_ASKED_OF_HAMILTONIAN                                                                              \
     .asked = gm_ode_asked, .asked_count = GM_ODE_ASKED, .asked_shown = gm_modified_shown,                    \
     .draw_asked = gm_draw_modified

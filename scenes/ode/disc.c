@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A disc of initial conditions in the phase plane, carried by a scheme: Liouville's theorem made visible.
        oscillator   H = p^2/2 + q^2/2        pendulum   H = p^2/2 - cos q
-   The exact flow keeps the disc's area. What to look at: the area, which explicit schemes blow up and
-   implicit ones shrink and symplectic ones keep, whatever the step; and the energy error, which stays bounded
-   for them.
+   The exact flow preserves the disc's area. What to look at: the area, which explicit schemes blow up,
+   implicit ones shrink and symplectic ones preserve, whatever the step; and the energy error, which stays
+   bounded for them.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Harmonic oscillator":
        figures 1, 2   the area and the energy error of explicit and implicit Euler
@@ -26,12 +26,12 @@
 enum { Q, XI_1, XI_2, P, ETA_1, ETA_2, COMPONENTS };
 enum { OSCILLATOR, PENDULUM };
 enum { SHOW_ALL, SHOW_DISC, SHOW_ENERGY };
-enum { ENERGY_ERROR = 4 /* place of an observable */ };
+enum { ENERGY_ERROR = 4 /* index of an observable */ };
 enum {
     DRAWN = 1024,     /* most points of a drawn edge */
-    REMEMBERED = 256, /* of an earlier shape */
-    TURN = 12,        /* shapes in a turn of the oscillator: older ones have faded */
-    MOST_TURNS = 16,  /* of the pendulum in one outline */
+    REMEMBERED = 256, /* points of an earlier shape */
+    TURN = 12,        /* shapes per period of the oscillator: older ones have faded */
+    MOST_TURNS = 16,  /* most turns of the pendulum in one outline */
 };
 
 struct disc {
@@ -89,12 +89,13 @@ static void start(const void *self, const struct gm_problem *problem, double *y)
     }
 }
 
-/* Measured from the centre so that little cancels; the tangent map M turns the start's edge into the present one. */
+/* Returns the disc's area, from its centre so that little cancels; the tangent map M turns the start's edge
+   into the current one. */
 static double area(const struct gm_view *view)
 {
     const size_t m = view->problem->m, points = m - 1;
     const double *y = view->state, *q = view->start + Q * m, *p = view->start + P * m;
-    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
+    double complex *edge = malloc(2 * points * sizeof *edge); /* the edge, then its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
         const double dq = p[points] - p[i], dp = q[i] - q[points];
         edge[i] = y[Q * m + i] - y[Q * m + points] + I * (y[P * m + i] - y[P * m + points]);
@@ -150,8 +151,8 @@ static double turn_of(double angle)
     return round(angle / (2 * M_PI));
 }
 
-/* Whether every angle of an outline is within half a turn of the next: farther apart, it is not known what lies between
-   them. */
+/* Returns true if every angle of an outline is at most pi from the next one; beyond that, the arc between
+   them is not known. */
 static bool is_known(const double *angles, size_t stride, size_t count)
 {
     bool known = true;
@@ -161,9 +162,9 @@ static bool is_known(const double *angles, size_t stride, size_t count)
     return known;
 }
 
-/* The edge as points to draw, at most `most`. On the pendulum the arc between two members is a cubic with the
-   tangents M d(start)/d(angle), M the tangent map that each member carries, where all are near enough to their
-   neighbours; `refined` is the number of points drawn for each member. */
+/* Writes the edge as points to draw, at most `most`. On the pendulum the arc between two members is a cubic
+   with the tangents M d(start)/d(angle), M the tangent map that each member carries, where all are near
+   enough to their neighbours; `refined` is the number of points drawn for each member. */
 static size_t edge(const struct gm_view *view, size_t most, double *points, size_t *refined)
 {
     const struct disc *disc = view->parameters;
@@ -220,7 +221,7 @@ static const struct gm_track tracks[] = {
     {.key = "shapes", .width = remembered, .every = M_PI / 6, .bound = 96, .record = remember},
 };
 
-/* The centre's exact orbit: the level line of its energy, as one or two polylines. */
+/* Draws the centre's exact orbit: the level line of its energy, as one or two polylines. */
 static void draw_orbit(struct gm_picture *picture, struct gm_panel *panel, const struct disc *disc)
 {
     enum { ORBIT = 256 };
@@ -247,7 +248,7 @@ static void draw_orbit(struct gm_picture *picture, struct gm_panel *panel, const
     gm_mark_line(picture, panel, style, points, ORBIT, false);
 }
 
-/* A bound that moves outwards in steps of a tenth. */
+/* Returns a bound that moves outwards in steps of a tenth. */
 static double calm(double value)
 {
     const double size = fmax(fabs(value), 1e-9);
@@ -262,7 +263,7 @@ static void hold(struct gm_axis *x, struct gm_axis *y, const double *points, siz
     }
 }
 
-/* A lane that is so many times as far as the exact motion goes no longer sets the scale of others. */
+/* A lane farther than this multiple of the exact motion no longer sets the scale of others. */
 static const double farthest = 4;
 
 static bool has_left(const struct gm_lane *lane)
@@ -281,9 +282,9 @@ static bool has_left(const struct gm_lane *lane)
     return left;
 }
 
-/* The range of all lanes, so that growth and decay are seen side by side, but for those that have left; or of
-   those in one `panel`, which have all left. The pendulum's angle counts modulo 2 pi: all of the circle where a lane has
-   come around. */
+/* Sets the range of all lanes on one scale, except those that have left; or of those in one `panel`, which
+   have all left. The pendulum's angle counts modulo 2 pi: a lane that has come around shows all of the
+   circle. */
 static void state_range(const struct gm_lane *const *lanes, size_t count, const size_t *panel,
                         struct gm_axis *x, struct gm_axis *y)
 {
@@ -322,8 +323,8 @@ static void state_range(const struct gm_lane *const *lanes, size_t count, const 
     }
 }
 
-/* An outline and what it encloses; one of angles once for each turn that it has a part in, of which the panel shows that
-   part, so that no line crosses it. What is not known is shown by its points. */
+/* Draws an outline and its inside, for angles once for each turn, in the part that the panel shows, so that
+   no line crosses it. Points show an outline that is not known. */
 static void draw_shape(struct gm_picture *picture, struct gm_panel *panel, struct gm_style fill,
                        struct gm_style line, const double *points, size_t count)
 {
@@ -384,7 +385,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     const size_t count = edge(&view, DRAWN, points, &refined);
     draw_shape(picture, panel, (struct gm_style){.role = role, .alpha = 0.42},
                (struct gm_style){role, 1, 2.4, GM_SOLID}, points, count);
-    /* members stand out as dots from what is interpolated, where there are few enough to tell apart */
+    /* a few members are drawn as dots on the interpolated edge */
     const size_t members = count / refined;
     if (refined > 1 && members <= 64) {
         for (size_t i = 0; i < members; i++) {
@@ -423,7 +424,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* The centre of the disc is put there. */
+/* The point becomes the centre of the disc. */
 static size_t point(const void *self, double x, double y, struct gm_choice *choices)
 {
     (void)self;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The orbit beside which others part is run once more, by the same scheme from the same start, with a vector
-   along it: so the lane's own run is never touched, and no time is spent where nobody asks. */
+/* A copy of the orbit runs with a vector along it, by the same scheme from the same start. The lane's own run
+   is unchanged, and the copy costs time only on request. */
 #include "scenes/ode/indicators.h"
 
 #include <math.h>
@@ -14,11 +14,11 @@
 /* ---- growth ---- */
 
 struct followed {
-    const struct gm_scheme *scheme; /* another one may take over */
+    const struct gm_scheme *scheme; /* the lane may change it */
     struct gm_growth *growth;
-    double *start; /* of the last member, active components */
+    double *start; /* the start of the last member, active components */
     size_t n;
-    const char *why; /* NULL: there are numbers */
+    const char *why; /* the reason that there are no values; NULL: there are */
 };
 
 static void forget(void *data)
@@ -29,14 +29,14 @@ static void forget(void *data)
     free(followed);
 }
 
-/* Component c of the last member. */
+/* Returns component c of the last member. */
 static double last_of(const struct gm_view *view, const double *state, size_t c)
 {
     const size_t m = view->problem->m;
     return state[c * m + m - 1];
 }
 
-/* NULL where memory is short, which is noted. */
+/* Opens the copy of the orbit; NULL when out of memory, which is noted. */
 static struct followed *open_followed(const struct gm_view *view)
 {
     struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
@@ -64,8 +64,8 @@ static struct followed *open_followed(const struct gm_view *view)
     return followed->growth ? followed : NULL;
 }
 
-/* Whether the orbit that was followed is the lane's, to the last bit: it is not where that was changed on its
-   way. */
+/* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its
+   run. */
 static bool is_same(const struct gm_view *view, const struct followed *followed)
 {
     const double *state = gm_growth_state(followed->growth);
@@ -76,7 +76,7 @@ static bool is_same(const struct gm_view *view, const struct followed *followed)
     return same;
 }
 
-/* The orbit, followed up to the view's step; NULL where there are no numbers. */
+/* Returns the orbit, followed up to the view's step; NULL if there are no values. */
 static const struct gm_growth *followed_to(const struct gm_view *view)
 {
     struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
@@ -84,7 +84,7 @@ static const struct gm_growth *followed_to(const struct gm_view *view)
     const int64_t steps = view->run->steps;
     const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
     if (followed && (earlier || followed->scheme != view->scheme)) {
-        worked->data = NULL; /* another scheme, or an earlier step is looked at */
+        worked->data = NULL; /* another scheme, or an earlier step of the view */
         forget(followed);
         followed = NULL;
     }
@@ -136,7 +136,7 @@ const char *gm_growth_why(const struct gm_view *view)
 
 /* ---- coming back, and leaving ---- */
 
-/* The number of the scene's first section; its count of tracks where it has none. */
+/* Returns the number of the scene's first section; its count of tracks without one. */
 static size_t section_of(const struct gm_scene *scene)
 {
     size_t found = 0;
@@ -152,7 +152,7 @@ double gm_return_time(const struct gm_view *view)
     if (section == view->scene->track_count || !view->tracks) {
         return NAN;
     }
-    /* a start on the section is no return */
+    /* a start on the section does not count as a return */
     const double least = 1e-9 * fabs(view->dt);
     const struct gm_entries *entries = &view->tracks[section];
     for (size_t i = 0; i < entries->count; i++) {

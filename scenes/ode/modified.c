@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The modified Hamiltonian of a lane, worked out when it is first asked for and remembered by the lane. */
+/* The modified Hamiltonian of a lane, derived when it is first requested and stored by the lane. */
 #include "scenes/ode/modified.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/scene.h"
 
-/* What is remembered of a state: the start is asked for again and again. */
+/* The stored energies of a state: the start is requested repeatedly. */
 struct state {
     double *y; /* n */
     double terms[GM_MODIFIED_POWER + 1];
@@ -18,10 +18,10 @@ struct state {
 };
 
 struct worked {
-    const struct gm_scheme *scheme; /* another one may take over */
+    const struct gm_scheme *scheme; /* the lane may change it */
     int power;
     size_t n;
-    struct gm_modified_energy *energy; /* NULL: there is none, and why */
+    struct gm_modified_energy *energy; /* NULL: it does not exist; `why` has the reason */
     char why[GM_MODIFIED_WHY];
     struct state start, now;
 };
@@ -35,7 +35,7 @@ static void forget(void *data)
     free(worked);
 }
 
-/* NULL where memory is short, which is noted. */
+/* Returns the stored data of a lane; NULL when out of memory, which is noted. */
 static struct worked *worked_of(const struct gm_view *view, int power)
 {
     struct worked *worked = view->worked[GM_WORKED_ENERGY].data;
@@ -82,8 +82,8 @@ static double energy_of(struct worked *worked, struct state *state, const struct
     return sum;
 }
 
-/* Whether the run was stopped within a step: of the shorter step that led there another Hamiltonian is the modified
-   one. */
+/* Returns true if the run was stopped within a step: its last, shorter step has another modified
+   Hamiltonian. */
 static bool is_within_step(const struct gm_view *view)
 {
     return view->run && view->run->n == 0 && view->run->steps > 0 && gm_view_stopped(view);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rows of what is asked for. */
+/* The rows of the observables on request. */
 #include "scenes/ode/asked.h"
 
 #define MODIFIED(power, powers)                                                                              \

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A system that somebody wrote, as a scene: its parameters and the values of its start are keys, what it
-   keeps and what its file observes are observables, its section is a track. The scene is made while the
-   program runs, and does not change afterwards; what it needs of itself a lane finds through its parameters.
+/* A user-defined system as a scene: its parameters and the values of its start are keys, its invariants and
+   the quantities that its file observes are observables, its section is a track. The scene is made while the
+   program runs, and does not change afterwards; a lane finds its system through its parameters.
 
    With `members` the start is a disc in the plane that is shown, a grid of it, or a line along its first
-   axis: the last member is in the middle, of a disc all others are on the edge. Observables are those of the
-   centre; where the state is a plane, the disc's area is one too. */
+   axis: the last member is in the middle, all others of a disc are on the edge. Observables are values of the
+   centre; if the state is a plane, also the disc's area. */
 #include "scenes/ode/system.h"
 
 #include <math.h>
@@ -40,18 +40,19 @@ enum {
     MOST_FOLLOWED = 32,
     CROSSINGS = 1 << 14,
     REMEMBERED = 256,
-    MOST_RECORDED = 1 << 22 /* numbers of a track: of many components there are fewer entries */
+    MOST_RECORDED = 1 << 22 /* numbers of a track: many components have fewer entries */
 };
 
-/* Whether each row was given, bytes behind the values. */
+/* Returns the bytes after the values: 1 if the row was given. */
 static char *given_of(struct gm_system_lane *lane)
 {
     return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
-/* ---- what is remembered ---- */
+/* ---- tracks ---- */
 
-/* The state of the last member, of which every sight is made: another one may be chosen during the run. */
+/* Records the state of the last member, from which every sight follows: another one may be chosen during the
+   run. */
 static void record_state(const struct gm_view *view, double *entry)
 {
     const size_t m = view->problem->m, centre = gm_system_centre(view);
@@ -65,7 +66,7 @@ static double step_of(const void *parameters)
     return fabs(((const struct gm_timing *)parameters)->dt);
 }
 
-/* Shapes of the disc are those of every twelfth of the shortest turn, about. */
+/* Returns the interval of the disc's shapes: about a twelfth of the shortest period. */
 static double shape_interval(const void *parameters)
 {
     const struct gm_system_lane *lane = parameters;
@@ -123,12 +124,12 @@ static void record_crossing(const struct gm_view *view, double *entry)
 
 /* ---- from parameters to problem and start ---- */
 
-/* The scene of the text of `first` with other values. */
+/* Makes the scene of the text of `first` with other values. */
 static struct gm_system_scene *make_other(const struct gm_system_scene *first,
                                           const struct gm_system_value *values, size_t count,
                                           struct gm_fault *fault, char *sentence);
 
-/* Values that were not given follow from those that were, as the file says. */
+/* Derives values that were not given from those that were, by the file's formulas. */
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
     struct gm_system_lane *lane = parameters;
@@ -194,7 +195,8 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
                      defects.constraint, defects.hidden);
 }
 
-/* Whether momenta determine velocities where this lane starts: the file's start is checked when it is read. */
+/* Returns true if momenta determine velocities at this lane's start; the file's start is checked when it is
+   read. */
 static bool has_velocities(const struct gm_system_lane *lane, char *sentence)
 {
     double *values = gm_system_start_values(lane, NULL);
@@ -204,7 +206,7 @@ static bool has_velocities(const struct gm_system_lane *lane, char *sentence)
     return good || gm_refuse(sentence, "%s", fault.sentence);
 }
 
-/* Whether the surfaces have sizes. */
+/* Returns true if the sizes of the surfaces are positive. */
 static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
 {
     double sizes[3 * GM_MOST_SURFACES], *values = gm_system_start_values(lane, NULL);
@@ -250,8 +252,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     return true;
 }
 
-/* Where a member starts, from the last one on, which is the centre. A grid has as many rows as make a square,
-   and its last row what is left. */
+/* Sets a member's start relative to the last one, the centre. A grid has as many rows as make a square; its
+   last row has the rest. */
 static void place_member(const struct gm_system_lane *lane, size_t member, size_t m, double *from_centre)
 {
     const double last = (double)(m - 1), side = ceil(sqrt(last)), index = (double)member;
@@ -272,7 +274,7 @@ static void place_member(const struct gm_system_lane *lane, size_t member, size_
     }
 }
 
-/* A member of a disc or line, as near to where it was as may be. */
+/* Moves a member of a disc or line to the nearest point of the manifold. */
 static void put_on_manifold(const struct gm_problem *problem, double *y, size_t m, size_t member)
 {
     double *one = malloc(problem->n * sizeof *one);
@@ -293,7 +295,7 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     const size_t n = system_scene->system.n, m = problem->m;
     double *centre = malloc(n * sizeof *centre);
     if (!centre) {
-        return; /* noted: the lane says that memory was short */
+        return; /* noted: the lane reports that memory was short */
     }
     double *values = gm_system_start_values(lane, NULL);
     for (size_t c = 0; c < n; c++) {
@@ -328,8 +330,8 @@ static void close_problem(struct gm_problem *problem)
 
 /* ---- how fast the system is ---- */
 
-/* 1 / the largest frequency of the linearised field at a state of one member, or, where nothing turns, of its
-   largest rate; 1 where there is none. */
+/* Returns 1 / the largest frequency of the linearised field at a state of one member, or of its largest rate
+   if nothing turns; 1 if both are 0. */
 static double radian_at(const struct gm_problem *problem, const double *y)
 {
     const size_t n = problem->n;
@@ -359,7 +361,8 @@ static double radian_at(const struct gm_problem *problem, const double *y)
     return rate > 1e-6 && isfinite(rate) ? 1 / rate : 1;
 }
 
-/* That at the start, and, with `looks`, the shortest of so many places along the first ten of it. */
+/* Returns 1 / the largest frequency at the start, or the shortest such time at `looks` more points along the
+   first ten of it. */
 static double shortest_radian(const struct gm_system_lane *lane, int looks)
 {
     struct gm_problem problem;
@@ -394,7 +397,7 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
-/* Where a plane is shown there is nothing to go around; and other words of a choice have values of their own. */
+/* Returns why a key has no effect: a plane has no camera, another word of a choice has other values. */
 static const char *idle(const void *parameters, const char *key)
 {
     const struct gm_system_lane *lane = parameters;
@@ -408,7 +411,7 @@ static const char *idle(const void *parameters, const char *key)
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
 }
 
-/* A start in the section lies in it too, where that says which component is 0. */
+/* Adds the component that is 0 in the section, if that is a component. */
 static size_t on_section(const struct gm_system_lane *lane, const struct gm_sight *sight,
                          struct gm_choice *choice)
 {
@@ -428,7 +431,7 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
     return 0;
 }
 
-/* The variable that says where a component starts: a parameter that is its start, or itself. */
+/* Returns the variable that sets a component's start: a parameter that is its start, or itself. */
 static size_t start_of(const struct gm_user_system *system, long component)
 {
     if (component < 0 || (size_t)component >= system->n) {
@@ -465,7 +468,7 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-/* The row of a choice, whose values are its words. */
+/* Makes the row of a choice, whose values are its words. */
 static bool make_choice(struct gm_system_scene *system_scene, size_t i)
 {
     const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
@@ -546,7 +549,7 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
     return good;
 }
 
-/* dt and until: as the file says, or by how fast the system is. */
+/* Makes dt and until, from the file, or from the system's frequency. */
 static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -577,7 +580,7 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
                                        &system_scene->rows[UNTIL]);
 }
 
-/* The ways to look at the state, and those at what the scheme does to the energy. */
+/* Makes the sights of the state, and the one of the modified energy. */
 static bool make_shows(struct gm_system_scene *system_scene)
 {
     if (!gm_system_make_sights(system_scene)) {
@@ -630,7 +633,7 @@ static void make_tracks(struct gm_system_scene *system_scene)
     system_scene->scene.follow = system_scene->has_section ? 1 : 0;
 }
 
-/* Those that the file names, or of the best known the ones that fit. */
+/* Chooses the schemes that the file names, or the best known ones that fit. */
 static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                          char *sentence)
 {
@@ -660,7 +663,7 @@ static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_p
     return true;
 }
 
-/* What the file calls it, or its formula where that is short. */
+/* Returns the title in the file, or the formula if that is short. */
 static const char *title_of(struct gm_system_scene *system_scene)
 {
     enum { SHORT = 48 };
@@ -680,14 +683,15 @@ static const char *title_of(struct gm_system_scene *system_scene)
                  : system->kind == GM_LAGRANGIAN ? "L"
                                                  : "H",
                  rates ? "'" : "", formula ? formula : "");
-        whole = formula != NULL; /* too long a one is not written */
+        whole = formula != NULL; /* a long formula is left out */
         free(formula);
     }
     const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(system_scene, "%s", text) : NULL;
     return kept ? kept : "A system of one’s own";
 }
 
-/* Finds the hook that the file names, if it does. False with a sentence: there is none, or it suits other systems. */
+/* Finds the hook that the file names, if it does. False with a sentence if it is unknown, or suits other
+   systems. */
 static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
 {
     static const struct gm_hook *const hooks[] = {
@@ -787,7 +791,7 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     return good;
 }
 
-/* The scene of a system, which it takes. */
+/* Opens the scene of a system, which it takes. */
 static struct gm_system_scene *open_one(const struct gm_user_system *system, const char *name,
                                         const char *const *words, bool typed, char *sentence)
 {
@@ -800,7 +804,7 @@ static struct gm_system_scene *open_one(const struct gm_user_system *system, con
     system_scene->system = *system;
     const unsigned long refusals = gm_memory_refusals();
     bool good = make(system_scene, name, words, typed, sentence);
-    if (gm_memory_refusals() != refusals) { /* a default would be another number */
+    if (gm_memory_refusals() != refusals) { /* a default would have another value */
         good = gm_refuse(sentence, "not enough memory");
     }
     if (!good) {
@@ -850,7 +854,7 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
 void gm_system_scene_close(const struct gm_scene *scene)
 {
     struct gm_system_scene *system_scene =
-        (struct gm_system_scene *)scene; /* which it is the first member of */
+        (struct gm_system_scene *)scene; /* the scene is its first member */
     if (system_scene->next) {
         gm_system_scene_close(&system_scene->next->scene);
     }

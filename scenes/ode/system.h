@@ -5,10 +5,10 @@
 #include "core/model/system.h"
 #include "scenes/common/scene.h"
 
-/* Makes a scene of a system that was opened by gm_equations_open, and takes it: it is closed with the scene,
-   or here where there is none. `name` is the scene's; `words`, NULL-terminated, what it was made of
-   (gm_scene), or NULL: it is a scene of the program; `typed`: its values were given with its formula, so none is a default. NULL with a sentence, and a fault where one
-   of its choices' words is what has it. */
+/* Makes a scene of a system opened by gm_equations_open, and takes it: the scene's end, or a failure here,
+   closes it. `name` is the scene's; `words`, NULL-terminated, are its source (gm_scene), NULL: it is a scene
+   of the program; `typed`: its values were given with its formula, so none is a default. On failure returns
+   NULL with a sentence, and a fault if a word of a choice is wrong. */
 const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
                                             const char *const *words, bool typed, struct gm_fault *fault,
                                             char *sentence);

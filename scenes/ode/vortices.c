@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Point vortices of equal strength g in the plane, and passive tracers that they carry, z = x + i y:
        H = -(1/2 pi) sum_{i<j} g^2 ln |z_i - z_j|,   q_i = g x_i,   p_i = y_i
-   Energy, impulse sum g z_i and angular impulse sum g |z_i|^2 are kept. In `reduced` z3 = -z1 and z4 = -z2
-   are built in, so that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it does so in the
-   full system, whatever the scheme. What to look at: the Poincare section arg z2 - arg z1 = pi/2 of the
-   reduced system, a curve on which symplectic methods stay and RK4 does not; and the angular impulse.
+   Energy, impulse sum g z_i and angular impulse sum g |z_i|^2 are conserved. In `reduced` the symmetry
+   z3 = -z1 and z4 = -z2 is built in, so that rounding cannot break it; beyond a turn of 35.12 degrees it
+   does so in the full system, whatever the scheme. What to look at: the Poincare section
+   arg z2 - arg z1 = pi/2 of the reduced system, a curve on which symplectic methods stay and RK4 does not;
+   and the angular impulse.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", with the factor and the sense of
-   rotation of Kirchhoff's equations (30) mended:
+   rotation of Kirchhoff's equations (30) corrected:
        figures 7, 9     four vortices on a square
        figures 8, 10    two opposite ones turned by an angle */
 #include "scenes/ode/vortices_draw.h"
@@ -63,7 +64,7 @@ static const struct gm_parameter parameters[] = {
     GM_SHOW_ROW(struct gm_vortices),
 };
 
-/* A regular polygon turns as a whole. */
+/* The exact solution of a regular polygon: it turns as a whole. */
 static void turn_polygon(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
 {
     (void)m;
@@ -79,13 +80,13 @@ static void turn_polygon(const struct gm_problem *problem, double t, const doubl
 
 static const struct gm_exact polygon = {.solution = turn_polygon};
 
-/* A configuration comes with a strength and a step that show its point, unless they are given. */
+/* Sets the strength and step that suit a configuration, unless they are given. */
 static bool settle(void *parameters_, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
     struct gm_vortices *vortices = parameters_;
     static const struct {
-        const char *key, *in_collision, *in_patches; /* NULL: as everywhere */
+        const char *key, *in_collision, *in_patches; /* NULL: the usual value */
     } follow[] = {{"strength", "2*pi", "0.003"}, {"dt", ".5/800", "0.02"}, {"count", NULL, "3000"}};
     for (size_t i = 0; i < GM_COUNT(follow) && gm_is_given("configuration", keys, count); i++) {
         const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
@@ -99,9 +100,9 @@ static bool settle(void *parameters_, const char *const *keys, size_t count, cha
     return true;
 }
 
-/* Pair by pair more take seconds a step. */
+/* More vortices, pair by pair, take seconds per step. */
 enum { BY_PAIRS = 10000 };
-static const double least_multipole = 1e-15; /* nothing less is kept to by doubles */
+static const double least_multipole = 1e-15; /* doubles resolve nothing less */
 
 static bool setup(const void *parameters_, struct gm_problem *problem, char *sentence)
 {
@@ -149,7 +150,7 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     return true;
 }
 
-/* Sums over the vortices, images included; of the reduced system each stands for two. */
+/* Sums over the vortices, including images, two for each of the reduced system. */
 static double mean_of(const struct gm_view *view, bool squares, size_t side)
 {
     const struct gm_vortices *vortices = view->parameters;
@@ -205,7 +206,7 @@ static double position_error(const struct gm_view *view)
     if (!problem->exact || view->state == view->start) {
         return problem->exact ? 0 : NAN;
     }
-    /* the first vortex: the others are where it is, turned */
+    /* the first vortex; the others are the same, turned */
     const size_t count = problem->n / 2;
     const double turn =
         (double)(count - 1) * *(const double *)problem->parameters / (4 * M_PI) * (view->t - view->t0);
@@ -223,7 +224,8 @@ static double tracers_lost(const struct gm_view *view)
     return lost;
 }
 
-/* -cos of the angle from z1 to z2, where that is a positive one: passes zero upwards at a quarter turn. */
+/* Returns -cos of the angle from z1 to z2, if that is positive, else NaN: it passes zero upwards at a quarter
+   turn. */
 static double quarter_turn(const struct gm_view *view)
 {
     const size_t count = gm_vortices_carried(view->parameters);
@@ -253,15 +255,15 @@ static double section_shift(const struct gm_view *view)
     return tenth > 0 ? (last - first) / (double)tenth : 0;
 }
 
-/* Vortices that were turned from the square go to where the point is seen from the middle; the close pair is
-   drawn as far apart. */
+/* Turns vortices of the square to the direction of the point from the middle; sets the close pair as far
+   apart as the point. */
 static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
 {
     const struct gm_vortices *vortices = parameters_of;
-    const double turned = atan2(y, x) - M_PI / 2; /* the first one that is stands at pi/2 in the square */
+    const double turned = atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
     switch (vortices->configuration) {
     case GM_REDUCED:
-    case GM_TWO_TURNED: /* and its mirror image is as near */
+    case GM_TWO_TURNED: /* its mirror image is as near */
         gm_choose(&choices[0], "angle", remainder(turned, M_PI));
         return 1;
     case GM_ONE_TURNED:
@@ -282,7 +284,7 @@ static double energy(const struct gm_view *view)
     return value;
 }
 
-/* Of a pair, where a distance grows by the factor e. */
+/* Returns the energy by which a pair differs if its distance grows by the factor e. */
 static double natural_energy(const void *self)
 {
     const double strength = ((const struct gm_vortices *)self)->strength;
@@ -313,7 +315,7 @@ static const struct gm_observable observables[] = {
     GM_OBSERVABLE("tracers_lost", tracers_lost, "tracers lost"),
 };
 
-/* The time in which the regular polygon of these vortices turns once. */
+/* Returns the time in which the regular polygon of these vortices turns once. */
 static double turning_time(const void *parameters_)
 {
     const struct gm_vortices *vortices = parameters_;
@@ -321,7 +323,7 @@ static double turning_time(const void *parameters_)
     return 8 * M_PI * M_PI / (fabs(vortices->strength) * (count - 1));
 }
 
-/* Of so many vortices the past is kept. */
+/* The most vortices whose past is recorded. */
 enum { FOLLOWED = 64 };
 
 static size_t followed(const struct gm_view *view)
@@ -343,7 +345,7 @@ static double short_interval(const void *self)
 {
     return turning_time(self) / 60;
 }
-/* no fraction of the turn that would show a pattern of its own */
+/* an irregular part of the turn, which shows no pattern of its own */
 static double long_interval(const void *self)
 {
     return turning_time(self) / 7.310;
@@ -400,7 +402,7 @@ static const struct gm_work work = {.arguments = "configuration=reduced strength
                                     .halvings = 9,
                                     .reference = "gauss8"};
 
-/* the time in which the close pair turns by a radian: 1/omega, omega = g / (pi d^2) */
+/* Returns the time in which the close pair turns by a radian: 1/omega, omega = g / (pi d^2). */
 static double pair_time(const void *parameters_)
 {
     const struct gm_vortices *vortices = parameters_;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of point vortices: where they are and have been, tracers, the section, what is lost. */
+/* The picture of point vortices: their positions and paths, tracers, the section, losses. */
 #include <math.h>
 #include <string.h>
 
 #include "scenes/common/graph.h"
 #include "scenes/ode/vortices_draw.h"
 
-/* The greatest distance from the middle that is drawn; so many vortices are shown by a dye; and so many places that
-   are dyed become a field. */
+/* The greatest distance from the middle that is drawn; the number of vortices from which on a dye shows them,
+   and of dyed points from which on the dye is a field. */
 static const double farthest = 4;
 enum { CROWD = 1000, FIELD = 4000 };
 
@@ -23,12 +23,12 @@ static double reach_of(const struct gm_lane *const *lanes, size_t count)
         }
         reach = vortices->tracers > 0 || vortices->configuration == GM_PATCHES ? fmax(reach, 1.75) : reach;
     }
-    /* in rare steps, so that a movie is calm */
+    /* the scale moves in rare steps, so that a movie is calm */
     return 0.25 * ceil(reach / 0.25 - 1e-9);
 }
 
-/* Of `many` places, whose x and then y begin at `first` in the state, those that started above the axis are dyed:
-   where is the dye now? */
+/* Draws the dye: `many` points, whose x and then y begin at `first` in the state, are dyed if they started
+   above the axis. */
 static void draw_dye(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                      size_t first, size_t many, double reach)
 {
@@ -118,7 +118,7 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
     }
 }
 
-/* How many vortices have gone where nothing is drawn. */
+/* Returns a note on the number of vortices outside of the panel. */
 static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane, double reach)
 {
     const size_t carried = gm_vortices_carried(lane->parameters);
@@ -154,8 +154,8 @@ static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *
     }
 }
 
-/* How far the radius of vortex 1, whenever vortex 2 stands a quarter turn ahead, has come from where it was
-   the first time: on its curve it is one number. */
+/* Draws the shift of the radius of vortex 1 since its first section, whenever vortex 2 is a quarter turn
+   ahead: on its curve it is constant. */
 static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     enum { SHOWN = 700 };

@@ -6,7 +6,8 @@
 
 /* The pictures of scenes/ode/vortices.c. */
 
-/* tracks: radii of vortex 1 in the section; positions, x and y in turn, lately and since the start */
+/* tracks: radii of vortex 1 in the section; positions, x and y in turn, recent ones and all since the
+   start */
 enum { GM_SECTION, GM_TRAIL, GM_PAST };
 
 void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where point vortices and their tracers start: on a polygon, turned, at random, or nearly colliding. */
+/* The start of point vortices and their tracers: on a polygon, turned, at random, or nearly colliding. */
 #include <math.h>
 #include <stdint.h>
 
@@ -20,7 +20,7 @@ static const double golden_angle = 2.3999632297286533; /* fills a disc evenly */
 static void place(const struct gm_vortices *vortices, size_t count, double *x, double *y)
 {
     uint64_t random = (uint64_t)vortices->seed;
-    const double patch = 0.4; /* radius; the pair within 1, 3 radii apart, where two become one below 3.2 */
+    const double patch = 0.4; /* radius; the pair fits into 1, 3 radii apart; two merge below 3.2 */
     static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
     for (size_t i = 0; i < count; i++) {
         double turn = 2 * M_PI * (double)i / (double)count, radius = 1;
@@ -47,7 +47,7 @@ static void place(const struct gm_vortices *vortices, size_t count, double *x, d
         }
         x[i] = radius * cos(turn);
         y[i] = radius * sin(turn);
-        if (vortices->configuration == GM_PATCHES) { /* the one turned into the other */
+        if (vortices->configuration == GM_PATCHES) { /* odd ones are opposite to even ones */
             x[i] *= i % 2 == 0 ? 1 : -1;
             y[i] = (i % 2 == 0 ? 1 : -1) * (y[i] + 1 - patch);
         }
@@ -88,7 +88,6 @@ bool gm_vortices_coincide(const struct gm_vortices *vortices)
     return close;
 }
 
-/* Tracers fill a disc evenly. */
 void gm_vortices_start(const void *parameters_, const struct gm_problem *problem, double *y)
 {
     const struct gm_vortices *vortices = parameters_;

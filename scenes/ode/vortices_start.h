@@ -16,13 +16,13 @@ struct gm_vortices {
     int show;
 };
 
-/* How many vortices the state holds: of the reduced system two, and their images are z -> -z. */
+/* Returns the number of vortices in the state: two of the reduced system, whose images are z -> -z. */
 size_t gm_vortices_carried(const struct gm_vortices *vortices);
 
-/* Whether two vortices start in one place, where they would have no velocity. */
+/* Returns true if two vortices start at one point, where they would have no velocity. */
 bool gm_vortices_coincide(const struct gm_vortices *vortices);
 
-/* The start of struct gm_scene: vortices as configured, tracers spread over a disc. */
+/* Sets the start of struct gm_scene: vortices as configured, tracers spread over a disc. */
 void gm_vortices_start(const void *parameters, const struct gm_problem *problem, double *y);
 
 #endif

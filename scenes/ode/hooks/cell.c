@@ -8,7 +8,7 @@
 
 enum { DIMENSION = 3, MEMBERS = 1 + 4 * DIMENSION };
 
-/* Half the size of the cell, and how far it may be drawn out before differences are no derivatives. */
+/* Half the size of the cell, and its largest extent for which differences approximate derivatives. */
 static const double small = 2e-5, drawn_out = 4e-3;
 
 static bool suits(const struct gm_user_system *system)
@@ -25,7 +25,7 @@ static void place(double *y)
     }
 }
 
-/* ln det of the derivative of the flow from the start: that of the cell's volume to what it was. */
+/* Returns ln det of the flow's derivative from the start: the log of the cell's volume ratio. */
 static double log_volume(const struct gm_view *view)
 {
     double d[DIMENSION][DIMENSION];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Code of the program for what the formulas of a system's file cannot say. The file names it: hook: NAME. */
+/* Code of the program beyond the formulas of a system's file, which names it: hook: NAME. */
 #ifndef GM_SCENES_ODE_HOOKS_HOOK_H
 #define GM_SCENES_ODE_HOOKS_HOOK_H
 
@@ -7,9 +7,9 @@
 #include "scenes/common/scene.h"
 
 struct gm_hook {
-    const char *name, *needs; /* "three components", of the systems that it suits */
+    const char *name, *needs; /* the systems that it suits: "three components" */
     bool (*suits)(const struct gm_user_system *system);
-    size_t members; /* of every lane; the first is the one that is looked at */
+    size_t members; /* members of every lane; the first is observed */
     /* Moves the members, which all start at one point; y[component * members + member]. */
     void (*place)(double *y);
     const struct gm_observable *observables;

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a point of the picture to a start: what a body's line of the file says is solved for the coordinates. */
+/* A start from a point of the picture: the formulas of a body are solved for the coordinates. */
 #include "scenes/ode/system/aim.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What is known while the coordinates are sought. */
+/* The state of the search for the coordinates. */
 struct aim {
     const struct gm_sight *sight;
     size_t body, places;
     double target[2];
-    double *variables, *numbers; /* of the system, and what the sight tells of them */
-    double *slopes, *step;       /* of the body's two numbers over each coordinate; how far that goes */
-    double *before;              /* where the coordinates stood */
+    double *variables, *numbers; /* the variables of the system; the numbers of the sight */
+    double *slopes, *step;       /* the Jacobian of the body's two numbers by the coordinates; the step */
+    double *before;              /* the coordinates before the step */
 };
 
-/* How far the body is from the point, squared; the way there. */
+/* Returns the squared distance of the body from the point; `way` leads there. */
 static double distance(const struct aim *aim, size_t body, double way[2])
 {
     way[0] = aim->target[0] - aim->numbers[2 * body];
@@ -29,7 +29,7 @@ static void look(const struct aim *aim)
     gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
 }
 
-/* The nearest body that moves; false if there is none. */
+/* Chooses the nearest moving body; false without one. */
 static bool choose_body(struct aim *aim)
 {
     double nearest = INFINITY, way[2];
@@ -59,8 +59,9 @@ static void find_slopes(struct aim *aim)
     }
 }
 
-/* The step of the coordinates that leads there as far as it is linear: J' (J J' + m)^-1 r, the shortest one but for m,
-   with which it is shorter, and in the end straight towards the point. K. Levenberg, Q. Appl. Math. 2 (1944) 164. */
+/* Finds the step of the coordinates to the point by the linear map: J' (J J' + m)^-1 r, the shortest one for
+   m = 0. A larger m shortens it and turns it straight towards the point. K. Levenberg, Q. Appl. Math. 2
+   (1944) 164. */
 static void find_step(struct aim *aim, const double way[2], double m)
 {
     double xx = 0, xy = 0, yy = 0;
@@ -82,7 +83,7 @@ static void find_step(struct aim *aim, const double way[2], double m)
     }
 }
 
-/* How far from the point the step leads, squared; the coordinates stay. */
+/* Returns the squared distance from the point after the step; the coordinates stay. */
 static double try_step(struct aim *aim, double way[2])
 {
     memcpy(aim->before, aim->variables, aim->places * sizeof *aim->before);
@@ -94,7 +95,7 @@ static double try_step(struct aim *aim, double way[2])
     return distance(aim, aim->body, way);
 }
 
-/* Goes that of these steps which leads nearest; false if none leads nearer. */
+/* Takes the step that leads nearest; false if none leads nearer. */
 static bool go(struct aim *aim, double *apart, double way[2])
 {
     double best = -1, nearest = *apart, next[2];
@@ -115,7 +116,7 @@ static bool go(struct aim *aim, double *apart, double way[2])
     return true;
 }
 
-/* What became of the coordinates, as values of the start's rows. */
+/* Writes the coordinates as values of the start's rows. */
 static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, const double *start,
                    struct gm_choice *choices)
 {

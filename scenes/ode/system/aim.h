@@ -4,9 +4,9 @@
 
 #include "scenes/ode/system/look.h"
 
-/* The places of a start with which the moving body that is nearest to the point (x, y) stands there, or as near as
-   it comes; the momenta stay. At most GM_CHOICES; 0: there is no such body, more of them would change, or they are
-   held by constraints. `start`: the n components now. */
+/* Sets the coordinates of a start with which the nearest moving body is at the point (x, y), or as near as
+   possible; the momenta stay. Returns how many, at most GM_CHOICES; 0 if no body moves, more coordinates
+   would change, or constraints hold them. `start`: the n current components. */
 size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, double x, double y,
                      struct gm_choice *choices);
 

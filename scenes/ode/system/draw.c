@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of a system that somebody wrote: bodies and rods, or the phase plane, with what has been faint
-   behind what is now; the section; what is kept, and what is observed. */
+/* The picture of a user-defined system: bodies and rods, or the phase plane, with the past faint behind the
+   present; the section; conserved and observed quantities. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 
-/* A path whose mean chord is longer, of the panel, is drawn as dots: between them it is not known. */
+/* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
 static const double longest_chord = 0.05;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)
@@ -44,7 +44,7 @@ static const char *small_letter(char letter, bool above)
     return NULL;
 }
 
-/* Names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²". */
+/* Returns names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²". */
 static const char *typeset(struct gm_picture *picture, const char *text)
 {
     const size_t size = 4 * strlen(text) + 1;
@@ -93,7 +93,7 @@ static const char *typeset(struct gm_picture *picture, const char *text)
     return typed;
 }
 
-/* A panel's name, "k_1 = 2, Verlet": its keys as they are read elsewhere, schemes as they are called. */
+/* Returns a panel's name, "k_1 = 2, Verlet", with typeset keys and titles of schemes. */
 static const char *typeset_name(struct gm_picture *picture, const char *name)
 {
     const char *text = "";
@@ -135,7 +135,7 @@ static double extent(const struct gm_seen *seen)
                 seen->high[2] - seen->low[2]);
 }
 
-/* Whether the members are a disc in the plane that is shown. */
+/* Returns true if the members are a disc in the plane that is shown. */
 static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 {
     const struct gm_system_scene *system_scene = own_of(lane)->owner;
@@ -144,7 +144,7 @@ static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
            sight->components[1] == (long)system_scene->disc[1] && !sight->angles[0] && !sight->angles[1];
 }
 
-/* What one lane has shown up to now. */
+/* Returns the range of all that a lane has shown up to now. */
 static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight,
                                  const struct gm_paths *paths, double *numbers)
 {
@@ -166,7 +166,7 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sig
         gm_system_hold_levels(lane, sight, &range);
     }
     if (sight->over_time) {
-        range.low[0] = range.high[0] = 0; /* whose axis is that of all times */
+        range.low[0] = range.high[0] = 0; /* its axis is the one of all times */
     }
     return range;
 }
@@ -180,7 +180,7 @@ static void hold_range(struct gm_seen *range, const struct gm_seen *other)
     range->far = fmax(range->far, other->far);
 }
 
-/* Whether two lanes have the same system from the same start. */
+/* Returns true if two lanes have the same system from the same start. */
 static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 {
     const struct gm_system_lane *one = own_of(a), *other = own_of(b);
@@ -190,8 +190,8 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
 }
 
-/* A lane that needs more room than so many times that of the smallest range of its system has left: its panel follows
-   it on a scale of its own, and the others are seen without it. */
+/* A lane has left if its range exceeds the smallest one of its system by this factor: its panel follows it on
+   a scale of its own, and the others are drawn without it. */
 static const double farthest = 2;
 
 static void find_left(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
@@ -199,7 +199,7 @@ static void find_left(const struct gm_lane *const *lanes, size_t count, struct g
     for (size_t i = 0; i < count; i++) {
         double least = extent(&ranges[i]);
         for (size_t k = 0; k < count; k++) {
-            const bool ended = lanes[k]->run->status != GM_OK && i != k; /* and has shown less */
+            const bool ended = lanes[k]->run->status != GM_OK && i != k; /* it has shown less */
             const bool seen = ranges[k].high[0] >= ranges[k].low[0] && !ended;
             least = seen && is_same(lanes[k], lanes[i]) ? fmin(least, extent(&ranges[k])) : least;
         }
@@ -207,8 +207,8 @@ static void find_left(const struct gm_lane *const *lanes, size_t count, struct g
     }
 }
 
-/* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
-   of a lane that has left what it shows itself. */
+/* Returns the common range of all lanes of the system of lane `like`, so that growth and decay are seen side
+   by side; its own range if it has left. */
 static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
                                  const struct gm_seen *ranges)
 {
@@ -221,11 +221,10 @@ static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t coun
     return all;
 }
 
-/* Lanes of different systems, or starts, are side by side on one scale, unless one of them is so much
-   larger. */
+/* Lanes of different systems, or starts, share a scale, unless their ranges differ by a larger factor. */
 static const double largest_ratio = 4;
 
-/* The range of every lane's panel, in place of that of the lane. */
+/* Replaces the range of every lane by the range of its panel. */
 static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
 {
     struct gm_seen *seen = ranges + count, all = nothing;
@@ -242,7 +241,7 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
         }
     }
     for (size_t i = 0; i < count; i++) {
-        bool left = true; /* all of the panel */
+        bool left = true; /* all lanes of the panel */
         for (size_t k = 0; k < count; k++) {
             left = left && (seen[k].left || lanes[k]->shown.panel != lanes[i]->shown.panel);
         }
@@ -256,12 +255,12 @@ static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct 
     }
 }
 
-/* Bounds that move outwards in steps of an eighth of the range, about. */
+/* Sets bounds that move outwards in steps of an eighth of the range, about. */
 static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const char *label, bool angle,
                      double low, double high)
 {
     const double size = fmax(fabs(low), fabs(high)), round_off = 1e-12 * size;
-    /* what stands still has no width of its own */
+    /* a state at rest has no width of its own */
     const double width = high - low > round_off ? 1.06 * (high - low) : size > 0 ? size : 1;
     const double step = exp2(floor(log2(width))) / 8, margin = (width - (high - low)) / 2;
     *axis = (struct gm_axis){.label = label ? typeset(picture, label) : "",
@@ -286,8 +285,8 @@ static void wrap(const struct gm_sight *sight, double *point)
 
 /* ---- paths ---- */
 
-/* The path of a body, from entry `first` on, and where it is now; broken where an angle starts anew. Returns
-   how many points, of room for twice the entries and two. */
+/* Writes the path of a body from entry `first` on, and its current point; broken at a jump of an angle.
+   Returns the number of points, at most twice the entries and two. */
 static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, size_t body, size_t first,
                       const double *now, double *points)
 {
@@ -310,7 +309,7 @@ static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, 
     return count;
 }
 
-/* Whether chords are short enough to be seen as a curve. */
+/* Returns true if chords are short enough to be seen as a curve. */
 static bool is_curve(const struct gm_panel *panel, const double *points, size_t count)
 {
     double sum = 0;
@@ -324,7 +323,8 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     return chords == 0 || sum < longest_chord * (double)chords;
 }
 
-/* Leaves the means of groups of points where there are many, which is what slow motion is of a swing that is fast. */
+/* Averages groups if there are many points, which shows the slow motion in a fast swing. Returns their
+   number. */
 static size_t average(double *points, size_t count)
 {
     enum { SHOWN = 128 };
@@ -352,7 +352,7 @@ static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const 
         return;
     }
     size_t count = path_of(&paths->past, sight, body, 0, now, points);
-    if (sight->over_time) { /* with the steps, where they are apart; of several values the last one in full */
+    if (sight->over_time) { /* dots for steps that are apart; only the last of several values in full */
         const bool last = body + 1 == sight->bodies;
         const struct gm_style style = {role, 0.9, 1.6, last ? GM_SOLID : gm_lane_dash(body)};
         count = last ? count : average(points, count);
@@ -376,7 +376,7 @@ static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-/* Where all members are, where they are no disc. */
+/* Draws all members, if they are not a disc. */
 static void draw_members(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          const struct gm_sight *sight, double *numbers)
 {
@@ -396,7 +396,7 @@ static void draw_members(struct gm_picture *picture, struct gm_panel *panel, con
     }
 }
 
-/* The disc as it was and is; the first shape in red. */
+/* Draws the current disc and earlier ones; the first shape in red. */
 static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
 {
     const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
@@ -461,7 +461,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
                      numbers + 2 * sight->bodies + 4 * rod, 2, false);
     }
     const double width = sight->over_time ? 5 : sight->rods > 0 ? 13 : 10;
-    for (int fixed = 1; fixed >= 0; fixed--) { /* what moves stands in front */
+    for (int fixed = 1; fixed >= 0; fixed--) { /* bodies that move are in front */
         for (size_t body = 0; body < sight->bodies; body++) {
             const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, width, GM_SOLID};
             wrap(sight, numbers + 2 * body);
@@ -471,7 +471,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-/* Axes of one unit where both are places, or nearly of one size. */
+/* Returns true if both axes are positions, or nearly of one size, and so have one unit. */
 static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
 {
     const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
@@ -501,7 +501,7 @@ static bool has_one_scheme(const struct gm_lane *const *lanes, size_t count)
     return true;
 }
 
-/* The panel where the walk is; one of all lanes has the name of their scheme. */
+/* Adds the panel of the walk; a panel of all lanes has the name of their scheme. */
 static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *note)
 {
     struct gm_panel *panel = gm_walk_panel(picture, walk, note);
@@ -511,7 +511,7 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_wa
     return panel;
 }
 
-/* What the first graph shows, as it is now, where that graph shows the greatest of every stretch of time. */
+/* Returns the current value of the first graph, if that shows the greatest of every stretch of time. */
 static const char *value_now(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_system_item *item = gm_system_item_of(&own_of(lane)->owner->system, GM_WORD_GRAPH, 0);
@@ -547,7 +547,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
-    const struct gm_lane *leader = NULL; /* the first of the panel */
+    const struct gm_lane *leader = NULL; /* the first lane of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         const struct gm_sight *sight = gm_system_sight(walk.lane->parameters);
@@ -591,7 +591,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
     for (size_t i = 0; i < count; i++) {
         gm_system_hold_levels(lanes[i], sight, &range);
     }
-    const bool bounded = range.low[0] <= range.high[0]; /* what is beyond the level has left */
+    const bool bounded = range.low[0] <= range.high[0]; /* a lane beyond the level has left */
     for (size_t i = 0; i < count && !bounded; i++) {
         const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
         hold(&range, crossings->values, crossings->count, 2);
@@ -648,7 +648,7 @@ static void draw_sections(struct gm_picture *picture, const struct gm_lane *cons
     }
 }
 
-/* The graph of an observable; `item` is its line graph:, NULL: there is none. */
+/* Draws the graph of an observable; `item` is its line graph:, or NULL. */
 static void draw_number(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                         const struct gm_observable *observable, const struct gm_system_item *item)
 {
@@ -675,7 +675,7 @@ static void draw_number(struct gm_picture *picture, const struct gm_lane *const 
     gm_draw_graphs(picture, lanes, count, &graph, 1);
 }
 
-/* What the file's lines graph: name, or else what is kept first, then what is observed. */
+/* Draws the graphs that the file names, or else conserved quantities first, then others. */
 static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                          size_t most)
 {
@@ -692,7 +692,7 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
         for (size_t i = 0; i < scene->observable_count && most > 0; i++) {
             const struct gm_observable *observable = &scene->observables[i];
             const bool of_disc = strncmp(observable->key, "area", 4) == 0;
-            const bool swings = strcmp(observable->key, "energy") == 0; /* which tells nothing of a scheme */
+            const bool swings = strcmp(observable->key, "energy") == 0; /* it does not compare schemes */
             if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings) {
                 continue;
             }
@@ -702,7 +702,7 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
     }
 }
 
-/* "m = 1,  Δt = 0.01": what is the same in all lanes. */
+/* "m = 1,  Δt = 0.01": the values that all lanes share. */
 static const char *told(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_system_scene *system_scene = own_of(lanes[0])->owner;
@@ -763,7 +763,7 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     } else {
         draw_states(picture, lanes, count);
     }
-    /* where there is room for one graph it is the section if a drive makes the motion, else what is kept */
+    /* if there is space for one graph only, it is the section of driven motion, else a conserved quantity */
     const bool section = system_scene->has_section && lane->show == GM_SHOW_ALL;
     if (section && system_scene->stroboscopic) {
         draw_section(picture, lanes, count);

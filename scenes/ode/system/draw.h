@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of a system of somebody's own: the panels that its components, sections and looks ask for. */
+/* The picture of a user-defined system: the panels for its components, sections and sights. */
 #ifndef GM_SCENES_ODE_SYSTEM_DRAW_H
 #define GM_SCENES_ODE_SYSTEM_DRAW_H
 

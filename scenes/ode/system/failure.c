@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part of a formula that is no number, the momenta without velocities, the monitor that falls: what stands
-   behind the status of a run that ended. */
+/* Reasons after the status of a run that ended: a part of a formula that is not finite, momenta without
+   velocities, a monitor that falls. */
 #include "scenes/ode/system/failure.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "core/ode/kernel/members.h"
 #include "scenes/ode/system/look.h"
 
-/* A formula that is no number: "log(x) is not finite where x = -0.3". */
+/* Writes a formula that is not finite: "log(x) is not finite where x = -0.3". */
 static void tell_node(const struct gm_user_system *system, gm_node_id node, const double *values, char *text,
                       size_t size)
 {
@@ -29,7 +29,7 @@ static void tell_node(const struct gm_user_system *system, gm_node_id node, cons
     free(inside);
 }
 
-/* The first part of H, else of a rate, that is no number in a member's state; false if there is none. */
+/* Writes the first part of H, else of a rate, that is not finite in a member's state; false without one. */
 static bool tell_part(const struct gm_system_scene *system_scene, const struct gm_view *view,
                       const double *state, size_t member, char *text, size_t size)
 {
@@ -68,7 +68,7 @@ static bool tell_part(const struct gm_system_scene *system_scene, const struct g
     return told;
 }
 
-/* A state of a member of a Lagrangian system from which it does not move on: its momenta have no velocities, or no
+/* Writes a state of a Lagrangian system in which a member stops: its momenta have no velocities, or no
    rates. */
 static bool tell_velocities(const struct gm_system_scene *system_scene, const struct gm_view *view,
                             const double *state, const double *slope, size_t member, char *text, size_t size)
@@ -96,7 +96,7 @@ static bool tell_velocities(const struct gm_system_scene *system_scene, const st
     return true;
 }
 
-/* What decides the length of steps, dt divided by it, in a state that it may change: a number above 0. */
+/* The density of steps, whose size is dt divided by it, above 0; it may change the state. */
 typedef double density_at(const struct gm_problem *problem, double *y);
 
 static double density_of_monitor(const struct gm_problem *problem, double *y)
@@ -112,7 +112,7 @@ static double depth_at_rest(const struct gm_problem *problem, double *y)
     return -gm_energy(problem, y);
 }
 
-/* The density here, and where it is first not above 0 in the line of the next two steps. */
+/* Finds the density here, and the first that is not above 0 on the line of the next two steps. */
 static void look_ahead(const struct gm_view *view, const double *slope, density_at *density, double *y,
                        double *here, double *there)
 {
@@ -128,7 +128,7 @@ static void look_ahead(const struct gm_view *view, const double *slope, density_
     }
 }
 
-/* Of a step whose length the monitor decided: how fast that falls. */
+/* Writes how fast the monitor falls, if it decides the step size. */
 static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
                          size_t size)
 {
@@ -140,7 +140,7 @@ static void tell_monitor(const struct gm_view *view, const double *slope, double
     }
 }
 
-/* Of a step whose length the energy of rest decided: where that is not negative. */
+/* Writes if the energy at rest, which decides the step size, is not negative. */
 static void tell_rest(const struct gm_view *view, const double *slope, double *ahead, char *text, size_t size)
 {
     double here, there;
@@ -154,7 +154,7 @@ static void tell_rest(const struct gm_view *view, const double *slope, double *a
     }
 }
 
-/* What is no number in these states, whose slopes are `slope`; false if nothing is. */
+/* Writes the fault of these states with slopes `slope`; false if all is finite. */
 static bool tell_states(const struct gm_view *view, const double *states, const double *slope, char *text,
                         size_t size)
 {
@@ -174,7 +174,7 @@ static bool tell_states(const struct gm_view *view, const double *states, const 
     return false;
 }
 
-/* Whether a run goes on with such states. */
+/* Returns true if a run continues with such states. */
 static bool goes_on(const struct gm_view *view, const double *states)
 {
     bool within = true;
@@ -184,8 +184,8 @@ static bool goes_on(const struct gm_view *view, const double *states)
     return within;
 }
 
-/* Looks ahead, as stages do: along the slope, and then along the motion, which may bend to where that does not lead;
-   there over two steps, since stages overshoot. What lies beyond the run's limit ends it by itself. */
+/* Looks ahead, as stages do: along the slope, then along the motion, which may bend elsewhere, over two
+   steps, since stages overshoot. The search ends at the run's limit, which ends the run by itself. */
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     enum { PARTS = 8 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Curves F = 0 of the values that F has at the corners of a grid. The range of a curve is that of its closed part around
-   the start: cells that hold the curve are followed from the start's cell on, or, if the start lies inside, cells of
-   one sign up to them. */
+/* Curves F = 0 of the values of F at the corners of a grid. The range of a curve is the range of its closed
+   part around the start: the search follows cells with the curve from the start's cell, or, if the start is
+   inside, cells of one sign up to them. */
 #include "scenes/ode/system/levels.h"
 
 #include <math.h>
@@ -12,8 +12,7 @@
 #include "scenes/ode/system/pieces.h"
 
 enum {
-    SOUGHT =
-        63, /* cells a side while the range is sought: odd, so that its middle is in the midst of a cell */
+    SOUGHT = 63, /* cells per side while the range is sought: odd, so that the middle is in a cell */
     DRAWN = 120,
     DOUBLINGS = 12
 };
@@ -22,7 +21,7 @@ struct box {
     double low[2], high[2];
 };
 
-/* A level of a lane on a grid: the values that F takes beside the two components, and those at the corners. */
+/* A level of a lane on a grid: the variables of F beside the two components, and F at the corners. */
 struct level {
     const struct gm_tape *tape;
     const double *variables;
@@ -31,7 +30,7 @@ struct level {
     double *row, *outputs, *corners;
 };
 
-/* The next level of the plane or section that a sight shows; NULL: there are no more. */
+/* Returns the next level of the plane or section that a sight shows; NULL after the last. */
 static const struct gm_system_item *next_level(const struct gm_system_scene *system_scene,
                                                const struct gm_sight *sight, size_t *number)
 {
@@ -113,7 +112,7 @@ static void close_level(struct level *level)
     free((double *)level->variables);
 }
 
-/* Takes the next level of a lane that is drawn; false: there are no more. */
+/* Takes the next level that is drawn of a lane; false after the last. */
 static bool take_level(struct level *level, const struct gm_lane *lane, size_t *number)
 {
     const struct gm_system_scene *system_scene = scene_of(lane);
@@ -134,7 +133,7 @@ static double corner(const struct box *box, int axis, size_t i, size_t cells)
     return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)cells;
 }
 
-/* F at the (cells + 1)^2 corners, row by row. */
+/* Writes F at the (cells + 1)^2 corners, row by row. */
 static void fill_grid(const struct level *level, const struct box *box, size_t cells)
 {
     const size_t width = cells + 1;
@@ -155,7 +154,7 @@ static void fill_grid(const struct level *level, const struct box *box, size_t c
     }
 }
 
-/* How many corners of a cell are above 0; -1: F is not finite at one of them. */
+/* Returns the number of corners of a cell above 0; -1 if F is not finite at one of them. */
 static int above(const struct level *level, size_t cells, size_t i, size_t j)
 {
     const double *low = level->corners + j * (cells + 1) + i, *high = low + cells + 1;
@@ -163,8 +162,8 @@ static int above(const struct level *level, size_t cells, size_t i, size_t j)
     return isfinite(sum) ? (low[0] > 0) + (low[1] > 0) + (high[0] > 0) + (high[1] > 0) : -1;
 }
 
-/* Puts into `found` the cells of the curve around the middle of the grid. False if it is open within the box, or there is
-   none. */
+/* Writes the cells of the curve around the middle of the grid to `found`. False without a curve that is
+   closed in the box. */
 static bool follow(const struct level *level, struct box *found, const struct box *box)
 {
     enum { CELLS = SOUGHT, ALL = CELLS * CELLS };
@@ -191,7 +190,7 @@ static bool follow(const struct level *level, struct box *found, const struct bo
             some = true;
         }
         if (crosses == inside) {
-            continue; /* the edge of the inside, or a cell beside the curve */
+            continue; /* at the edge of the inside, or beside the curve */
         }
         for (size_t k = 0; k < 9; k++) {
             const size_t to = (j + k / 3 - 1) * CELLS + i + k % 3 - 1;
@@ -237,7 +236,7 @@ void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *si
     close_level(&level);
 }
 
-/* The grid as triangles, and its corners as points. False: out of memory. */
+/* Makes the grid's triangles, and its corners as points. False when out of memory. */
 static bool make_triangles(struct gm_picture *picture, const struct box *box, double **points,
                            int **triangles)
 {
@@ -280,7 +279,7 @@ void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, c
     close_level(&level);
 }
 
-/* Whether a level is drawn of one of these lanes. */
+/* Returns true if a level is drawn of one of these lanes. */
 static bool is_drawn(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
                      const struct gm_lane *const *lanes, size_t count)
 {

@@ -5,21 +5,21 @@
 
 #include "scenes/ode/system/space.h"
 
-/* Whether the levels hold the two names of their plane, parameters, values at the start and exact solutions alone. False
-   with a sentence. */
+/* Returns true if the levels contain only the two names of their plane, parameters, values at the start and
+   exact solutions; else false with a sentence. */
 bool gm_system_check_levels(struct gm_system_scene *system_scene, char *sentence);
 
-/* Whether there are levels in what a sight shows. */
+/* Returns true if a sight shows levels. */
 bool gm_system_has_level(const struct gm_system_scene *system_scene, const struct gm_sight *sight);
 
-/* Adds to a lane's range the closed curves around its start; what a wider search finds open adds nothing. */
+/* Adds the closed curves around a lane's start to its range; an open curve adds nothing. */
 void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range);
 
 /* Draws the lane's curves into a panel whose axes are set. */
 void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                            const struct gm_sight *sight);
 
-/* The text that says what is grey, "; grey: the exact orbit"; "" if nothing is. */
+/* Returns the text that explains grey curves, "; grey: the exact orbit"; "" without one. */
 const char *gm_system_level_text(struct gm_picture *picture, const struct gm_lane *const *lanes,
                                  size_t count);
 

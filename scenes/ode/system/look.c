@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formulas of a system that somebody wrote, in a view of its scene. */
+/* Formulas of a user-defined system, in a view of its scene. */
 #include "scenes/ode/system/look.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
     return &system_scene->sights[i < system_scene->sight_count ? i : 0];
 }
 
-/* The exact solution now: as the file says, or as the problem knows it. */
+/* Writes the exact solution at the current time, from the file, or from the problem. */
 static void put_exact(const struct gm_view *view, double *variables)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
@@ -107,9 +107,7 @@ void gm_system_variables(const struct gm_view *view, size_t member, bool exact, 
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
 {
     const struct gm_user_system *system = &gm_system_scene_of(view)->system;
-    enum {
-        FEW = 256
-    }; /* after every step of a run that is looked at: nothing is allocated for a small one */
+    enum { FEW = 256 }; /* this runs after every step: small systems need no allocation */
     double few[FEW], *many = NULL, *variables = few;
     if (system->variable_count > FEW) {
         variables = many = malloc(system->variable_count * sizeof *many);

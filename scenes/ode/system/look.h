@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the scene of a system that somebody wrote consists of, and how its state is looked at. */
+/* The scene of a user-defined system, and the sights of its state. */
 #ifndef GM_SCENES_ODE_SYSTEM_LOOK_H
 #define GM_SCENES_ODE_SYSTEM_LOOK_H
 
@@ -12,61 +12,60 @@
 #include "scenes/common/written.h"
 #include "scenes/ode/hooks/hook.h"
 
-/* Of a row that is no variable of the system: a choice, or a row of others. */
+/* The variable of a row without one: a choice, or a row of other systems. */
 #define GM_NO_VARIABLE SIZE_MAX
 
-/* A way to look at the state: bodies and rods, or one point, in a plane or in space. */
+/* A sight of the state: bodies and rods, or one point, in a plane or in space. */
 struct gm_sight {
-    const char *name;      /* as show= says it */
+    const char *name;      /* the word of show= */
     size_t dimensions;     /* 2, or 3 in space */
-    size_t bodies, rods;   /* as many numbers of a body, then twice as many of a rod */
-    struct gm_tape tape;   /* of all variables to these numbers */
-    bool *fixed;           /* of each body: it does not move */
-    const char *labels[3]; /* of the axes; NULL: they have no names */
+    size_t bodies, rods;   /* a body has `dimensions` numbers, a rod twice as many */
+    struct gm_tape tape;   /* these numbers as formulas of all variables */
+    bool *fixed;           /* for each body: it does not move */
+    const char *labels[3]; /* labels of the axes; NULL: without names */
     bool over_time;        /* the first axis is the time */
     bool angles[2];        /* an axis is an angle */
-    long components[2];    /* an axis is this component of the state; -1: it is none */
+    long components[2];    /* the component of the state on an axis; -1: another formula */
 };
 
 enum {
-    GM_SYSTEM_ROWS =
-        2 /* dt and until, then the system's own; members, spread, shape and show are behind those */
+    GM_SYSTEM_ROWS = 2 /* dt and until; the system's own follow, then members, spread, shape and show */
 };
-/* behind the system's own */
+/* the rows after the system's own */
 enum { GM_ROW_MEMBERS, GM_ROW_SPREAD, GM_ROW_SHAPE, GM_ROW_SHOW, GM_COMMON_ROWS };
 enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
-enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and last the modified energy, where there is one */ };
+enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and possibly the modified energy */ };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
 enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12, GM_MOST_SURFACES = 8 };
 
-/* What follows from a system once. */
+/* The data that follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
     struct gm_user_system system;
     struct gm_user_model model;
     const struct gm_hook *hook;           /* NULL: the file names none */
-    struct gm_parameter *rows, *common;   /* all of them, and those behind the system's own */
-    size_t *variables;                    /* of each row: its number among the system's, or GM_NO_VARIABLE */
-    size_t row_count;                     /* where the system's own end */
-    struct gm_system_scene *first, *next; /* of the systems of one file (variants.h); NULL: it is alone */
-    const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* of choices, NULL behind the last */
-    const char *lacks;                                            /* why it has not what others have */
+    struct gm_parameter *rows, *common;   /* all rows, and those after the system's own */
+    size_t *variables;                    /* for each row the number of its variable, or GM_NO_VARIABLE */
+    size_t row_count;                     /* the end of the system's own rows */
+    struct gm_system_scene *first, *next; /* systems of one file (variants.h); NULL: it is alone */
+    const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* the words of choices, NULL-terminated */
+    const char *lacks;                                            /* the reason for missing rows */
     struct gm_observable *observables;
-    struct gm_tape *formulas; /* of each observable */
-    struct gm_tape *terms;    /* of each error: the sum of the magnitudes of its terms */
+    struct gm_tape *formulas; /* for each observable */
+    struct gm_tape *terms;    /* for each error: the sum of the magnitudes of its terms */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
-    struct gm_sight *sights; /* the first is what show=all shows; the last pair_count are planes */
+    struct gm_sight *sights; /* the first is the one of show=all; the last pair_count are planes */
     size_t sight_count, pair_count;
     const char **shows;
-    const char **all_shows; /* of all systems of the file, in the first one; NULL: there is one system */
+    const char **all_shows; /* words of all systems, in the first one; NULL: there is one system */
     struct gm_sight section;
-    struct gm_tape where; /* what becomes 0 there, or its period, and what must be positive */
+    struct gm_tape where; /* the function that is 0 in the section, or its period, and positive conditions */
     size_t conditions;
-    bool has_section, stroboscopic, turns; /* what becomes 0 is an angle */
+    bool has_section, stroboscopic, turns; /* `turns`: the function is an angle */
     struct gm_tape stop, exact, timing[3];
-    struct gm_tape surfaces;  /* half axes at the start, three of each */
-    struct gm_tape *of_items; /* of each of the system's items that is a text, a requirement or a level */
+    struct gm_tape surfaces;  /* half axes at the start, three per surface */
+    struct gm_tape *of_items; /* for each of the system's items that is a text, a requirement or a level */
     size_t disc[2];           /* the components that members differ in */
     double radian;            /* 1 / the largest frequency at the start */
     struct gm_figure *figures;
@@ -87,51 +86,53 @@ struct gm_system_lane {
     double spread;
     int shape, show;
     struct gm_camera camera;
-    double values[]; /* of the rows from first_value on; behind them whether each row was given, as bytes */
+    double values[]; /* values of the rows after dt and until; then a byte per row, 1 if it was given */
 };
 
-/* Whether a row is a parameter of the system. */
+/* Returns true if a row is a parameter of the system. */
 bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t row);
 /* Puts a lane's parameters among the values of all variables. */
 void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables);
 
-/* The scene that a view is of. */
+/* Returns the scene of a view. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
 
-/* How many of the common rows a scene is without: those of members, which its hook places. */
+/* Returns the number of common rows that a scene lacks: the rows of members, which its hook places. */
 static inline size_t gm_system_skipped(const struct gm_system_scene *system_scene)
 {
     return system_scene->hook ? GM_ROW_SHOW : 0;
 }
 
-/* The number of the member that is looked at. */
+/* Returns the number of the observed member. */
 size_t gm_system_centre(const struct gm_view *view);
 
-/* The values of all variables for one member of a view's state; velocities are NaN, and so is the exact solution, if it
-   is not asked for or not known. */
+/* Writes the values of all variables for one member of a view's state; velocities are NaN, and so is the
+   exact solution, if it is not requested or not known. */
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
-/* The values of a tape for one member of a view's state. */
+/* Writes the values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
-/* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
+/* Writes the values of a tape for `count` other states of the last member, each with its time: struct
+   gm_scene, stops. */
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
                          const double *times, size_t count, double *values);
-/* The numbers of a sight's bodies in every entry of a track: `width` of each entry. */
+/* The numbers of a sight's bodies in every entry of a track: `width` per entry. */
 struct gm_path {
     const double *points;
     size_t count, width;
 };
-/* The path of a lane's last member in a track of states; it lies in the picture's memory, and is empty if that is short. */
+/* Returns the path of a lane's last member in a track of states, in the picture's memory; empty when out of
+   memory. */
 struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
                               const struct gm_sight *sight);
-/* Both of a lane. */
+/* Both paths of a lane. */
 struct gm_paths {
     struct gm_path past, trail;
 };
-/* How many numbers a sight tells of a state. */
+/* Returns the count of numbers that a sight has for a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
-/* From which entry of the past on the path of a body is bright: a part of the whole run. */
+/* Returns the first entry of the past where the path is bright: a part of the whole run. */
 size_t gm_system_bright_from(const struct gm_lane *lane);
-/* What a lane shows of its state. */
+/* Returns the sight that a lane shows. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is observed of somebody's system: its energy, what its file names, the area of a disc of members, the
-   distance from the solution that it tells. */
+/* Observables of a user-defined system: its energy, the quantities that its file names, the area of a disc of
+   members, the distance from the exact solution. */
 #include "scenes/ode/system/observed.h"
 
 #include <complex.h>
@@ -18,7 +18,7 @@
 #include "scenes/common/rows.h"
 #include "scenes/ode/system/pieces.h"
 
-/* ---- formulas in flight ---- */
+/* ---- formulas during the run ---- */
 
 static double value_of(const struct gm_tape *tape, const struct gm_view *view)
 {
@@ -27,7 +27,7 @@ static double value_of(const struct gm_tape *tape, const struct gm_view *view)
     return value;
 }
 
-/* Its formula, while its condition holds, if it has one. */
+/* Returns an observable's formula while its condition, if any, holds; else NaN. */
 static double observed(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
@@ -43,7 +43,7 @@ static double terms(const struct gm_view *view)
     return value_of(&system_scene->terms[view->observable - system_scene->observables], view);
 }
 
-/* Of a Lagrangian system, whose formulas hold velocities: p q' - L, or the magnitudes of these terms. */
+/* Returns p q' - L of a Lagrangian system, whose formulas hold velocities, or the magnitudes of its terms. */
 static double legendre(const struct gm_view *view, bool magnitudes)
 {
     const size_t n = view->problem->n, m = view->problem->m;
@@ -76,7 +76,7 @@ static double legendre_terms(const struct gm_view *view)
     return legendre(view, true);
 }
 
-/* What constraints are off by, of the last member. */
+/* Returns the residuals of the constraints, of the last member. */
 static struct gm_manifold_defects defects_of(const struct gm_view *view)
 {
     const size_t n = view->problem->n, m = view->problem->m;
@@ -100,7 +100,7 @@ static double hidden_defect(const struct gm_view *view)
     return defects_of(view).hidden;
 }
 
-/* The distance from the solution that the file tells, of the component that is farthest. */
+/* Returns the largest distance of a component from the exact solution in the file. */
 static double solution_error(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
@@ -135,8 +135,8 @@ static const char *why_no_area(const struct gm_view *view)
     return edge_points(view) > 0 ? GM_UNRESOLVED_EDGE : "with members= of at least 6 in a disc alone";
 }
 
-/* Signed area within the members, measured from the centre so that little cancels. They carry no tangents: the
-   derivatives are those of the trigonometric polynomial through them. */
+/* Returns the signed area within the members, from the centre so that little cancels. The derivatives are of
+   the trigonometric polynomial through the members, which have no tangents. */
 static double area(const struct gm_view *view)
 {
     const size_t points = edge_points(view), m = view->problem->m;
@@ -144,7 +144,7 @@ static double area(const struct gm_view *view)
     if (points == 0) {
         return NAN;
     }
-    double complex *edge = malloc(2 * points * sizeof *edge); /* and its derivatives */
+    double complex *edge = malloc(2 * points * sizeof *edge); /* the edge, then its derivatives */
     for (size_t i = 0; edge && i < points; i++) {
         edge[i] = edge[points + i] = x[i] - x[points] + I * (y[i] - y[points]);
     }
@@ -168,7 +168,6 @@ void gm_system_stops(const struct gm_view *view, const double *states, const dou
 
 /* ---- the rows of the scene ---- */
 
-/* The exact solution, where the file tells one, begins where the system does. */
 bool gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                            char *sentence)
 {
@@ -199,7 +198,8 @@ bool gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm
     return good;
 }
 
-/* A node with the magnitudes of its terms in their place, and of their factors; GM_NO_NODE: out of memory. */
+/* Returns a node with the magnitudes of its terms, and of their factors, instead of these; GM_NO_NODE when
+   out of memory. */
 static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
 {
     size_t count = 0;
@@ -233,7 +233,8 @@ static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
     return found;
 }
 
-/* An observable that is node `node` while node `condition` is above 0; GM_NO_NODE: a function of its own, always. */
+/* Adds an observable: node `node` while node `condition` is above 0; GM_NO_NODE: a function of its own,
+   always. */
 static bool add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node,
                            gm_node_id condition)
 {
@@ -262,7 +263,7 @@ static bool is_forced(const struct gm_user_system *system)
     return false;
 }
 
-/* What the momentum map of a symmetry is measured by: its terms at the start, which may cancel. */
+/* Returns the scale of a symmetry's momentum map: its terms at the start, which may cancel. */
 static double momentum_scale(struct gm_system_scene *system_scene, const struct gm_system_item *item)
 {
     const size_t half = system_scene->system.n / 2;
@@ -281,7 +282,7 @@ static double momentum_scale(struct gm_system_scene *system_scene, const struct 
     return isfinite(sum) ? sum : 0;
 }
 
-/* The text, which is the scene's, with blanks for what joins words. */
+/* Returns the text, which the scene owns, with blanks for underscores. */
 static const char *spaced(struct gm_system_scene *system_scene, const char *text)
 {
     for (char *at = text ? system_scene->texts.list[system_scene->texts.count - 1] : NULL; at && *at; at++) {
@@ -312,7 +313,7 @@ static bool add_energy(struct gm_system_scene *system_scene, const struct gm_pro
     return add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy, GM_NO_NODE);
 }
 
-/* What a formula calls an invariant: by a short name, its own or that of the let that it is. */
+/* Returns a short name of an invariant for formulas: its own or its let's. */
 static const char *symbol_of(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
                              const char *name)
 {
@@ -325,8 +326,8 @@ static const char *symbol_of(const struct gm_system_scene *system_scene, const s
     return part && strlen(part) <= SHORT ? part : "I";
 }
 
-/* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
-   among those without a name. */
+/* Adds the error of an invariant, of a Casimir, or of a symmetry's momentum, with this number among those
+   without a name. */
 static bool add_invariant(struct gm_system_scene *system_scene, const struct gm_system_item *item,
                           size_t nameless)
 {
@@ -343,7 +344,7 @@ static bool add_invariant(struct gm_system_scene *system_scene, const struct gm_
         spaced(system_scene, gm_system_kept_text(system_scene, "%s error", name)), .least = scale,
         .scale_text = scale > 0 ? gm_system_kept_text(system_scene, "%.3g", scale) : NULL);
     gm_written_options(&row, item);
-    row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
+    row.kept = item->check != GM_NOT_ZERO; /* else forces change it, for every scheme */
     return add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0],
                           GM_NO_NODE);
 }
@@ -359,12 +360,12 @@ static bool add_observed(struct gm_system_scene *system_scene, const struct gm_s
     row.error = row.symbol != NULL;
     row.logarithmic |= row.error;
     if (row.period > 0 && system_scene->scene.follow == 0) {
-        system_scene->scene.follow = FOLLOWED; /* so that an angle is seen in every part of a turn */
+        system_scene->scene.follow = FOLLOWED; /* an angle must be seen in every part of a turn */
     }
     return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
 }
 
-/* The step of a scheme that chooses it by the discrete energy balance, and of others dt. */
+/* Returns the step that the discrete energy balance determines, or dt with other schemes. */
 static double tau(const struct gm_view *view)
 {
     const bool chosen = view->scheme->family->parameters == gm_settings_of_variational_time;
@@ -377,7 +378,7 @@ static double restarts(const struct gm_view *view)
     return view->memory && counted ? view->memory[GM_VARIATIONAL_RESTARTS] : 0;
 }
 
-/* What the file's schemes choose, if one of them is such. */
+/* Adds the step of the file's schemes, if one of them determines it. */
 static bool add_steps(struct gm_system_scene *system_scene)
 {
     const char *list = system_scene->system.texts[GM_WORD_SCHEMES];
@@ -395,7 +396,7 @@ static bool add_steps(struct gm_system_scene *system_scene)
                            GM_NO_NODE));
 }
 
-/* What the file names: observe:, invariant:, casimir:, symmetry:. */
+/* Adds the quantities in the file: observe:, invariant:, casimir:, symmetry:. */
 static bool add_named(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -435,7 +436,7 @@ static bool add_defects(struct gm_system_scene *system_scene, const struct gm_pr
                            GM_NO_NODE, GM_NO_NODE));
 }
 
-/* The distance from exact:, of the components that it tells. */
+/* Adds the distance from exact:, for the components given there. */
 static bool add_solution_error(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -459,7 +460,7 @@ static bool add_solution_error(struct gm_system_scene *system_scene)
     return good;
 }
 
-/* The area of a disc of members, in the plane. */
+/* Adds the area of a disc of members, in the plane. */
 static bool add_area(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -475,7 +476,7 @@ static bool add_area(struct gm_system_scene *system_scene)
                             GM_NO_NODE, GM_NO_NODE)));
 }
 
-/* Says which line makes a second observable of that name; false. */
+/* Refuses the line that makes a second observable of that name; false. */
 static bool refuse_twice(const struct gm_system_scene *system_scene, const char *key, char *sentence)
 {
     for (size_t i = system_scene->system.item_count; i-- > 0;) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the parts of a scene of somebody's system have in common while it is made. */
+/* Common functions for making the scene of a user-defined system. */
 #include "scenes/ode/system/pieces.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ways to look at somebody's system: bodies and rods as its file says, the planes of two components, the
-   section; what their axes are called, and which of them are angles. */
+/* The sights of a user-defined system: bodies and rods from its file, the planes of two components, the
+   section; names of their axes, and which of them are angles. */
 #include "scenes/ode/system/sights.h"
 
 #include <math.h>
@@ -9,8 +9,7 @@
 
 #include "scenes/ode/system/pieces.h"
 
-/* Whether a formula turns with the angles: one of them further by 2 pi makes that of it, or of its
-   negative. */
+/* Returns true if a formula turns with an angle: 2 pi more of that changes it by 2 pi or -2 pi. */
 static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -39,7 +38,7 @@ static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)
     return found;
 }
 
-/* An axis: what it is called, whether it is an angle, whether a component. */
+/* Describes an axis: its name, and if it is an angle or a component. */
 static bool describe_axis(struct gm_system_scene *system_scene, struct gm_sight *sight, size_t k,
                           gm_node_id node)
 {
@@ -68,7 +67,7 @@ static bool open_plane(struct gm_system_scene *system_scene, struct gm_sight *si
            gm_system_open_tape(system_scene, &sight->tape, nodes, 2);
 }
 
-/* Copies the formulas of all lines of a word; returns where they end. */
+/* Copies the formulas of all lines of a word; returns their end. */
 static gm_node_id *copy_nodes(const struct gm_user_system *system, enum gm_system_word word, gm_node_id *to)
 {
     const struct gm_system_item *item;
@@ -79,7 +78,7 @@ static gm_node_id *copy_nodes(const struct gm_user_system *system, enum gm_syste
     return to;
 }
 
-/* Which bodies stand still. */
+/* Finds the bodies at rest. */
 static bool find_fixed(const struct gm_user_system *system, struct gm_sight *sight, const gm_node_id *nodes)
 {
     bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
@@ -98,8 +97,8 @@ static bool find_fixed(const struct gm_user_system *system, struct gm_sight *sig
     return moves != NULL;
 }
 
-/* What axis k of space is called where bodies are members of lists, x[1], x[2]: x, the name of all. NULL: they have no
-   name in common, or there is no memory for it. */
+/* Returns the name of axis k of space, x for bodies that are members of lists, x[1], x[2]. NULL if they have
+   no common name, or when out of memory. */
 static const char *common_name(struct gm_system_scene *system_scene, size_t k)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -121,8 +120,8 @@ static const char *common_name(struct gm_system_scene *system_scene, size_t k)
     return common ? gm_kept_texts_add(&system_scene->texts, strndup(common, length)) : NULL;
 }
 
-/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
-   and z where the first body does not tell others, or several tell different ones. */
+/* Names the axes: in a plane by the variables of its one body, and then clicks are starts; in space x, y and
+   z, unless the bodies have one common other name. */
 static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -145,7 +144,7 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
         sight->labels[k] = in_space ? usual[k] : k == 0 && sight->over_time ? "t" : NULL;
     }
     if (sight->bodies > 1 && sight->components[0] >= 0 && !sight->over_time) {
-        sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
+        sight->labels[0] = sight->labels[1] = NULL; /* the names belong to one body only */
         for (size_t i = 1; i < sight->bodies; i++) {
             if (!sight->fixed[i]) {
                 sight->components[0] = sight->components[1] = -1;
@@ -154,7 +153,7 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
     }
 }
 
-/* What `view` and `rod` lines say. */
+/* Opens the sight of `view` and `rod` lines. */
 static bool open_view(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -214,7 +213,7 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         good = open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
     }
     if (n == 1) {
-        good = good && add_pair(system_scene, 1, 0); /* over time */
+        good = good && add_pair(system_scene, 1, 0); /* the component over time */
     }
     for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
         good = add_pair(system_scene, i, half + i);

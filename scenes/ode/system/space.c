@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A system of somebody's own in space: paths, rods and bodies, before and behind its surfaces. */
+/* A user-defined system in space: paths, rods and bodies, before and behind its surfaces. */
 #include "scenes/ode/system/space.h"
 
 #include <math.h>
@@ -7,9 +7,9 @@
 
 #include "scenes/common/graph.h"
 
-/* A path whose mean chord is longer, of what is seen, is drawn as dots: between them it is not known. */
+/* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
 static const double longest_chord = 0.05;
-/* How far axes come out of a surface, by its size. */
+/* The length of axes out of a surface, as a multiple of its size. */
 static const double axes_reach = 1.18;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)
@@ -41,7 +41,7 @@ static void take_surfaces(struct gm_picture *picture, const struct gm_lane *lane
     }
 }
 
-/* The half axis that is longest. */
+/* Returns the longest half axis. */
 static double size_of(const struct gm_space *space)
 {
     double size = 0;
@@ -51,7 +51,8 @@ static double size_of(const struct gm_space *space)
     return size;
 }
 
-/* Bounds that move outwards in steps of an eighth of the largest range, about; what is flat stays so. */
+/* Sets bounds that move outwards in steps of an eighth of the largest range, about; a flat range stays
+   flat. */
 static void set_box(struct gm_space *space, const struct gm_seen *seen)
 {
     double width = 0, size = 0;
@@ -93,9 +94,9 @@ struct gm_space gm_system_space(struct gm_picture *picture, struct gm_panel *pan
     return space;
 }
 
-/* ---- what moves ---- */
+/* ---- moving parts ---- */
 
-/* Whether chords are short enough, of what the panel shows, to be seen as a curve. */
+/* Returns true if chords are short enough in the panel to be seen as a curve. */
 static bool is_curve(const struct gm_space *space, const double *points, size_t count)
 {
     double sum = 0;
@@ -110,7 +111,7 @@ static bool is_curve(const struct gm_space *space, const double *points, size_t 
     return !(sum >= longest_chord * (space->front - space->back) * (double)count);
 }
 
-/* The path of a body from entry `first` on, and where it is now. Returns how many points. */
+/* Writes the path of a body from entry `first` on, and its current point. Returns the number of points. */
 static size_t path_of(const struct gm_path *path, size_t body, size_t first, const double *now,
                       double *points)
 {
@@ -121,7 +122,7 @@ static size_t path_of(const struct gm_path *path, size_t body, size_t first, con
     return path->count + 1 - first;
 }
 
-/* The paths of all bodies that move, which are at `now`. */
+/* Draws the paths of all moving bodies, which are at `now`. */
 static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                        const struct gm_lane *lane, const struct gm_paths *paths, const double *now)
 {
@@ -152,7 +153,7 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
-/* Where all members are. */
+/* Draws all members. */
 static void draw_members(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                          const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
 {
@@ -171,7 +172,7 @@ static void draw_members(struct gm_picture *picture, struct gm_panel *panel, con
     }
 }
 
-/* Of the bodies those that stand still, or move. Returns how many. */
+/* Writes the bodies that are at rest, or those that move. Returns their number. */
 static size_t choose_bodies(const struct gm_sight *sight, const double *numbers, bool fixed, double *points)
 {
     size_t count = 0;
@@ -208,7 +209,7 @@ void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel,
         gm_space_segment(picture, panel, space, (struct gm_style){GM_INK, 0.9, 3.6, GM_SOLID}, ends,
                          ends + 3);
     }
-    for (int fixed = 1; fixed >= 0; fixed--) { /* what moves stands in front */
+    for (int fixed = 1; fixed >= 0; fixed--) { /* bodies that move are in front */
         const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, sight->rods > 0 ? 15 : 12, GM_SOLID};
         const size_t count = choose_bodies(sight, numbers, fixed == 1, points);
         gm_space_points(picture, panel, space, style, points, count);

@@ -5,21 +5,21 @@
 #include "scenes/common/space.h"
 #include "scenes/ode/system/look.h"
 
-/* A system of somebody's own in space: its bodies, rods and surfaces as they are seen from the lane's camera. */
+/* A user-defined system in space: its bodies, rods and surfaces from the lane's camera. */
 
-/* What has been seen of a sight up to now. */
+/* The range of a sight up to now. */
 struct gm_seen {
-    double low[3], high[3]; /* of each coordinate; low > high: nothing */
+    double low[3], high[3]; /* for each coordinate; low > high: empty */
     double far;             /* the largest distance from the origin */
-    bool left;              /* it has a scale of its own */
+    bool left;              /* the lane has a scale of its own */
 };
 
-/* Sets the panel's axes and draws what stands still: surfaces with the axes through them, or else the box of what
-   is seen. */
+/* Sets the panel's axes and draws the parts at rest: surfaces with the axes through them, or else the box of
+   the range. */
 struct gm_space gm_system_space(struct gm_picture *picture, struct gm_panel *panel,
                                 const struct gm_lane *lane, const struct gm_seen *seen,
                                 const char *const names[3]);
-/* Draws the lane in that space, behind and before the surfaces that are its own. */
+/* Draws the lane in that space, behind and before its surfaces. */
 void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
                              const struct gm_lane *lane, const struct gm_paths *paths);
 

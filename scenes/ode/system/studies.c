@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies of a system: lines work: and stability:, or what suits a system without them. */
+/* Studies of a system: lines work: and stability:, or default ones. */
 #include "scenes/ode/system/studies.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "core/schemes.h"
 #include "scenes/ode/system/pieces.h"
 
-/* Whether an option names an observable, or is missing. */
+/* Returns true if an option names an observable, or is missing. */
 static bool is_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
                           enum gm_system_option_word word, char *sentence)
 {
@@ -19,7 +19,7 @@ static bool is_observable(const struct gm_system_scene *system_scene, const stru
            gm_refuse(sentence, "%s: %.60s is no observable", gm_system_words[item->word].word, key);
 }
 
-/* The schemes that an option names, ended by NULL; *list is NULL where it names none, or the usual ones. */
+/* Reads the schemes that an option names, ended by NULL; *list is NULL for the usual ones. */
 static bool take_schemes(const struct gm_system_item *item, const struct gm_problem *problem,
                          const char **schemes, const char *const **list, char *sentence)
 {
@@ -91,7 +91,7 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
 
 /* ---- maps of stability ---- */
 
-/* The unit of the steps that the file names. */
+/* Returns the unit of the steps that the file names. */
 static double unit_of(const void *parameters)
 {
     const struct gm_system_lane *lane = parameters;
@@ -105,14 +105,14 @@ static double unit_of(const void *parameters)
     return unit;
 }
 
-/* The map of a system whose file has none: over the first parameter that can change, or over where the first component
-   starts. */
+/* Makes the map of a system whose file has none: over the first parameter that can change, or over the start
+   of the first component. */
 static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian)(const void *parameters))
 {
     static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
     static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
     size_t row = GM_SYSTEM_ROWS;
-    while (system_scene->rows[row].lowest == system_scene->rows[row].highest) { /* a start has a range */
+    while (system_scene->rows[row].lowest == system_scene->rows[row].highest) { /* every start has a range */
         row++;
     }
     const struct gm_parameter *parameter = &system_scene->rows[row];
@@ -146,7 +146,7 @@ static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian
     return system_scene->stability.arguments != NULL;
 }
 
-/* What the line stability: says in place of that. */
+/* Reads the map in the line stability:. */
 static bool read_map(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                      const struct gm_system_item *item, char *sentence)
 {

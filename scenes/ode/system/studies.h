@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The figures and studies of a system's scene: as its file says, or as its frequencies suggest. */
+/* The figures and studies of a system's scene: from its file, or suited to its frequencies. */
 #ifndef GM_SCENES_ODE_SYSTEM_STUDIES_H
 #define GM_SCENES_ODE_SYSTEM_STUDIES_H
 
 #include "scenes/ode/system/look.h"
 
-/* Makes figures, work and stability of a scene whose rows, observables and schemes are there. `radian` is 1 / the largest
-   frequency at the start, the unit of steps where the file names no other. False with a sentence. */
+/* Makes figures, work and stability of a scene that has rows, observables and schemes. `radian` is 1 / the
+   largest frequency at the start, the unit of steps unless the file names another. False with a sentence on
+   failure. */
 bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
                             double (*radian)(const void *parameters), char *sentence);
 

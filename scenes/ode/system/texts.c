@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts with values, and what a start has to fulfil. */
+/* Texts with values, and requirements for a start. */
 #include "scenes/ode/system/texts.h"
 
 #include <math.h>
@@ -13,20 +13,20 @@
 
 enum { SIZE = 1024 };
 
-/* The values of a text: of its formulas, of the scene's keys, and what the schemes are called. */
+/* The values of a text: of its formulas, of the scene's keys, and the name of the schemes. */
 struct values {
     const double *numbers;
     const struct gm_system_lane *lane;
     const char *schemes, *minus;
 };
 
-/* Where a text is read: the next byte, and the number of the next brace. */
+/* A position in a text: the next byte, and the number of the next brace. */
 struct place {
     const char *at;
     size_t brace;
 };
 
-/* A fraction of `unit`, "2π/3" or "1/8"; false if the value is none of small numbers. */
+/* Writes a fraction of `unit`, "2π/3" or "1/8"; false if its numbers are not small. */
 static bool put_fraction(FILE *text, double value, double unit, const char *called)
 {
     const double times = fabs(value / unit);
@@ -49,7 +49,7 @@ static void put_number(FILE *text, double value, const char *format, const char 
     static const struct {
         const char *format;
         double unit;
-        const char *called, *otherwise; /* of a fraction, and behind a number that is none */
+        const char *called, *otherwise; /* the unit after a fraction, and after other numbers */
     } units[] = {{"pi}", M_PI, "π", NULL}, {"T}", 2 * M_PI, "T", " T"}, {"/}", 1, "", NULL}};
     fputs(value < 0 ? minus : "", text);
     for (size_t i = 0; i < GM_COUNT(units) && isfinite(value) && value != 0; i++) {
@@ -67,7 +67,7 @@ static void put_number(FILE *text, double value, const char *format, const char 
     fprintf(text, "%.4g", fabs(value));
 }
 
-/* Puts the value of the brace at `at`, which has that number. False if the part that it stands in is left out. */
+/* Writes the value of the brace at `at`, which has that number. False if its part is left out. */
 static bool put_brace(FILE *text, const struct values *values, const char *at, size_t number,
                       const struct gm_system_item *item)
 {
@@ -89,8 +89,8 @@ static bool put_brace(FILE *text, const struct values *values, const char *at, s
     return strcmp(format, "nonzero}") != 0 || value != 0;
 }
 
-/* Writes the text from `place` on, to its end or, with `separator`, to behind the next one of that. False if the part is
-   left out. */
+/* Writes the text from `place` to its end, or to the next `separator`, and moves after it. False if the part
+   is left out. */
 static bool write_part(struct place *place, char separator, const struct values *values,
                        const struct gm_system_item *item, char line[SIZE])
 {
@@ -121,7 +121,7 @@ static const struct gm_tape *tape_of(const struct gm_system_scene *system_scene,
 
 /* ---- opening ---- */
 
-/* Keys in braces are of the scene. */
+/* Checks that keys in braces are keys of the scene. */
 static bool check_keys(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
                        char *sentence)
 {
@@ -140,7 +140,7 @@ static bool check_keys(const struct gm_system_scene *system_scene, const struct 
     return true;
 }
 
-/* The tape of an item: its formulas, and that of its option `while` or `unit`. False: out of memory. */
+/* Opens the tape of an item: its formulas, then its option `while` or `unit`. False when out of memory. */
 static bool open_item(struct gm_system_scene *system_scene, const struct gm_system_item *item,
                       struct gm_tape *tape)
 {
@@ -178,7 +178,7 @@ bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
     return good;
 }
 
-/* ---- what is written ---- */
+/* ---- writing ---- */
 
 bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word)
 {
@@ -186,7 +186,7 @@ bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm
     return item && strstr(item->text, "{schemes}");
 }
 
-/* The values of lane number `i`; numbers NULL: out of memory. */
+/* Returns the values of lane number `i`; numbers is NULL when out of memory. */
 static struct values values_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                size_t i, const struct gm_system_item *item)
 {

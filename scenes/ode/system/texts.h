@@ -5,18 +5,18 @@
 
 #include "scenes/ode/system/look.h"
 
-/* Opens the tapes of texts, requirements and levels. False with a sentence. */
+/* Opens the tapes of texts, requirements and levels. False with a sentence on failure. */
 bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence);
 
-/* The text of a line in a picture of lanes; `otherwise` if the file has no such line. Of a subtitle the parts that
-   semicolons separate are left out where they differ between lanes. */
+/* Returns the text of a line in a picture of lanes; `otherwise` if the file has no such line. Parts of a
+   subtitle, between semicolons, are left out if they differ between lanes. */
 const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                  enum gm_system_word word, const char *otherwise);
-/* Whether the file's text names the schemes itself. */
+/* Returns true if the file's text names the schemes itself. */
 bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word);
 
-/* Whether these values of all variables at the start, of which `lane` has the keys, fulfil every require:. A sentence
-   if they do not. */
+/* Returns true if these values of all variables at the start, of which `lane` has the keys, fulfil every
+   require:; else false with a sentence. */
 bool gm_system_is_admitted(const struct gm_system_lane *lane, const double *values, char *sentence);
 
 #endif

@@ -15,14 +15,14 @@ enum { MOST_BUILDING = 16 };
 /* Guards the list of a scene's systems, which grows while lanes are opened. */
 static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
 
-/* The rows of all, those of the first system first. */
+/* The rows of all systems, those of the first system first. */
 struct tables {
-    struct gm_parameter *rows; /* with the common ones behind them */
+    struct gm_parameter *rows; /* the common ones follow */
     struct gm_observable *observables;
     size_t row_count, observable_count;
 };
 
-/* The number of the row, of so many of that size, that begins with the key; their number: there is none. */
+/* Returns the number of the row of `size` bytes that begins with the key; `count` if it is missing. */
 static size_t find(const void *rows, size_t size, size_t count, const char *key)
 {
     size_t i = 0;
@@ -32,8 +32,8 @@ static size_t find(const void *rows, size_t size, size_t count, const char *key)
     return i;
 }
 
-/* Whether another value of a row is another system: of a choice, and of what the equations are built on where no words
-   make the scene anew. */
+/* Returns true if another value of a row makes another system: a choice, or a parameter that equations are
+   built on unless words make the scene. */
 static bool builds(const struct gm_system_scene *scene, size_t row)
 {
     const size_t number = scene->variables[row];
@@ -44,7 +44,7 @@ static bool builds(const struct gm_system_scene *scene, size_t row)
             (variable && variable->fixed && !isnan(variable->low) && !scene->scene.words));
 }
 
-/* Adds what a system has beside those of the same keys, whose ranges hold those of all. */
+/* Adds rows and observables with new keys; the range of a row includes the ranges of all. */
 static void add(struct tables *tables, const struct gm_system_scene *other)
 {
     for (size_t i = 0; i < other->row_count; i++) {
@@ -77,7 +77,7 @@ static double nothing(const struct gm_view *view)
     return NAN;
 }
 
-/* A system takes the rows: its values and formulas stand where each now is. False: out of memory. */
+/* Gives a system the rows, and moves its values and formulas to them. False when out of memory. */
 static bool take(struct gm_system_scene *own, const struct tables *tables)
 {
     const size_t rows = tables->row_count, count = tables->observable_count,
@@ -118,7 +118,7 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
                                                          .logarithmic = row->logarithmic};
         }
     }
-    for (size_t i = 0; good && i < before.observable_count; i++) { /* what no row of the scene is */
+    for (size_t i = 0; good && i < before.observable_count; i++) { /* formulas without a row */
         gm_tape_close(&before.formulas[i]);
         gm_tape_close(&before.terms[i]);
     }
@@ -146,7 +146,7 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
     return good;
 }
 
-/* Puts a system among those of the file, with their rows. */
+/* Adds a system to those of the file, with their rows. */
 static bool join(struct gm_system_scene *own, struct gm_system_scene *first, const struct tables *tables)
 {
     own->scene.asked = first->scene.asked;
@@ -161,8 +161,8 @@ bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *va
     return own->lacks != NULL;
 }
 
-/* Collects what the systems of a file can show: all, the section, planes, and the modified Hamiltonian. False: out of
-   memory. */
+/* Collects the views of all systems of a file: all, the section, planes, and the modified Hamiltonian. False
+   when out of memory. */
 static bool unite_shows(struct gm_system_scene *first)
 {
     size_t most = 1, count = 0;
@@ -236,7 +236,7 @@ bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct
     return good || gm_refuse(sentence, "not enough memory");
 }
 
-/* Whether a system is that of a lane's values. */
+/* Returns true if a system has a lane's values. */
 static bool is_of(const struct gm_system_scene *other, const struct gm_system_lane *lane)
 {
     for (size_t row = 0; other->first && row < other->row_count; row++) {
@@ -248,7 +248,7 @@ static bool is_of(const struct gm_system_scene *other, const struct gm_system_la
     return other->first != NULL;
 }
 
-/* Makes one that there is not yet. */
+/* Makes a missing system. */
 static struct gm_system_scene *add_variant(struct gm_system_scene *first, const struct gm_system_lane *lane,
                                            gm_system_maker make, char *sentence)
 {
