@@ -37,7 +37,7 @@ static struct stem whole(const char *word)
     return (struct stem){.begin = word};
 }
 
-/* What stands behind the last of these characters is the stem, the rest its front. */
+/* The stem is the text after the last of these characters, the front is the rest. */
 static struct stem behind_last(const char *word, const char *breaks)
 {
     struct stem stem = {.begin = word};
@@ -57,7 +57,7 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
     offer(stem, listed->name, gm_text_tame(title));
 }
 
-/* A system or a room; those that are scenes are offered as scenes. */
+/* A system or a room, unless it is offered as a scene. */
 static void offer_other(const struct gm_listed *listed, const void *stem)
 {
     if (gm_scene_number(listed->name) == gm_scene_count()) {
@@ -65,7 +65,7 @@ static void offer_other(const struct gm_listed *listed, const void *stem)
     }
 }
 
-/* A folder that cannot be opened is for `geomint list` to tell. */
+/* An unreadable folder is ignored here; `geomint list` reports it. */
 static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 {
     char message[GM_MESSAGE];
@@ -268,7 +268,7 @@ static void offer_options(const struct gm_command_row *command, const char *word
     }
 }
 
-/* What a command takes that is no option. */
+/* The words of a command that do not begin with --. */
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
     static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
@@ -311,7 +311,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     }
 }
 
-/* What a system is made of; a file's scene has those of its formulas. */
+/* The keys of a system's formulas; the scene of a file has the keys of its own. */
 static void offer_formulas(const char *word, const char *system, const struct gm_scene *scene)
 {
     const struct stem stem = whole(word);

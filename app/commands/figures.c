@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint figures: published figures made again by as many processes as there are processors, on one page
-   with what the documents say and whether it holds; beside them, or alone, systems of somebody's own. */
+/* geomint figures: reproduces published figures on one page, with the documents' statements and the
+   verdicts; user files are added or replace them. It uses as many processes as there are processors. */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -61,14 +61,14 @@ static bool wanted(const struct gm_options *options, const char *name)
     return options->arguments.count == 0;
 }
 
-/* In the order of the documents, and of the numbers in them. */
+/* Sorts names in the order of the documents, and numbers in them by value. */
 static int by_name(const void *one, const void *other)
 {
     return strverscmp(((const struct gm_figure_job *)one)->figure->name,
                       ((const struct gm_figure_job *)other)->figure->name);
 }
 
-/* As many as there may be. */
+/* The largest number of figures. */
 static size_t all_figures(const struct gm_options *options)
 {
     size_t count = (size_t)options->arguments.count;
@@ -308,7 +308,7 @@ static bool write_page(struct series *series, int *status)
     return true;
 }
 
-/* What became of a worker that has ended: a worker that was killed or crashed tells nothing itself. */
+/* The result of a worker that has ended; it is composed here if the worker was killed or crashed. */
 static void take_end(struct series *series, size_t job, int end)
 {
     struct gm_outcome *outcome = &series->outcomes[job];

@@ -10,7 +10,7 @@
 #include "core/basics.h"
 #include "core/schemes.h"
 
-/* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */
+/* Writes text for troff: no request at the start of a line, hyphens that can be copied. */
 static void put(const char *text)
 {
     if (*text == '.' || *text == '\'') {
