@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
+/* Changes during a run, and a request as text, which a PNG stores so that it can be reproduced. */
 #include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -165,7 +165,7 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
     return true;
 }
 
-/* What a change is: a scheme's name, a step, or (neither) a live parameter, which is stored. */
+/* The meaning of a change: a scheme's name, a step size, or (neither) a live parameter, which is stored. */
 struct meaning {
     const struct gm_scheme *scheme;
     double dt;

@@ -7,7 +7,7 @@
 #include "scenes/common/lane.h"
 #include "scenes/common/scene.h"
 
-/* Which schemes can be asked for with a scene. */
+/* The largest number of schemes that fit a scene. */
 
 enum { GM_FITTING_SCHEMES = 256 };
 
@@ -25,7 +25,7 @@ void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const
 /* The same, and behind them those that the scene's own text takes on another kind of grid. */
 size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
 
-/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
+/* Returns true if at least one of these schemes has this parameter, a row of gm_settings_parameters. */
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
 
 /* Observables that were asked for, by their numbers (gm_scene_observable_at), in the order in which they
@@ -35,8 +35,8 @@ struct gm_chosen {
     size_t count;
 };
 
-/* Those of these keys, "KEY,KEY"; NULL: all that a scene tells unasked. False with a sentence. To be closed
-   in both cases. */
+/* Opens the observables with these keys, "KEY,KEY"; NULL: the scene's default ones. Returns false with a
+   sentence. The caller closes it in both cases. */
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
 void gm_chosen_close(struct gm_chosen *chosen);
 
@@ -45,8 +45,8 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
 
 /* Names of scenes, systems and rooms. */
 
-/* Proposes for a word that is no name the nearest name of a scene, a system or a room, in `near`. False: none is near;
-   the message then says which folder of the environment could not be opened, "" where all can. */
+/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word. False: none
+   is near; the message then names a folder of the environment that could not be opened, "" if all could. */
 enum { GM_NEAR = 64 };
 bool gm_system_near(const char *word, char near[GM_NEAR], char *message);
 

@@ -213,7 +213,7 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
     return true;
 }
 
-/* A parameter that a scheme brings is told to a scheme that has it. */
+/* Checks that a parameter of schemes is given only to schemes that have it. */
 static bool check_settings(const struct gm_request *request, const struct gm_words *words, char *message)
 {
     const struct gm_scene *scene = request->scene;
@@ -253,7 +253,7 @@ const char *gm_request_idle(const struct gm_request *request, const char *key)
     return why;
 }
 
-/* A key that has no effect in any lane is not taken: whoever types it expects one. */
+/* Refuses a key without effect in any lane: the user expects one. */
 static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < words->count; i++) {
@@ -285,7 +285,7 @@ static size_t first_scheme(const struct gm_words *words, size_t lane)
     return lane;
 }
 
-/* Whether an earlier lane has the same problem. */
+/* Returns true if an earlier lane has the same problem. */
 static bool is_repeated(const struct gm_request *request, size_t lane)
 {
     for (size_t i = 0; i < lane; i++) {
@@ -297,7 +297,7 @@ static bool is_repeated(const struct gm_request *request, size_t lane)
     return false;
 }
 
-/* Of the schemes of a name those that fit; a problem is set up once for all its lanes. */
+/* Finds the fitting one of the schemes with a name; a problem is set up once for all its lanes. */
 static bool find_schemes(struct gm_request *request, char *message)
 {
     const struct gm_scene *scene = request->scene;
@@ -337,7 +337,7 @@ static bool find_schemes(struct gm_request *request, char *message)
                                known ? "" : " names those that do");
 }
 
-/* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
+/* Evaluations per model time over the first steps; NAN with a sentence if it cannot be measured. */
 static double rate_of(const struct gm_request *request, size_t index, char *message)
 {
     enum { STEPS = 32 };
@@ -368,7 +368,7 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     struct gm_timing *timing = spec->parameters;
     const struct gm_parameter *row = gm_scene_parameter(request->scene, "dt");
     const double wanted = rate_of(request, like, message);
-    /* an implicit scheme's evaluations a step depend on the step */
+    /* the evaluations per step of an implicit scheme depend on the step size */
     enum { ROUNDS = 4 };
     for (int round = 0; round < ROUNDS && index != like; round++) {
         const double rate = rate_of(request, index, message);
@@ -426,7 +426,7 @@ static bool apply_words(struct gm_request *request, const struct gm_words *words
     return true;
 }
 
-/* equal=cost: the steps of all lanes so that each pays what the first scheme pays. */
+/* equal=cost: chooses the step size of each lane so that its cost is the first scheme's. */
 static bool equalise(struct gm_request *request, const struct gm_words *words, char *message)
 {
     if (gm_words_find(words, "steps")) {
@@ -569,7 +569,7 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     char key[sizeof request->refused + 1];
     snprintf(key, sizeof key, "%s=", request->refused);
     if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
-        char sentence[GM_MESSAGE]; /* what nobody typed stands in a file */
+        char sentence[GM_MESSAGE]; /* a word that was not typed is from a file */
         snprintf(sentence, sizeof sentence, "%s", message);
         gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
     }

@@ -24,7 +24,7 @@
 
 const char gm_system_typed[] = "system";
 
-/* The whole of a file; of a system's that is too large nothing but its length, since its reader refuses it. */
+/* Reads a whole file, but only the length of a system's that is too large: the reader refuses it. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
     struct stat about;
@@ -107,7 +107,7 @@ bool gm_system_recall(const char *word, const char *text)
     return true;
 }
 
-/* Whether a word means a room, where a system of that name comes first. */
+/* Returns true if a word means a room; a system of that name has precedence. */
 static bool is_room(const char *word)
 {
     return gm_file_is(GM_FILE_ROOM, word) && !gm_file_is(GM_FILE_SYSTEM, word);
@@ -145,7 +145,7 @@ struct making {
     struct gm_system_value *values;
     size_t value_count;
     bool moves;     /* a field, with schemes that move its mesh */
-    double largest; /* of the numbers that lists and sums are as long as; 0: there is none */
+    double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
     char *message;
@@ -188,8 +188,8 @@ static bool choose_words(struct making *making)
     return good;
 }
 
-/* Whether a scheme of moving meshes is named, or, where none is, is the file's. False with a sentence where a field
-   would be on both kinds of grids. */
+/* Returns true if a scheme of moving meshes is given or, without a scheme, is the file's. Returns false
+   with a sentence if a field would be on both kinds of grids. */
 static bool choose_mesh(struct making *making)
 {
     const char *schemes = making->first.texts[GM_WORD_SCHEMES];
@@ -205,8 +205,8 @@ static bool choose_mesh(struct making *making)
                      "kind of them");
 }
 
-/* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in such a
-   line, or the value of the first one; 0: nowhere. */
+/* The offset of the line that a sentence "word: fault" is about: a line with the next word of the
+   sentence, or the value of the first one; 0: no line. */
 static size_t line_of(const struct gm_typed_file *written, const char *sentence)
 {
     const size_t word = strcspn(sentence, ": ");
@@ -304,7 +304,7 @@ static void find_largest(struct making *making)
     }
 }
 
-/* Reports what there is not enough memory for. */
+/* Reports that memory is short, with the largest length. */
 static void refuse_memory(const struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -385,7 +385,8 @@ static bool write_text(struct making *making)
         return true;
     }
     if (written->length > GM_LARGEST_SYSTEM || !gm_lines_are_text(written->text, written->length, &fault)) {
-        /* what is too long was not read, what is no text ends strings early: the reader says so */
+        /* the file is too long and was not read, or its bytes are not text and end strings early: the
+           reader reports it */
         gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault);
         return refuse_text(making, &fault);
     }

@@ -16,7 +16,7 @@ struct gm_user_system;
 struct gm_scene;
 struct gm_system_value;
 
-extern const char gm_system_typed[]; /* "system": what stands before a formula */
+extern const char gm_system_typed[]; /* "system": the word before a formula */
 
 /* Opens the system of a file; without one, of the words "system H=... key=value ...". Returns 0, or an exit status with a
    sentence. To be closed in both cases. */
@@ -24,21 +24,20 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
                    const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
                    char *message);
 
-/* Whether the first of some words means a system: one of a file, or `system` with a formula behind it; or a
-   room of a file, which is opened the same way. */
+/* Returns true if the first word means a system: a file's, or `system` with a formula after it; or a room
+   of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
 /* The keys that say, or replace, the formulas of some words whose first means a system, until NULL. */
 const char *const *gm_system_keys(const char *word);
-/* The scene of the system or room that words "NAME key=value ..." mean; a parameter that the equations are built on
-   has the value that is given there, and formulas behind a file's name take the place of its own. It lives as
-   long as the program, and the same words mean the same scene. NULL with a sentence, and then an exit
-   status. */
+/* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
+   built have the given values, and typed formulas replace those of the file. The scene lives as long as
+   the program, and the same words give the same scene. Returns NULL with a sentence and an exit status. */
 const struct gm_scene *gm_system_scene(int count, char *const words[], int *status, char *message);
 
 /* A scene of words that are still being typed: nothing is kept of it, unless it was there before. */
 struct gm_system_trial {
     const struct gm_scene *scene;
-    int status; /* where there is none: an exit status, and a place */
+    int status; /* the exit status if there is no scene */
     struct gm_word_place place;
     struct gm_made_system *made; /* its own */
 };
@@ -48,8 +47,8 @@ bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[]
 void gm_system_trial_keep(struct gm_system_trial *trial);
 void gm_system_trial_close(struct gm_system_trial *trial);
 
-/* From now on that word means this text, and no file: as where a picture tells how it was made. False: no
-   memory. */
+/* From now on the word means this text instead of a file, for a picture that stores its system. Returns
+   false when out of memory. */
 bool gm_system_recall(const char *word, const char *text);
 
 /* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no

@@ -24,7 +24,7 @@ struct walk {
     bool has_key; /* of the word */
 };
 
-/* Whether a word begins here: NAME= or NAME[index]=. */
+/* Returns true if a word begins here: NAME= or NAME[index]=. */
 static bool is_key(const char *text)
 {
     size_t length = 0;
@@ -98,7 +98,7 @@ bool gm_typed_split(struct gm_arguments *words, const char *line)
     return good;
 }
 
-/* Where in a line a letter of a word stands. */
+/* The offset, in a line, of a letter of a word. */
 static size_t place_of(const char *line, int word, size_t offset)
 {
     struct walk walk = {.line = line, .word = -1};
@@ -112,7 +112,7 @@ static size_t place_of(const char *line, int word, size_t offset)
     return at;
 }
 
-/* Whether a word is split by what it holds, or loses it. */
+/* Returns true if a word needs quotes: blanks or quotes in it would split or change it. */
 static bool needs_quotes(const char *word)
 {
     struct gm_arguments alone = {0};
@@ -239,7 +239,7 @@ bool gm_typed_check(const char *line, struct gm_typed_fault *fault)
 
 /* ---- schemes ---- */
 
-/* Without blanks around it; a key may stand in front. malloc'ed. */
+/* The scheme without blanks around it; a key may precede it. malloc'ed. */
 static char *scheme_of(const char *line, size_t *begin)
 {
     static const char key[] = "scheme=";

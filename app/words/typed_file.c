@@ -40,9 +40,10 @@ bool gm_typed_is_formula(const char *word)
     return key_of(word, gm_typed_keys, &value) < FORMULA_COORDINATES;
 }
 
-/* ---- words in place of a file's lines ---- */
+/* ---- words that replace lines of a file ---- */
 
-/* Whether a word sets what a line does: that key, and of a rate or a bracket the same names before the =. */
+/* Returns true if a word replaces a line: it has its key and, for a rate or a bracket, the same names
+   before the =. */
 static bool replaces(const char *word, const char *key, const char *value)
 {
     const char *typed = gm_word_after(word, key);
@@ -196,11 +197,11 @@ struct names {
     size_t count;
 };
 
-/* What is typed, on its way to the lines of a file. */
+/* The typed words, to be written as the lines of a file. */
 struct typing {
     const struct gm_typed_file *file;
     struct gm_formula *graph;      /* of the formula that is read while its names have no values yet */
-    struct gm_fault fault;         /* of the first that is none, and */
+    struct gm_fault fault;         /* the first fault */
     struct gm_word_place wrong;    /* its place */
     struct names names;            /* in the formulas */
     struct names parts;            /* components of the state */
@@ -284,7 +285,7 @@ static const char *no_name(size_t i, const void *data)
     return NULL;
 }
 
-/* Notes the names of H, L or what stands on the right of a rate, and what is wrong with it whatever these are. */
+/* Notes the names in H, L or the right side of a rate, and faults that do not depend on them. */
 static void add_formula(struct typing *typing, int word, const char *text, size_t length)
 {
     struct gm_formula graph;
@@ -303,7 +304,7 @@ static void add_formula(struct typing *typing, int word, const char *text, size_
     gm_formula_close(&graph);
 }
 
-/* Rates, x = y, y = -x: what stands on the left is a part of the state. */
+/* Rates, x = y, y = -x: the left sides are parts of the state. */
 static void add_rates(struct typing *typing, int word, const char *text)
 {
     while (*(text += strspn(text, " \t"))) {
@@ -344,8 +345,8 @@ static void put_formulas(struct typing *typing, FILE *stream)
     }
 }
 
-/* "coordinates: q1 q2", as far as such names occur, or q alone, their momenta and, where they are called
-   v1, v2, their velocities. */
+/* Writes "coordinates: q1 q2", as far as such names occur, or q alone, their momenta and, for names v1,
+   v2, their velocities. */
 static void put_usual_coordinates(struct typing *typing, FILE *stream)
 {
     static const char *const lists[] = {"coordinates", "momenta", "velocities"};
@@ -370,7 +371,7 @@ static void put_usual_coordinates(struct typing *typing, FILE *stream)
     fputs(typing->lines, stream);
 }
 
-/* Whether it is a component, or the momentum or the velocity of one: p_q, v_q. */
+/* Returns true if it is a component, or the momentum or the velocity of one: p_q, v_q. */
 static bool is_part(const struct typing *typing, const char *name, size_t length)
 {
     return holds(&typing->parts, name, length) ||
@@ -396,7 +397,7 @@ static void put_starts_or_parameters(struct typing *typing, bool starts, FILE *s
     }
 }
 
-/* Whether a name may stand without a value. */
+/* Returns true if a name needs no value. */
 static bool needs_none(const struct typing *typing, const struct name *name, bool part)
 {
     const struct names *given = &typing->given;
@@ -413,7 +414,7 @@ static bool needs_none(const struct typing *typing, const struct name *name, boo
                 : is_part(typing, name->text, name->length);
 }
 
-/* The place of a name that was collected; word -1: it is not in a word. */
+/* The place of a collected name; word -1: no word has it. */
 static struct gm_word_place place_of(const struct gm_typed_file *file, const char *name)
 {
     for (int i = 0; i < file->count; i++) {
