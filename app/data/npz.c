@@ -61,7 +61,7 @@ static void put(struct bytes *bytes, uint64_t value, size_t size)
     }
 }
 
-/* Whether all went well up to now. */
+/* Returns true if no call has failed so far. */
 static bool note(struct gm_npz *npz, bool good)
 {
     npz->failed = npz->failed || !good;
@@ -79,7 +79,7 @@ static uint32_t low(uint64_t value, bool wide)
     return wide ? most_32 : (uint32_t)value;
 }
 
-/* What a header of an entry says first, local or central; the versions come before it. */
+/* Puts the common fields of a local or central header, which follow the versions. */
 static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide, size_t extra)
 {
     put(bytes, 0, 2); /* flags */
@@ -93,8 +93,8 @@ static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide,
     put(bytes, extra, 2);
 }
 
-/* Where the head of the .npy file begins; the header has the 64-bit record always, so that this does not
-   depend on how much is in the entry. */
+/* The offset of the head of the .npy file; the header always has the 64-bit record, so this does not
+   depend on the entry's size. */
 static uint64_t head_place(const struct entry *entry)
 {
     return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
@@ -219,7 +219,7 @@ uint64_t gm_npz_length(int file)
     return shape ? strtoull(shape + strlen(mark), NULL, 10) : 0;
 }
 
-/* How many bytes its numbers have. */
+/* The bytes of an entry's numbers. */
 static uint64_t numbers_of(const struct entry *entry)
 {
     uint64_t size = entry->item;

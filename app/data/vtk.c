@@ -18,7 +18,7 @@
 #include "core/basics.h"
 #include "render/message.h"
 
-/* What a group of points is joined to. */
+/* The connection of a group's points. */
 enum shape { POINTS, LINE, TRIANGLES };
 
 /* All quantities that belong to one set of points. */
@@ -59,7 +59,7 @@ static const struct gm_quantity *axis_of(const struct gm_saved *lane, enum gm_su
     return NULL;
 }
 
-/* The first quantity on a support that is no place; NULL: there is none. */
+/* The first quantity on a support that is not a coordinate, or NULL. */
 static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_support support)
 {
     for (size_t i = 0; i < lane->count; i++) {
@@ -206,7 +206,7 @@ static void write_values(const struct group *group, const struct array *array, F
     }
 }
 
-/* Where a quantity goes; SECTIONS: nowhere in this file. */
+/* The section of a quantity; SECTIONS: this file leaves it out. */
 static enum section section_of(const struct group *group, const struct gm_quantity *quantity)
 {
     const bool line = group->shape == LINE && quantity->fixed; /* its grid is the points' x */
@@ -351,7 +351,7 @@ static char *path_of(const struct gm_saving *saving, const struct gm_saved *lane
     return gm_text("%s/%s%06" PRIu64 "%s.vtu", saving->folder, prefix, row, ending);
 }
 
-/* Which files a row has. */
+/* The files of a row. */
 static const struct {
     enum gm_support support;
     const char *ending;
@@ -404,7 +404,7 @@ static void find_places(const struct gm_saved *lane, const struct gm_run *run, s
         for (size_t i = 0; i < all; i++) {
             if (arrays[i].write == write_time || arrays[i].write == write_offsets ||
                 arrays[i].write == write_types) {
-                continue; /* the list tells the time, and the topology's name the others */
+                continue; /* the list has the time, the topology's name the types */
             }
             arrays[count++] = arrays[i];
             *(arrays[i].fixed ? &places->head : &places->row) += bytes_of(&arrays[i]);
@@ -528,7 +528,7 @@ static void shorten(const struct gm_saving *saving, const struct gm_saved *lane,
     free(path);
 }
 
-/* Of the rows from `from` on, up to one that may have been begun; with the last file its folder goes. */
+/* Removes the rows from `from` to `last`, which may be incomplete; the last file's folder goes too. */
 static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
                         uint64_t last)
 {
@@ -547,7 +547,7 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
     rmdir(saving->folder);
 }
 
-/* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */
+/* Writes the run's description as a comment; XML forbids "--" there, so the second is escaped as in JSON. */
 static bool put_meta(const char *meta, FILE *file)
 {
     fputs("<!-- ", file);
