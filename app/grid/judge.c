@@ -171,7 +171,7 @@ double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost
             continue;
         }
         const struct gm_grid_cell *before = here - 1;
-        /* the coarsest step is good enough, or the one before says nothing */
+        /* the coarsest step is good enough, or the one before gives no information */
         if (k == 0 || !isfinite(before->error) || before->error <= here->error) {
             return gm_work_cost(here, cost);
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which step keeps which scheme bounded or accurate: a step in the plan's unit over a parameter. */
+/* The steps for which a scheme is bounded or accurate: a step in the plan's unit over a parameter. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -106,7 +106,7 @@ static enum gm_cell_verdict verdict(const struct gm_grid *grid, const struct gm_
     return grid->accuracy < INFINITY && !(cell->error <= grid->accuracy) ? GM_WRONG : GM_BOUNDED;
 }
 
-/* A run that takes longer than this is judged where it is. */
+/* CPU time after which a run is judged by its current state */
 static const double most_seconds = 10;
 
 static const struct gm_observable *find(const struct gm_scene *scene, const char *key)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which accuracy costs how much: from the words of the command line to schemes, steps and a measure; error and cost
+/* The cost of accuracy: from the words of the command line to schemes, steps and a measure; error and cost
    of every scheme with every step. */
 #include <math.h>
 #include <stdio.h>
@@ -56,7 +56,7 @@ static bool is_one_problem(const struct gm_grid *grid)
     return true;
 }
 
-/* Whether the ladders or the lines of the diagram have the values of this word. */
+/* Returns true if the ladders or the lines of the diagram vary this word. */
 static bool is_varied(const struct gm_grid *grid, const char *word)
 {
     const char *const keys[] = {"scheme", "dt", "until", grid->parameter ? grid->parameter->key : NULL,
@@ -82,7 +82,7 @@ static void note_settings(struct gm_grid *grid, const struct gm_arguments *words
     }
 }
 
-/* Takes "best" out of the list of schemes, wherever it stands; false: it is not among them. */
+/* Takes "best" out of the list of schemes; false: it is not among them. */
 static bool take_best(struct gm_arguments *words)
 {
     static const char key[] = "scheme=", best[] = "best";
@@ -180,7 +180,7 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
     }
 }
 
-/* Whether a scheme is measured where none is named: of two names of one method one is. */
+/* Returns true if a scheme is measured by default; a method with two names is measured once. */
 static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *scheme, const struct gm_lane *lane)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -194,7 +194,7 @@ static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *schem
            !(same && is_entrant(grid, same, lane));
 }
 
-/* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
+/* Chooses the given schemes, or all that fit `lane`'s problem and are not the reference. */
 static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named)
 {
     const struct gm_request *request = &grid->request;
@@ -251,7 +251,7 @@ static void choose_steps(struct gm_grid *grid)
     }
 }
 
-/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+/* Chooses the values of the words, or those of the plan if the words give only one, which is not a ladder. */
 static void choose_resolutions(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -294,8 +294,8 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
         gm_chosen_refuse(scene, grid->measure, message);
         gm_arena_refuse(grid->arena, "%s", message);
     }
-    /* at the start already a measure can say nothing with these parameters, as a distance from an exact
-       solution that there is not; or with this scheme, but then others may say more */
+    /* the measure may be undefined with these parameters, as a distance from a missing exact solution, or
+       only with this scheme; others may then have it */
     const struct gm_observable *observable = gm_scene_observable_at(scene, (size_t)found);
     if (observable->why || isfinite(gm_lane_observe(lane, (size_t)found))) {
         grid->measure_title = observable->title;
@@ -371,7 +371,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
         snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
         gm_listener_hears(grid->listener, what, 0, gm_grid_cells(grid));
         const double share = (percent + 1) / 100.;
-        /* the carried rounding errors are worth their price here */
+        /* the carried rounding errors are worth their cost here */
         gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
     }
     if (lane->run->status != GM_OK || gm_listener_stops(grid->listener)) {
@@ -397,7 +397,7 @@ static void run_finer(struct gm_grid *grid)
     grid->finer = run_reference(grid, row, finer);
 }
 
-/* The scheme of the reference run: the plan's, or that of the highest order which fits; NULL: there is none. */
+/* The scheme of the reference run: the plan's, or the fitting one with the highest order, or NULL. */
 static const struct gm_scheme *trusted_of(const struct gm_grid *grid, const struct gm_problem *problem)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -505,7 +505,7 @@ static double error_behind(const struct gm_grid *grid, const struct gm_lane *lan
     return error;
 }
 
-/* Why the lane has no such number, where it says so. */
+/* Writes the lane's reason for the missing number, or "". */
 static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, char *message)
 {
     const int observable = gm_scene_observable(lane->scene, grid->measure);
@@ -513,8 +513,8 @@ static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, 
     gm_refuse(message, "%s", reason ? reason : "");
 }
 
-/* Makes and times a run; returns the time, INFINITY where it was given up. A run that its scene may stop is followed in
-   any case. */
+/* Makes a run and measures its time; returns its time, INFINITY if it was given up. A run that its scene may stop is
+   observed in any case. */
 static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
 {
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
@@ -523,7 +523,7 @@ static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
     return gm_grid_goes_on(grid, lane, steps) ? INFINITY : seconds;
 }
 
-/* Once more, looking on the way, for an observable that recalls the past. Returns what it then says. */
+/* Repeats a run in slices, for an observable that needs the past. Returns its value. */
 static double follow(const struct gm_grid *grid, const struct gm_scheme *scheme, struct gm_grid_cell *cell,
                      char *message)
 {

@@ -44,7 +44,7 @@ bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message
     return good;
 }
 
-/* What stands behind a word that begins a line; NULL: nothing does. */
+/* The text after a word that begins a line, or NULL. */
 static char *find(char *note, const char *word)
 {
     char *at = note ? strstr(note, word) : NULL;
@@ -118,7 +118,7 @@ static bool merge(const struct gm_sweep *sweep, struct gm_csv_lines *shares, FIL
     enum { NAMED = 10 };
     for (size_t run = 0; run < sweep->count; run++) {
         struct gm_csv_lines *share = &shares[run % sweep->shards];
-        const char *row = gm_csv_next(share); /* a torn row is none */
+        const char *row = gm_csv_next(share); /* an incomplete row does not count */
         if (row && gm_sweep_front(sweep, run, row) == 0) {
             return gm_refuse(message, "share %zu has a row that is not that of run %zu",
                              run % sweep->shards + 1, run);
