@@ -513,8 +513,8 @@ static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, 
     gm_refuse(message, "%s", reason ? reason : "");
 }
 
-/* Makes a run and measures its time; returns its time, INFINITY if it was given up. A run that its scene may stop is
-   observed in any case. */
+/* Makes a run and returns its time, INFINITY if it was given up. A run that its scene may stop is observed
+   in any case. */
 static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
 {
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
