@@ -74,7 +74,7 @@ int gm_finish(int status)
 
 enum { NARROWEST = 20, ROOM = 24, LEAST_INDENT = 4 };
 
-/* The width in columns: COLUMNS, else that of the terminal; 0 where it is none, and lines may be of any
+/* The width in columns: COLUMNS, else the terminal's; 0 if the output is not a terminal, for lines of any
    length. */
 static int columns_of_output(void)
 {
@@ -99,8 +99,8 @@ static int letters_of(const char *text, size_t bytes)
     return letters;
 }
 
-/* The bytes of the first word; where that has no room in a line those up to the last comma that has, else up
-   to the first. */
+/* The bytes of the first word; if it does not fit into a line, up to the last comma that fits, else up to
+   the first. */
 static size_t first_part(const char *text, int available)
 {
     const size_t word = strcspn(text, " ");
