@@ -27,13 +27,13 @@ void gm_past_close(struct gm_past *past);
 /* A copy for a fork of the lane; an empty one if memory is short. */
 struct gm_past gm_past_copy(const struct gm_past *past);
 
-/* Keeps the lane as it is now, `gone` after its start, if it is far enough from the last snapshot; with
-   `always` in any case, and in place of one at the same step. Forgets snapshots of later steps: the lane has
-   gone back, and on from there. */
+/* Saves the lane's current state, `gone` after its start, if it is far enough from the last snapshot; with
+   `always` in any case, and instead of one at the same step. Drops snapshots of later steps: the lane has
+   stepped back and continued from there. */
 void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone, bool always);
 
-/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it; NULL if
-   there is none. Later ones are kept. */
+/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it, or
+   NULL. Later ones stay. */
 const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps);
 const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
 

@@ -53,8 +53,8 @@ double gm_session_direction(const struct gm_session *session)
     return session->lanes[0]->run->dt < 0 ? -1 : 1;
 }
 
-/* Where a lane's next step ends, a little earlier than it is computed to be, so that lanes with the same step
-   stay together whatever their round-off; times the direction, so that later is more. */
+/* The end of a lane's next step, in the direction of time; a little before the computed one, so that lanes
+   with the same step size stay together in spite of round-off. */
 static double next_time(const struct gm_session *session, size_t i)
 {
     const struct gm_run *run = session->lanes[i]->run;
@@ -152,7 +152,7 @@ static void share_budget(struct gm_session *session)
     }
 }
 
-/* Keeps a snapshot of a lane, where one is due or `always`. */
+/* Saves a snapshot of a lane, if one is due or with `always`. */
 static void note_lane(struct gm_session *session, size_t i, bool always)
 {
     gm_past_note(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
@@ -178,7 +178,7 @@ static void cut_log(struct gm_session *session, size_t lane, int64_t step)
     gm_changes_drop(&session->log, is_later, &(struct gm_change){.lane = lane, .step = step});
 }
 
-/* The lanes go on from the moment that is looked at: what came later is gone. */
+/* The lanes continue from the moment that is shown; later changes and snapshots are dropped. */
 static void settle(struct gm_session *session)
 {
     if (!session->visiting) {
@@ -355,7 +355,7 @@ bool gm_session_restart(struct gm_session *session, char *message)
     return ok;
 }
 
-/* ---- changes, in flight or for the next start ---- */
+/* ---- changes, during the run or for the next start ---- */
 
 /* Sets a parameter that takes effect with the next restart. */
 static bool want(struct gm_session *session, size_t i, const struct gm_parameter *row, bool of_scheme,
@@ -430,7 +430,7 @@ static void look(struct gm_session *session, size_t i, const struct gm_parameter
     forget_arguments(session);
 }
 
-/* A name that tells lanes apart by what has just been changed. */
+/* Renames lanes so that the parameter just changed distinguishes them. */
 static void rename_by_parameter(struct gm_session *session, size_t i, const char *key, const char *text)
 {
     char before[64], after[GM_MESSAGE];
@@ -488,13 +488,14 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
     if (!good) {
         return false;
     }
-    session->log.lanes[lane].shown = session->lanes[lane]->named; /* another one where nothing is made yet */
+    session->log.lanes[lane].shown =
+        session->lanes[lane]->named; /* differs from the default once a change is made */
     return true;
 }
 
 /* ---- on ---- */
 
-/* So many records a call: enough for the graphs, which keep the least and greatest of many steps. */
+/* Records per call: enough for the graphs, which have the least and greatest of many steps. */
 enum { RECORDS = 64 };
 
 bool gm_session_advance(struct gm_session *session, double t)
@@ -524,7 +525,7 @@ bool gm_session_advance(struct gm_session *session, double t)
 
 /* ---- back ---- */
 
-/* Steps a lane up to `steps`, making the logged changes on the way. */
+/* Advances a lane to `steps` steps and makes the logged changes. */
 static void replay(struct gm_session *session, size_t i, int64_t steps)
 {
     char message[GM_MESSAGE];
@@ -660,7 +661,7 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
     return true;
 }
 
-/* The log of lane `like` once more, as that of the last lane. */
+/* Copies the log of lane `like` for the last lane. */
 static bool copy_log(struct gm_session *session, size_t like)
 {
     struct gm_lane_spec *spec = &session->log.lanes[session->count];

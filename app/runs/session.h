@@ -8,28 +8,28 @@
 #include "core/parameter.h"
 #include "scenes/common/lane.h"
 
-/* What is explored: lanes of one scene that go through model time together, what was changed in flight, and
-   the snapshots to step back to. No threads, no clock, no terminal. */
+/* An exploration: lanes of one scene that advance together in model time, the changes made during the run,
+   and snapshots to step back to. It has no threads, clock or terminal. */
 
 enum { GM_MOST_LANES = 24 };
 
-/* How far a lane has gone through model time, whichever way: gone + |t - from|. */
+/* The model time that a lane has passed in both directions: gone + |t - from|. */
 struct gm_course {
     double gone, from;
 };
 
 struct gm_session {
     const struct gm_scene *scene;
-    size_t count; /* of lanes, at least 1 */
+    size_t count; /* number of lanes, at least 1 */
     struct gm_lane *lanes[GM_MOST_LANES];
     struct gm_past pasts[GM_MOST_LANES];
     struct gm_course courses[GM_MOST_LANES];
-    /* Parameters that wait for gm_session_restart; NULL where nothing was changed. Until then a lane keeps
-       its own: its problem was made for them. */
+    /* The parameters for gm_session_restart; NULL without changes. Until then a lane has those with which
+       its problem was made. */
     struct gm_lane_spec wanted[GM_MOST_LANES];
     struct gm_request log; /* the lanes' starts, and the changes since */
     bool overlaid;         /* all lanes in one panel */
-    bool visiting;         /* an earlier moment is looked at; later ones are kept until a lane goes on */
+    bool visiting;         /* an earlier moment is shown; later ones stay until a lane advances */
     bool turned;           /* time has run backwards since the start */
 };
 
@@ -37,13 +37,13 @@ struct gm_session {
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message);
 void gm_session_close(struct gm_session *session);
 
-/* All lanes at their start again, with the schemes they have now and the parameters as last set. If those
-   contradict, false with a sentence; the lanes then go on as they were. */
+/* Restarts all lanes with their current schemes and the parameters as last set. Returns false with a
+   sentence if those contradict each other; the lanes are then unchanged. */
 bool gm_session_restart(struct gm_session *session, char *message);
 
 /* ---- time ---- */
 
-/* 1 where time runs forwards, -1 where it runs backwards. */
+/* 1 if time runs forwards, -1 if it runs backwards. */
 double gm_session_direction(const struct gm_session *session);
 /* The time of the lane that is furthest in that direction, and the nearest time at which a lane that still
    goes makes its next step (infinite, in that direction, if none does). */
@@ -62,13 +62,13 @@ bool gm_session_turn(struct gm_session *session, char *message);
 /* The largest component of the difference of a lane's state from its start. */
 double gm_session_from_start(const struct gm_session *session, size_t lane);
 
-/* How much model time the lanes have gone through, and how much the snapshots reach over. */
+/* The model time that the lanes have passed, and the part of it for which there are snapshots. */
 double gm_session_gone(const struct gm_session *session);
 double gm_session_reach(const struct gm_session *session);
-/* Where the first snapshot after `gone` is; `gone` itself if there is none. */
+/* The model time of the first snapshot after `gone`; `gone` if there is no such snapshot. */
 double gm_session_after(const struct gm_session *session, double gone);
-/* Takes the lanes to the snapshots at or before `gone`; later ones stay within reach until a lane goes on.
-   False with a sentence if there are none. */
+/* Takes the lanes to the snapshots at or before `gone`; later ones stay available until a lane advances.
+   Returns false with a sentence if there are no snapshots. */
 bool gm_session_visit(struct gm_session *session, double gone, char *message);
 
 /* ---- changes ---- */
@@ -78,12 +78,12 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message);
    gm_session_restart. */
 bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
                     const char *text, bool *restart, char *message);
-/* Whether the lanes differ in a parameter. */
+/* Returns true if the lanes differ in a parameter. */
 bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row, bool of_scheme);
 /* The struct that holds a lane's parameters of the scene or of the schemes, as last set. */
 const void *gm_session_owner(const struct gm_session *session, size_t lane, bool of_scheme);
 
-/* Another scheme for a lane, from its present state on. */
+/* Changes the scheme of a lane at its current state. */
 bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_scheme *scheme,
                        char *message);
 
@@ -91,13 +91,13 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
 
 /* A further lane with the parameters of `like`, at its start. */
 bool gm_session_add(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
-/* A further lane with the state and the past of `like`, which goes on with another scheme. */
+/* Adds a lane with the state and the past of `like`, and another scheme. */
 bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
 bool gm_session_remove(struct gm_session *session, size_t lane, char *message);
 /* All lanes in one panel, or a panel for each. */
 bool gm_session_overlay(struct gm_session *session, char *message);
 
-/* The first scheme, in the scene's order, that fits and that no lane has; NULL if there is none. */
+/* The first scheme, in the scene's order, that fits and that no lane has, or NULL. */
 const struct gm_scheme *gm_session_unused(const struct gm_session *session);
 /* The schemes that fit, those the scene prefers first; returns how many, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
@@ -116,14 +116,14 @@ enum {
 enum { GM_COMMAND_PICTURE, GM_COMMAND_EXPLORER, GM_COMMANDS };
 
 struct gm_spark {
-    double low[GM_SPARK], high[GM_SPARK]; /* low > high where there is nothing */
+    double low[GM_SPARK], high[GM_SPARK]; /* low > high: no values */
 };
 
 struct gm_shot_lane {
     struct gm_shown shown; /* named as at its start */
     const struct gm_scheme *scheme, *first_scheme;
     enum gm_status status;
-    long lost; /* the observable that tells of it, gm_lane_lost; -1: nothing, or the lane has failed */
+    long lost; /* the observable that shows a lost quantity (gm_lane_lost); -1: none, or the lane failed */
     double t;
     double from_start; /* largest difference from the start's components */
     double values[GM_SHOT_OBSERVABLES];
@@ -176,19 +176,19 @@ void gm_shot_close(struct gm_shot *shot);
 /* Fills in what comes from the session; looks only. The picture is drawn, or left as it was. */
 void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw);
 
-/* Whether a lane has the scheme. */
+/* Returns true if a lane has the scheme. */
 bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme);
 
-/* How a parameter is moved by keys: along round values, of equal distance or of equal ratio. */
+/* Steps of a parameter by keys: round values, at equal distances or ratios. */
 
-/* Where the value stands in its range, 0 to 1; -1 if it has no range to be shown. */
+/* The position of the value in its range, 0 to 1; -1 if it has no range to show. */
 double gm_slider_position(const struct gm_parameter *row, const void *owner);
 
 /* The value at a place from 0 to 1 in the range, rounded, as it would be typed. False if it has no range. */
 bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_TEXT_SIZE]);
 
-/* The next value up (direction > 0) or down, as it would be typed; a fine one is about ten times nearer.
-   False if there is none. */
+/* The next value up (direction > 0) or down, as it would be typed; a fine step is about ten times smaller.
+   Returns false if there is no next value. */
 bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, bool fine,
                     char text[GM_TEXT_SIZE]);
 
