@@ -61,7 +61,7 @@ bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
     return good;
 }
 
-/* How long a word's key is; both keys of a run's end count as one. */
+/* The length of a word's key; both keys of a run's end count as one. */
 static size_t key_of(const char *word, const char **key)
 {
     *key = strncmp(word, "steps=", 6) == 0 ? "until=" : word;

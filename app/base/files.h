@@ -18,28 +18,28 @@ struct gm_file {
 
 /* The file that a word means; false: no name of this kind is that word. */
 bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file);
-/* Whether it means one. */
+/* Returns true if the word means a file. */
 bool gm_file_is(enum gm_file_kind kind, const char *word);
 
-/* Its text with a zero behind it; malloc'ed. NULL with a sentence (GM_MESSAGE bytes), as where it has more than
-   `most` bytes. */
+/* The file's text, ended by a zero byte; malloc'ed. Returns NULL with a sentence (GM_MESSAGE bytes) if it
+   cannot be read, or has more than `most` bytes. */
 char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *message);
 
-/* A name, what lists call its file (gm_file_title), and the line `about:`; "" where it cannot be read. */
+/* A name, the title in lists (gm_file_title), and the line `about:`; "" if it cannot be read. */
 struct gm_listed {
     const char *name, *title, *about;
     const struct gm_file *file;
 };
-/* Calls `each` for every file that has a name of this kind, but for those that memory is too short for. False, with a
-   sentence, where the environment names a folder that cannot be opened. */
+/* Calls `each` for every file that has a name of this kind, except files for which memory is short.
+   Returns false with a sentence if the environment names a folder that cannot be opened. */
 bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *listed, const void *data),
                    const void *data, char *message);
-/* Whether that folder can be opened, or there is none; false with the sentence. */
+/* Returns true if the environment names no folder or one that can be opened; else false with the sentence. */
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
 
-/* Where in some words something is wrong. */
+/* The place of a fault in some words. */
 struct gm_word_place {
-    int word;      /* below 0: nowhere in them */
+    int word;      /* index of the word; negative: no word has it */
     size_t offset; /* in bytes */
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pool of threads for one piece of work after the other: whoever is free begins the next one. */
+/* A pool of threads for pieces of work in their order: a free thread begins the next one. */
 #include "app/base/pool.h"
 
 #include <pthread.h>
@@ -29,7 +29,7 @@ static bool is_stopped(const struct gm_pool *pool)
     return pool->stopped && pool->stopped(pool->self);
 }
 
-/* Begins a piece: its number, or `count` when there is none any more. Under the lock. */
+/* Begins a piece and returns its number, or `count` after the last one. The caller holds the lock. */
 static size_t begin(struct crew *crew)
 {
     const struct gm_pool *pool = crew->pool;
@@ -141,5 +141,5 @@ size_t gm_pool_run(const struct gm_pool *pool)
     }
     free(crew.done);
     free(threads);
-    return started > 0 ? crew.taken : run_alone(pool); /* where there is no thread, there is this one */
+    return started > 0 ? crew.taken : run_alone(pool); /* without a thread the caller does the work */
 }
