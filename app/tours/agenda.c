@@ -13,7 +13,7 @@ struct gm_agenda gm_agenda_of(const struct gm_tour *tour, size_t step, size_t fr
     return (struct gm_agenda){.tour = tour, .step = step, .at_step = from};
 }
 
-/* The next change, in this step or in one that it builds on; NULL if there is none left. */
+/* The next change, in this step or in one on which it builds, or NULL. */
 static const struct gm_tour_change *next_change(struct gm_agenda *agenda)
 {
     for (; agenda->at_step <= agenda->step; agenda->at_step++, agenda->at_change = 0) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour from its file (docs/tours.md): lines to entries, a word and its text; entries to steps; and
-   everything that a step shows is tried out, so that a mistake is told of with its line before a class sees
-   it. */
+/* A tour from its file (docs/tours.md): lines to entries, a word and its text; entries to steps.
+   Everything that a step shows is tried out, so that a mistake is reported with its line before a class
+   sees it. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -75,7 +75,7 @@ static char *behind_blanks(char *text)
     return text;
 }
 
-/* Letters that a terminal would take for orders, and bytes that are no letters. */
+/* Returns true if a text has no letters that a terminal would obey, and no bytes outside letters. */
 static bool is_readable(const char *text)
 {
     for (uint32_t code; (code = gm_text_next(&text)) != 0;) {
@@ -86,7 +86,7 @@ static bool is_readable(const char *text)
     return true;
 }
 
-/* A line that begins with a blank goes on with the text above. */
+/* A line that begins with a blank continues the text above. */
 static void continue_entry(const struct reader *reader, long line, const char *text)
 {
     if (reader->count == 0) {
@@ -193,7 +193,7 @@ static void read_show(const struct reader *reader, const struct entry *entry, co
                       struct gm_tour_step *step)
 {
     parse_show(reader, entry->line, step);
-    /* a scene that is told where to stop draws its time axes so far */
+    /* a scene with an end draws its time axes up to there */
     if (until && !strstr(step->show, " until=") && !strstr(step->show, " steps=")) {
         step->show = gm_arena_print(reader->arena, "%s until=%s", step->show, until->text);
         parse_show(reader, until->line, step);
@@ -412,8 +412,8 @@ static void read_entries(const struct reader *reader)
     }
 }
 
-/* A word that names a file of a system or a room which lies beside the tour: its path; else the word as it is,
-   with paths of schemes from there. malloc'ed. */
+/* The path of a system's or room's file beside the tour that a word names; else the word, with paths of
+   schemes relative to the tour. malloc'ed. */
 static char *placed(const char *tour, const char *word)
 {
     const char *slash = strrchr(tour, '/'), *dot = strrchr(word, '.');
