@@ -61,8 +61,8 @@ static void path_of(const char *folder, const struct gm_cache_key *key, char pat
     snprintf(path, GM_CACHE_PATH, "%.3900s/%s%s", folder, key->text, ending);
 }
 
-/* The digest of a file's bytes but its last `without`, and these; false where it is no regular file of
-   ours. */
+/* The digest of a file's bytes except the last `without`, which go to `last`; false if the file is not
+   regular, or another user's. */
 static bool digest_file(int file, size_t without, struct gm_digest *digest, struct seal *last)
 {
     struct stat about;
@@ -96,13 +96,13 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     struct gm_digest digest;
     struct seal seal;
     path_of(folder, key, path);
-    /* without waiting for whoever might write to a pipe of that name */
+    /* a pipe of that name must not block */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) {
         return -1;
     }
     const bool read = digest_file(file, sizeof seal, &digest, &seal);
-    gm_digest_add(&digest, key->text, sizeof key->text); /* one that was moved here is none */
+    gm_digest_add(&digest, key->text, sizeof key->text); /* a library that was moved here has another key */
     const bool whole =
         read && memcmp(seal.magic, magic, sizeof magic) == 0 && seal.a == digest.a && seal.b == digest.b;
     if (!whole) {
@@ -139,7 +139,7 @@ bool gm_cache_keep(const char *folder, const char *library, const struct gm_cach
     }
     size_t count = 0, kept = good ? 1 : 0, bytes = 0;
     struct gm_cache_entry *entries = NULL;
-    gm_cache_list(folder, &entries, &count); /* where it cannot be read, nothing is dropped */
+    gm_cache_list(folder, &entries, &count); /* an unreadable folder drops nothing */
     for (size_t i = 0; i < count; i++) {
         bytes += entries[i].size;
         if (strcmp(entries[i].key.text, key->text) == 0) {
@@ -250,7 +250,7 @@ struct removed {
     char *sentence;
 };
 
-/* A folder that is not empty is somebody's: it is told, and left. */
+/* A folder that is not empty belongs to the user: it is reported and stays. */
 static void remove_entry(void *data, const char *path, const char *name, const struct stat *about)
 {
     (void)name;
