@@ -33,7 +33,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
 double gm_schedule_time(const struct gm_schedule *schedule, long frame);
 
 bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame);
-/* The last of our frames; -1 if there is none. */
+/* The last of our frames, or -1. */
 long gm_schedule_last(const struct gm_schedule *schedule);
 
 /* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Their metadata names the frame, the render and
