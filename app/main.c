@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint: the first word is the command, or a scene for the explorer; what that returns is the exit status,
-   unless memory was short. */
+/* geomint: the first word is the command, or a scene for the explorer. The command's result is the exit
+   status, unless memory was short. */
 #include <locale.h>
 #include <malloc.h>
 #include <signal.h>
@@ -107,7 +107,7 @@ static void keep_buffers(void)
         madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);
         free(block);
     } else {
-        gm_memory_forget(); /* it was asked for to be quick */
+        gm_memory_forget(); /* the request was only for speed */
     }
 }
 

@@ -26,7 +26,7 @@ enum gm_command {
     GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };
 
-/* The --options of a command line; what is not given is 0, NULL or as said. */
+/* The --options of a command line; an option that is not given is 0, NULL or the stated default. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
@@ -34,10 +34,10 @@ struct gm_options {
     const char *output; /* one picture's file; NULL: not given */
     const char *painter;
     const char *format_name;
-    enum gm_engine engine;            /* auto, if it is not given */
-    enum gm_format format;            /* of pictures: png, unless the two before say otherwise */
-    const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
-    const char *table, *retry, *join; /* of sweep */
+    enum gm_engine engine; /* auto, if it is not given */
+    enum gm_format format; /* the pictures' format: png, unless the two options before give another one */
+    const char *name;      /* the name of a chart's files, set only by `again`; NULL: the command's */
+    const char *table, *retry, *join; /* options of sweep */
     long every, frames, jobs;
     long shard, shards;            /* 0, 0: not given */
     double fps, rate;              /* NAN: not given */
@@ -45,9 +45,9 @@ struct gm_options {
     struct gm_appearance look;     /* 1280 x 720, light */
     double page[2];                /* the page's size in mm, if it was given; else 0 */
     bool sized;                    /* a size was given */
-    struct gm_overrides terminal;  /* what to believe of it */
-    struct gm_arguments arguments; /* what is left: scene, key=value, names */
-    struct gm_arena *arena;        /* in whose body the command runs: refused memory ends it */
+    struct gm_overrides terminal;  /* the assumed abilities of the terminal */
+    struct gm_arguments arguments; /* the other words: scene, key=value, names */
+    struct gm_arena *arena;        /* owns the command's memory: refused memory ends the command */
     int *end;                      /* the exit status of gm_command_end */
 };
 
@@ -63,9 +63,9 @@ bool gm_options_take_stdout(const struct gm_options *options);
 /* The description of an option, from which it is read, explained and completed. */
 struct gm_option {
     const char *name;  /* "--size" */
-    int kind;          /* of its value, as it is read */
+    int kind;          /* the kind of its value, for the reader */
     unsigned commands; /* the set of commands that take it */
-    size_t offset;     /* of its value in gm_options */
+    size_t offset;     /* the offset of its value in gm_options */
     const char *value; /* "WxH"; "" if it takes none */
     const char *help;
 };
@@ -74,7 +74,7 @@ extern const size_t gm_option_count;
 /* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
 const char *gm_option_name(const char *word);
 
-/* A command, as a line of commands.def says: its bit, its function, which returns the exit status, and texts. */
+/* A command, from a line of commands.def: its bit, its function, which returns the exit status, and texts. */
 struct gm_command_row {
     enum gm_command bit;
     int (*function)(const struct gm_options *options);

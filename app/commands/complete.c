@@ -121,14 +121,14 @@ static void offer_named(const struct stem *stem, const char *names)
     }
 }
 
-/* The values of an option; of files and numbers nothing is known. */
+/* The values of an option; files and numbers have no list. */
 static void offer_values(const struct gm_option *option, const struct stem *stem,
                          const struct gm_scene *scene)
 {
     if (strcmp(option->name, "--measure") == 0) {
         const char *comma = option->commands & (GM_SWEEP | GM_RUN) ? strrchr(stem->begin, ',') : NULL;
         struct stem last = *stem;
-        if (comma) { /* of a list the last one */
+        if (comma) { /* a list is completed at its last value */
             const size_t used = strlen(last.front);
             snprintf(last.front + used, sizeof last.front - used, "%.*s", (int)(comma + 1 - stem->begin),
                      stem->begin);
@@ -187,7 +187,7 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     }
 }
 
-/* All values of a parameter as a range: one of another kind is soon made of it. */
+/* All values of a parameter as a range, which is easily edited into another one. */
 static void offer_range(const struct stem *stem, const struct gm_parameter *row)
 {
     enum { FEW = 20 };
@@ -203,7 +203,7 @@ static void offer_range(const struct stem *stem, const struct gm_parameter *row)
     offer(stem, text, equal_factors ? "a range, by equal factors" : "a range, evenly");
 }
 
-/* key=value, where the value may be a list. */
+/* key=value; the value may be a list. */
 static void offer_assignment(const char *word, const struct gm_scene *scene, bool sweeps)
 {
     const struct stem stem = behind_last(word, "=,");

@@ -34,7 +34,7 @@ struct worker {
 struct series {
     const struct gm_options *options;
     struct gm_figure_output output;
-    struct gm_figure *user; /* of systems of somebody's own, as many as there are words */
+    struct gm_figure *user; /* user-defined systems, one per word */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes; /* shared with the workers */
     size_t count, next, made, printed;
@@ -89,7 +89,7 @@ static bool is_published(const char *word)
     return known;
 }
 
-/* The system of somebody's own that a word names; NULL with a sentence and an exit status. */
+/* The user-defined system that a word names; NULL with a sentence and an exit status. */
 static const struct gm_scene *own_scene(char *word, int *status, char *message)
 {
     const struct gm_scene *scene = gm_request_scene(1, &word, status, message);
@@ -101,7 +101,7 @@ static const struct gm_scene *own_scene(char *word, int *status, char *message)
     return scene;
 }
 
-/* The figures of systems of somebody's own among the words. */
+/* The figures of user-defined systems among the words. */
 static void plan_user_figures(struct series *series, const struct gm_arguments *words)
 {
     char message[GM_MESSAGE];
@@ -436,7 +436,7 @@ int gm_command_figures(const struct gm_options *options)
     }
     gm_catch_interrupts();
     run(series, &status);
-    /* finished ones behind one that was interrupted */
+    /* finished ones that follow an interrupted one */
     for (size_t i = series->printed; i < series->count; i++) {
         if (series->outcomes[i].progress == GM_MADE) {
             print_outcome(series, i);

@@ -22,8 +22,8 @@
 #include "core/ode/ode.h"
 #include "core/schemes.h"
 
-/* A row of a list: as JSON its texts with their keys, else the first, the second behind it, and in a long list those
-   that follow, up to number `longer`. */
+/* A row of a list: JSON has its texts with their keys; otherwise the first two, and in a long list the
+   next ones, up to number `longer`. */
 static void list_texts(const struct gm_options *options, const char *const texts[][2], size_t count,
                        size_t longer, int width)
 {
@@ -231,7 +231,7 @@ struct entry {
     size_t scheme_count;
     const struct gm_parameter **rows; /* the parameters of the scene and of its fitting schemes */
     size_t row_count;
-    const char *run, *render; /* their lanes */
+    const char *run, *render; /* the default lanes of these commands */
 };
 
 static void open_entry(struct entry *entry, const struct gm_scene *scene, const char *name,
@@ -334,7 +334,7 @@ static int list_scene(const struct gm_scene *scene, const char *name, const stru
 static const struct list {
     const char *name;
     int (*print)(const struct gm_options *options); /* returns an exit status; NULL: it is one of files */
-    const char *word;                               /* of one file, in JSON */
+    const char *word;                               /* the word for one file, in JSON */
     enum gm_file_kind kind;
 } lists[] = {{.name = "scenes", .print = list_scenes},
              {.name = "systems", .word = "system", .kind = GM_FILE_SYSTEM},

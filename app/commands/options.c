@@ -301,14 +301,14 @@ static const struct gm_option *find(const char *word, size_t length, enum gm_com
     return found;
 }
 
-/* The name without its dashes; "" where this command does not take it. */
+/* The name without its dashes; "" if this command does not take it. */
 static const char *name_at(size_t i, const void *data)
 {
     const enum gm_command *command = data;
     return gm_option_rows[i].commands & *command ? gm_option_rows[i].name + strlen("--") : "";
 }
 
-/* Says that there is no such option, and which one was probably meant, or all that the command has. */
+/* Reports an unknown option, with the one that was probably meant, or all options of the command. */
 static void refuse_option(char *message, const char *word, enum gm_command command)
 {
     char name[64];

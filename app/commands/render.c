@@ -34,11 +34,11 @@ struct work {
     struct gm_picture *picture;
     struct gm_schedule schedule;
     struct gm_provenance provenance;
-    /* of a sequence */
+    /* the files of a sequence */
     struct gm_frames frames;
-    char *checkpoint;                 /* its path; NULL: the lanes cannot be continued from a snapshot */
-    long done;                        /* the number of existing frames */
-    struct gm_sink *pictures, *movie; /* NULL: not wanted */
+    char *checkpoint; /* the checkpoint's path; NULL: the lanes cannot be resumed from a snapshot */
+    long done;        /* the number of existing frames */
+    struct gm_sink *pictures, *movie; /* NULL: not requested */
 };
 
 static const struct gm_lane *const *lanes_of(const struct work *work)
@@ -123,7 +123,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
     return true;
 }
 
-/* A frame that is there already goes into the movie as it is. */
+/* An existing frame goes into the movie as it is. */
 static bool reuse_frame(struct work *work, long frame, char *message)
 {
     if (!work->movie) {
@@ -164,7 +164,7 @@ static bool open_lanes(struct work *work, char *message)
     return true;
 }
 
-/* The state behind the last frame before the first that is missing, where a checkpoint has one. */
+/* Loads the state after the frame before the first missing one, if a checkpoint has it. */
 static bool resume(struct work *work, char *message)
 {
     const long first = gm_frames_missing(&work->frames, false);
@@ -189,7 +189,7 @@ static bool resume(struct work *work, char *message)
     return true;
 }
 
-/* The lanes as they are behind a frame, when all frames up to there are written. */
+/* Saves the lanes' state after a frame, when all frames up to it are written. */
 static bool keep_state(struct work *work, long frame, char *message)
 {
     return !gm_sink_flush(work->pictures) ||
@@ -199,7 +199,7 @@ static bool keep_state(struct work *work, long frame, char *message)
 
 static bool make_frames(struct work *work, char *message)
 {
-    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
+    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; part of the time that they may take */
     const double started = gm_clock_seconds();
     const bool progress = isatty(STDERR_FILENO);
     const long last = work->movie ? work->schedule.count - 1 : gm_frames_missing(&work->frames, true);
@@ -306,8 +306,8 @@ static void tell_warnings(const struct work *work)
     }
 }
 
-/* The ends that are none of those asked for, each once; a scene's own lanes end where their picture is
-   best. */
+/* Reports ends that differ from the requested ones, each once; a scene's default lanes end at the best
+   picture. */
 static void tell_other_ends(const struct work *work)
 {
     char last[GM_MESSAGE] = "", sentence[GM_MESSAGE];

@@ -27,7 +27,7 @@ struct outputs {
     const struct gm_options *options;
     struct gm_chosen chosen; /* the observables to print */
     struct gm_rows rows;
-    FILE *csv;   /* NULL: not asked for, as the others */
+    FILE *csv;   /* NULL: not requested, as for the others */
     int csv_why; /* errno of the row that could not be written; 0: all could */
     struct gm_save *save;
     struct gm_pause *pause;
@@ -42,9 +42,9 @@ struct outcome {
     double *maxima;           /* one per observable, of largest magnitude; NULL without --max */
     char *front;              /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
     bool interrupted;         /* before it came to its end */
-    struct outputs *outputs;  /* of all lanes */
+    struct outputs *outputs;  /* the files that all lanes share */
     struct gm_paused paused;  /* numbers: the maxima */
-    char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
+    char warning[GM_MESSAGE]; /* the warning on an end with status ok, or "" */
 };
 
 static bool is_standard_output(const char *path)
@@ -63,7 +63,7 @@ static double observe_told(const struct outcome *outcome, size_t i)
     return gm_lane_observe(outcome->drive.lane, outcome->outputs->chosen.numbers[i]);
 }
 
-/* Why there is no value of it; NULL: there is one. */
+/* The reason for its missing value, or NULL. */
 static const char *missing(const struct outcome *outcome, size_t i)
 {
     return isnan(outcome->values[i])
@@ -142,7 +142,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     for (size_t i = 0; i < count; i++) {
         reasoned |= missing(outcome, i) != NULL;
     }
-    if (reasoned) { /* why values are null */
+    if (reasoned) { /* the reasons for null values */
         struct gm_row reasons = gm_row_open(&row, "reasons", '}');
         for (size_t i = 0; i < count; i++) {
             if (missing(outcome, i)) {
@@ -156,7 +156,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         snprintf(layout, sizeof layout, "y[component * m + member], n = %zu components, m = %zu members",
                  lane->problem.n, lane->problem.m);
         gm_row_text(&row, "layout", layout);
-        /* null: a tracer that was lost */
+        /* null: a lost tracer */
         gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }
     printf("}\n");
@@ -169,7 +169,7 @@ static void print_text(const struct outcome *outcome)
     const struct gm_shown *shown = &lane->shown;
     gm_say("%s  %s%s%s%s%s", lane->scene->name, lane->scheme->name, shown->panel_name[0] ? "  " : "",
            shown->panel_name, shown->colour_name[0] ? "  " : "", shown->colour_name);
-    int width = 0; /* of the names */
+    int width = 0; /* the width of the names, in columns */
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         const int length = (int)strlen(told(outcome, i)->key) + (outcome->maxima ? 4 : 0);
         width = length > width ? length : width;
@@ -356,7 +356,7 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
     }
     const bool good = keep_state(outcome, message);
     pace->looked = gm_clock_seconds();
-    /* what is kept may be large: it takes a small part of the time */
+    /* a saved state may be large: saving takes a small part of the time */
     pace->kept = pace->looked + fmax(0, share * (pace->looked - now) - interval);
     return good;
 }
@@ -549,7 +549,7 @@ static bool fits_saved(const struct outcome *outcome, char *message)
                      outputs->options->save, outputs->options->from_checkpoint);
 }
 
-/* Runs one lane; how it ended, if not well, is the last row of its history. */
+/* Runs one lane; the status of a failed run is the last row of its history. */
 static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
 {
     outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
@@ -695,7 +695,7 @@ static bool has_profile(const struct gm_request *request)
     struct gm_lane *lane = request->scene->profile ? NULL : gm_request_open_lane(request, 0, message);
     const bool has = request->scene->profile || !lane || gm_profile_is_there(lane->run);
     gm_lane_close(lane);
-    return has; /* a lane that cannot be opened says why later */
+    return has; /* a lane that cannot be opened gives its reason later */
 }
 
 /* Opens the requested files. Returns the exit status, with a sentence unless it is 0. */
@@ -718,7 +718,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         while (i < request->count && !request->lanes[i].scheme->family->not_resumable) {
             i++;
         }
-        const bool keeps_to_itself = i < request->count; /* the library behind a scheme */
+        const bool keeps_to_itself = i < request->count; /* the library of a scheme does not give its state */
         gm_refuse(message, "a run %s%s cannot be gone on with from a checkpoint",
                   keeps_to_itself ? "by " : "",
                   keeps_to_itself ? request->lanes[i].scheme->name : "that is changed in flight");

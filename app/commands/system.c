@@ -40,16 +40,16 @@ static const struct {
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
 };
 
-enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
+enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
 
 struct report {
-    struct gm_arena *arena; /* of its texts */
+    struct gm_arena *arena; /* owns the report's texts */
     struct gm_user_system system;
     struct gm_user_model model;
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     struct gm_user_wave wave;
-    struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
+    struct gm_problem problem; /* for the file's values; not opened if no scheme can advance it */
 };
 
 static bool fits(const struct report *report, const struct gm_scheme *scheme)
@@ -141,7 +141,7 @@ static gm_node_id equation_of(const struct report *report, size_t i, bool latex,
         *left = name_row(report, i, latex);
     } else if (system->kind == GM_EVOLUTION) {
         *left = name_rate(report, i, latex);
-    } else if (system->kind == GM_FIELD) { /* number 1: the first one says that u_t is u_t */
+    } else if (system->kind == GM_FIELD) { /* the first equation of a field only states u_t = u_t */
         const char *name = name_of(report, system->variables[0].name, latex);
         *left = gm_arena_print(report->arena,
                                latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
@@ -175,7 +175,7 @@ static bool is_kept(const struct gm_system_item *item)
     return item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
 }
 
-/* The name of an invariant; of a momentum map without one its number. */
+/* The name of an invariant; a momentum map without a name has its number. */
 static const char *kept_name(const struct report *report, const struct gm_system_item *item)
 {
     int number = 0;
@@ -502,7 +502,7 @@ static void tidy(struct report *report, gm_node_id *node)
     if (*node != GM_NO_NODE && report->system.graph.places[*node] == GM_NO_PLACE) {
         const gm_node_id tidied = gm_formula_tidied(&report->system.graph, *node, &naming);
         char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
-        *node = text ? tidied : *node; /* what is multiplied out may be too long to be read */
+        *node = text ? tidied : *node; /* an expanded formula may be too long to read */
         free(text);
     }
     gm_arena_need(report->arena, !gm_memory_was_short());

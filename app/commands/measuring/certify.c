@@ -103,7 +103,7 @@ static void print_certificate(const struct gm_certificate *certificate)
 
 /* ---- the diagram of the order ---- */
 
-/* Errors against dt, beside lines of the order that is claimed. Of a name that several rows have, each has its line. */
+/* Errors against dt, with lines of the claimed order; each row of a shared name has its line. */
 struct orders {
     const struct gm_certificate *certificates;
     size_t count;
@@ -298,7 +298,7 @@ static bool is_interrupted(void *self)
 
 /* ---- on one system ---- */
 
-/* The scheme is the first word, the others say more of the system. */
+/* The scheme is the first word, the others describe the system. */
 static int certify_on(const struct gm_options *options)
 {
     const struct gm_arguments *typed = &options->arguments;
