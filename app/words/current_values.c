@@ -102,7 +102,7 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         if (i == LANES) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
-        } else if (i < LANES && put[i]) { /* its range stays */
+        } else if (i < LANES && put[i]) { /* the range stays */
             fwrite(scene->text + from, 1, value.begin - from, stream);
             fputs(gm_parameter_format(rows[i], parameters, number, sizeof number), stream);
             from = value.end;

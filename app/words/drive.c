@@ -173,7 +173,7 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
 
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message)
 {
-    const struct gm_lane *lane = drive->lane; /* its run is another one after a change of scheme */
+    const struct gm_lane *lane = drive->lane; /* a change of scheme replaces the lane's run */
     const int64_t end = drive->request->lanes[drive->index].steps;
     int64_t before = -1;
     /* repeats until no step is due: step size control, or a change, may have shortened the steps */
@@ -258,7 +258,7 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
 static double overshoot(const struct gm_drive *drive)
 {
     const struct gm_run *run = drive->lane->run;
-    const double until = drive->request->lanes[drive->index].until; /* NAN: not asked for */
+    const double until = drive->request->lanes[drive->index].until; /* NAN: not requested */
     const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
     return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }

@@ -8,8 +8,8 @@
 
 struct gm_drive {
     struct gm_lane *lane;
-    const struct gm_request *request; /* for its changes */
-    size_t index;                     /* of the lane */
+    const struct gm_request *request; /* the request that has the changes */
+    size_t index;                     /* index of the lane in the request */
     size_t next_change;
     double seconds;     /* CPU time of the steps, in seconds */
     double each;        /* CPU time of one step, in seconds, when it was last measured */
@@ -36,7 +36,7 @@ bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step);
    an upper bound. */
 int64_t gm_drive_end(const struct gm_drive *drive, int64_t step);
 
-/* Advances to where the lane is looked at for the time t (gm_run_steps_by), but not beyond its own end. */
+/* Advances to the lane's last step for the time t (gm_run_steps_by), at most to the lane's end. */
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 
 /* Writes one sentence on the failure of a lane; empty for GM_OK. */

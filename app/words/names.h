@@ -16,20 +16,19 @@ enum { GM_FITTING_SCHEMES = 256 };
 void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *problem,
                     const struct gm_scheme **schemes, size_t *count);
 
-/* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
+/* The schemes that fit a scene at its defaults; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
 /* Writes for each of these schemes the one whose steps are the same there at its defaults, or NULL. */
 void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const *schemes, size_t count,
                      const struct gm_scheme **same);
 
-/* The same, and behind them those that the scene's own text takes on another kind of grid. */
+/* The same, followed by schemes for the scene's text on another kind of grid. */
 size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
 
 /* Returns true if at least one of these schemes has this parameter, a row of gm_settings_parameters. */
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
 
-/* Observables that were asked for, by their numbers (gm_scene_observable_at), in the order in which they
-   were. */
+/* Requested observables, by their numbers (gm_scene_observable_at), in the requested order. */
 struct gm_chosen {
     size_t *numbers;
     size_t count;

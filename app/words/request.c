@@ -120,7 +120,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
     return false;
 }
 
-/* Adds "Δt = 0.1" for a key and its value, or a scheme's title, to what a name says already. */
+/* Appends "Δt = 0.1" for a key and its value, or a scheme's title, to a name. */
 static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
                      size_t size)
 {
@@ -180,7 +180,7 @@ static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec 
     }
     shown->dash = colours ? shown->panel : shown->colour;
     if (strcmp(shown->panel_name, spec->scheme->title) == 0) {
-        shown->panel_name[0] = '\0'; /* which is what "" stands for */
+        shown->panel_name[0] = '\0'; /* "" means the scheme's title */
     }
 }
 
@@ -359,9 +359,9 @@ static double rate_of(const struct gm_request *request, size_t index, char *mess
     return rate > 0 && isfinite(rate) ? rate : NAN;
 }
 
-/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured over
-   some steps from its start, and names the step where the lane is named. False with a sentence if a scheme
-   counts no evaluations or the step leaves its range. */
+/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured
+   over some steps from its start, and adds the step size to the lane's name. Returns false with a sentence
+   if a scheme counts no evaluations or the step leaves its range. */
 static bool equal_cost(struct gm_request *request, size_t index, size_t like, char *message)
 {
     struct gm_lane_spec *spec = &request->lanes[index];
@@ -387,7 +387,7 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     char text[sizeof shown->panel_name];
     const int length =
         snprintf(text, sizeof text, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
-    if (length > 0 && (size_t)length < size) { /* else the name alone says more than half of both */
+    if (length > 0 && (size_t)length < size) { /* the name alone is better than a cut text */
         memcpy(name, text, (size_t)length + 1);
     }
     return !isnan(wanted);
@@ -441,7 +441,7 @@ static bool equalise(struct gm_request *request, const struct gm_words *words, c
     return true;
 }
 
-/* Both steps= and until= were typed; the step that both mean, where each is one number. */
+/* Refuses steps= with until=, with the common step size if each is one number. */
 static bool refuse_two_ends(const struct gm_scene *scene, const struct gm_words *words, char *message)
 {
     char text[2][GM_TEXT_SIZE], both[128] = "";
@@ -560,7 +560,8 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
         request->arguments = gm_words_join(request->scene, &words);
         good = request->arguments || gm_refuse(message, "not enough memory");
     }
-    if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
+    if (gm_memory_refusals() !=
+        refusals) { /* a lack of memory may appear as a fault of a mesh or of its file */
         good = gm_refuse(message, "not enough memory");
         request->refusal = GM_EXIT_FILE;
     }

@@ -56,7 +56,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
             return false;
         }
         const char *slash = strrchr(file->path, '/'), *base = slash ? slash + 1 : file->path;
-        /* a title, without what ends one where the scheme is one word, and no half letter */
+        /* a title without the file's ending and without an incomplete letter */
         size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
         letters = letters < sizeof reading->title ? letters : sizeof reading->title - 1;
         while (letters > 0 && ((unsigned char)base[letters] & 0xC0) == 0x80) {

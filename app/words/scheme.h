@@ -20,8 +20,8 @@ const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *me
    (core/ode/user/polish.h). Returns NULL with a sentence, as gm_scheme_named. */
 char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unreadable, char *message);
 
-/* A word of a request as somebody typed it in the file at this path: what is "scheme=..." names files from
-   the folder of that one. malloc'ed, NULL: out of memory. */
+/* A request's word from the file at this path: files after "scheme=" are relative to its folder.
+   malloc'ed. Returns NULL when out of memory. */
 char *gm_scheme_words_from(const char *path, const char *word);
 
 /* Returns true if the name means a scheme; a word is not stored. Returns false with a sentence, and the

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems and rooms, of files and of formulas. */
+/* The scenes of systems and rooms, from files and from formulas. */
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 
@@ -63,10 +63,10 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 
 /* ---- scenes ---- */
 
-/* A scene that was made, and what of; or a text that a word means. They live as long as the program. */
+/* A scene with its words and text, or a text that a word means. They live as long as the program. */
 struct gm_made_system {
     struct gm_made_system *next;
-    char *key; /* the words and the text; of a text the word */
+    char *key; /* the words and the text; for a text the word */
     char *text;
     struct gm_arguments words;
     char *name;
@@ -141,7 +141,7 @@ struct making {
     struct gm_typed_file written;
     struct gm_file file;
     bool room;
-    struct gm_user_system first, system; /* as it is read, and with the values that it is built on */
+    struct gm_user_system first, system; /* the system as read, and with the values on which it is built */
     struct gm_system_value *values;
     size_t value_count;
     bool moves;     /* a field, with schemes that move its mesh */
@@ -159,7 +159,7 @@ static bool refuse_text(struct making *making, const struct gm_fault *fault)
     return false;
 }
 
-/* The words that the scene is made of: formulas, and values that the graph is built on. */
+/* The words on which the scene is built: formulas, and values for the graph. */
 static bool choose_words(struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -229,7 +229,7 @@ static size_t line_of(const struct gm_typed_file *written, const char *sentence)
     return first;
 }
 
-/* The equations of a system that was read, with the values that these are built on; what was read is emptied. Then the
+/* Builds the equations of the read system with its values, and empties the read one. Then builds the
    scene. */
 static bool open_system(struct making *making)
 {
@@ -320,7 +320,7 @@ static void refuse_memory(const struct making *making)
     gm_place_show(written->text, written->length, fault.offset, making->message);
 }
 
-/* Makes a scene of the text, or finds the one that was kept. */
+/* Makes a scene of the text, or finds the existing one. */
 static void make(struct making *making)
 {
     const struct gm_typed_file *written = &making->written;

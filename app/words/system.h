@@ -7,8 +7,8 @@
 
 #include "app/base/files.h"
 
-/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
-   text, a caret below the place. */
+/* The scenes of user-defined systems and rooms. Sentences may have three lines: the fault, the text, and a
+   caret below the place. */
 
 struct gm_arguments;
 struct gm_file;
@@ -27,22 +27,23 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 /* Returns true if the first word means a system: a file's, or `system` with a formula after it; or a room
    of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
-/* The keys that say, or replace, the formulas of some words whose first means a system, until NULL. */
+/* The keys of formulas that the words of a system, of which this is the first, may set or replace, until
+   NULL. */
 const char *const *gm_system_keys(const char *word);
 /* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
    built have the given values, and typed formulas replace those of the file. The scene lives as long as
    the program, and the same words give the same scene. Returns NULL with a sentence and an exit status. */
 const struct gm_scene *gm_system_scene(int count, char *const words[], int *status, char *message);
 
-/* A scene of words that are still being typed: nothing is kept of it, unless it was there before. */
+/* A scene of words during typing: it is discarded, unless it existed before. */
 struct gm_system_trial {
     const struct gm_scene *scene;
     int status; /* the exit status if there is no scene */
     struct gm_word_place place;
-    struct gm_made_system *made; /* its own */
+    struct gm_made_system *made; /* the trial's scene */
 };
-/* False with a sentence. To be closed in both cases, before which it may be kept: from then on the same words
-   mean this scene, as long as the program lives. */
+/* Returns false with a sentence. The caller closes it in both cases, and may store it before: from then on
+   the same words mean this scene, as long as the program lives. */
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message);
 void gm_system_trial_keep(struct gm_system_trial *trial);
 void gm_system_trial_close(struct gm_system_trial *trial);

@@ -20,14 +20,14 @@ struct gm_typed_fault {
 bool gm_typed_split(struct gm_arguments *words, const char *line);
 char *gm_typed_join(const struct gm_arguments *words);
 
-/* Reads a line that says a system: a formula, H= L= rate=, a file or a name, with key=value; or a scene with
-   its own. `schemes` as of gm_request_parse. False with a fault. */
+/* Reads a line of a system: a formula, H= L= rate=, a file or a name, with key=value; or of a scene with
+   its keys. `schemes`: see gm_request_parse. Returns false with a fault. */
 bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
                       struct gm_typed_fault *fault);
 /* Returns true if the line can be read; stores nothing. */
 bool gm_typed_check(const char *line, struct gm_typed_fault *fault);
 
-/* The same of a scheme: a name, a path, a word. */
+/* The same for a scheme: a name, a path, a word. */
 const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault);
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault);
 

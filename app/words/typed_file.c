@@ -200,16 +200,16 @@ struct names {
 /* The typed words, to be written as the lines of a file. */
 struct typing {
     const struct gm_typed_file *file;
-    struct gm_formula *graph;      /* of the formula that is read while its names have no values yet */
+    struct gm_formula *graph;      /* a formula that is read before its names have values */
     struct gm_fault fault;         /* the first fault */
-    struct gm_word_place wrong;    /* its place */
-    struct names names;            /* in the formulas */
+    struct gm_word_place wrong;    /* the place of the fault */
+    struct names names;            /* names in the formulas */
     struct names parts;            /* components of the state */
-    struct names given;            /* which have a value, and those that need none: the indices of sums */
-    bool has[FORMULA_COORDINATES]; /* which of H, L and rate there are */
+    struct names given;            /* names with a value, or that need none: the indices of sums */
+    bool has[FORMULA_COORDINATES]; /* true for those of H, L and rate that are given */
     bool usual;                    /* the coordinates are q or q1, q2, as none are given */
     bool velocities;               /* they are called v, or v1, v2 */
-    char lines[16 * MOST_NAMES];   /* of the usual coordinates */
+    char lines[16 * MOST_NAMES];   /* the lines of the default coordinates */
 };
 
 static bool is_name(const struct name *name, const char *text, size_t length)
@@ -261,7 +261,7 @@ static void collect(struct names *names, struct names *indices, const char *text
         if (*behind == '=') {
             note(indices, text, length);
         } else if (*behind != '(' &&
-                   !gm_formula_reserves(text, length)) { /* what is called is a function, or none */
+                   !gm_formula_reserves(text, length)) { /* a called name is not a variable */
             note(names, text, length);
         }
         text += length;
@@ -404,7 +404,7 @@ static bool needs_none(const struct typing *typing, const struct name *name, boo
     if (is_name(name, "t", 1) || holds(given, name->text, name->length)) {
         return true;
     }
-    const int digits = (int)name->length - 1; /* p1 is not needed where v_q1 or v1 is given */
+    const int digits = (int)name->length - 1; /* p1 is not needed if v_q1 or v1 is given */
     if (typing->usual && typing->has[FORMULA_L] && name->text[0] == 'p' && digits < 30 &&
         (holds_written(given, "v_q%.*s", digits, name->text + 1) ||
          holds_written(given, "v%.*s", digits, name->text + 1))) {
@@ -429,7 +429,7 @@ static struct gm_word_place place_of(const struct gm_typed_file *file, const cha
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
     char missing[160] = "";
-    bool file_momenta = false; /* as momenta are called in a file, and with coordinates= */
+    bool file_momenta = false; /* momenta are named as in a file, and with coordinates= */
     for (int parameters = 0; parameters < 2; parameters++) {
         const struct names *needed = parameters ? &typing->names : &typing->parts;
         for (size_t i = 0; i < needed->count; i++) {
@@ -458,7 +458,7 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
     return !missing[0];
 }
 
-/* Writes what the system is made of, and notes which names have a value at the start. */
+/* Writes the lines of the system, and notes the names with a value at the start. */
 static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place *place, char *message)
 {
     static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", NULL};

@@ -12,14 +12,14 @@ struct gm_fault;
 
 /* A fault in a line that a word wrote is reported at its place in the word. */
 struct gm_typed_file { /* {0} is an empty text */
-    const char *path;  /* NULL: of words alone */
+    const char *path;  /* NULL: only words */
     char *text;        /* malloc'ed */
     size_t length;
     int count;
     char *const *words; /* "NAME key=value ..." */
 };
 
-extern const char *const gm_typed_keys[];     /* of words alone: H L rate coordinates momenta, and NULL */
+extern const char *const gm_typed_keys[];     /* for words only: H L rate coordinates momenta, and NULL */
 extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
 
 /* Returns true if a word sets H, L or rate. */

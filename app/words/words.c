@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The words behind a scene's name: keys with lists of values, which may be ranges, and their product. */
+/* The words after a scene's name: keys with lists of values, which may be ranges, and their product. */
 #include "app/words/words.h"
 
 #include <math.h>
@@ -435,7 +435,7 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
     return true;
 }
 
-/* The schemes that a scene prefers where these words are typed. */
+/* The schemes that a scene prefers if these words are typed. */
 static const struct gm_preference *preferred(const struct gm_scene *scene, int count, char *const typed[])
 {
     for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
@@ -479,7 +479,7 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
         good = (!word && is_idle(scene, typed, arguments.words[i])) ||
                gm_arguments_add(words, word ? word : arguments.words[i]);
     }
-    for (int i = 1; good && i < typed->count; i++) { /* those without a place yet, or given twice */
+    for (int i = 1; good && i < typed->count; i++) { /* typed words without a place, or given twice */
         const bool placed = gm_arguments_have(&arguments, typed->words[i]) &&
                             gm_arguments_find(typed, typed->words[i]) == typed->words[i];
         good = placed || gm_arguments_add(words, typed->words[i]);

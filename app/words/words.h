@@ -11,7 +11,7 @@
 /* Values between two ends, both included: "0..0.9:10" evenly, "1e-4..1e-1:log7" by equal factors. */
 
 struct gm_range {
-    double first, last; /* first < last; of equal factors: of one sign */
+    double first, last; /* first < last; for equal factors both have one sign */
     size_t count;       /* at least 2, at most 1e15 */
     bool logarithmic;
 };
@@ -34,7 +34,7 @@ struct gm_word {
     char *key;
     struct gm_word_piece pieces[GM_MOST_PIECES];
     size_t piece_count;
-    size_t count; /* of values */
+    size_t count; /* number of values */
 };
 
 struct gm_words {
@@ -50,7 +50,7 @@ struct gm_common_key {
 };
 extern const struct gm_common_key gm_common_keys[];
 extern const size_t gm_common_key_count;
-/* NULL if there is none of that name */
+/* The key with that name, or NULL. */
 const struct gm_common_key *gm_common_key_find(const char *name);
 
 /* Reads `count` words "key=value,value" for a scene; without scheme= the first `schemes` that it prefers are
@@ -69,7 +69,7 @@ const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const
 /* Returns true if the values of a key are numbers. */
 bool gm_word_is_number(const struct gm_scene *scene, const char *key);
 
-/* NULL if the key was not typed. */
+/* The word with that key, or NULL. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
 /* Value `index` of a list: as typed, or, of a range, in `text` (GM_TEXT_SIZE bytes) as it would be. */
@@ -77,7 +77,7 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
 
-/* Makes an overlay=yes among them overlay=no: there are more lanes than colours. False when memory is short. */
+/* Changes overlay=yes to overlay=no: there are more lanes than colours. Returns false when out of memory. */
 bool gm_words_separate(struct gm_words *words);
 
 /* Returns true if a common key with choices has the second one: yes, cost. */
@@ -95,7 +95,7 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *count, ch
 /* The index of run `lane`'s value in list i. The first list changes slowest. */
 size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
 
-/* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */
+/* "SCENE key=value ..."; malloc'ed. Returns NULL when out of memory. */
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words);
 
 #endif
