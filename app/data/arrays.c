@@ -98,7 +98,7 @@ static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_sa
     return good ? npz : NULL;
 }
 
-enum { CONTENTS = 1 << 16, HEADS = 512 /* of a column */ };
+enum { CONTENTS = 1 << 16, HEADS = 512 /* bytes of a column's head */ };
 
 /* The size of the archive's end, meta and the table of contents. It has room from the start, so that the
    archive can be finished on a full disk. */
@@ -285,7 +285,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good;
 }
 
-/* The columns take their numbers out of the rows. Where one of them fails the rows are counted (cut). */
+/* Copies the columns' numbers out of the rows. If a column fails the rows are counted (cut). */
 static bool rows(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                  const double *rows, size_t count)
 {
@@ -318,7 +318,7 @@ static bool end(const struct gm_saving *saving, struct gm_saved *lane)
     char name[80];
     bool good = true;
     const bool full = lane->rows == lane->capacity || make(saving, lane, lane->rows);
-    if (!full && saving->kept) { /* what the checkpoint counts stays in its places */
+    if (!full && saving->kept) { /* rows that the checkpoint counts must not move */
         return false;
     }
     /* without room for another file the one that there is has gaps, of which a reader knows nothing */

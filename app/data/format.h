@@ -79,7 +79,7 @@ enum gm_npz_type { GM_NPZ_REAL, GM_NPZ_WHOLE /* 64 bits */ };
 
 enum { GM_NPZ_AXES = 4 };
 
-/* Begins an archive at the start of `file`, which stays the caller's; NULL when memory is short. */
+/* Begins an archive at the start of `file`, which the caller closes. Returns NULL when out of memory. */
 struct gm_npz *gm_npz_open(int file);
 void gm_npz_close(struct gm_npz *npz);
 

@@ -18,7 +18,7 @@ enum { TYPE = 24, NPY_HEAD = 256 };
 
 struct entry {
     char *name;           /* with its ending */
-    uint64_t place, size; /* of the header; of head and numbers */
+    uint64_t place, size; /* offset of the header; size of head and numbers */
     uint32_t crc;
     char type[TYPE];
     size_t item, axes, head; /* bytes of a number, and of the head */
@@ -29,12 +29,12 @@ struct gm_npz {
     int file;
     struct entry *entries;
     size_t count, capacity;
-    uint64_t place; /* where the next entry begins */
+    uint64_t place; /* offset of the next entry */
     bool failed;
 };
 
 enum {
-    MOST_16 = 0xFFFF, /* in their places: look at the 64-bit record */
+    MOST_16 = 0xFFFF, /* a field with this value refers to the 64-bit record */
     LOCAL = 0x04034b50,
     CENTRAL = 0x02014b50,
     END = 0x06054b50,
@@ -165,7 +165,7 @@ void gm_npz_close(struct gm_npz *npz)
     free(npz);
 }
 
-/* Takes a malloc'ed name; NULL when memory is short. */
+/* Takes a malloc'ed name. Returns NULL when out of memory. */
 static struct entry *add_entry(struct gm_npz *npz, char *name)
 {
     if (npz->count == npz->capacity) {

@@ -51,7 +51,8 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
     const char *reason = NULL;
     for (size_t i = 1; first && i < request->count && !reason; i++) {
         struct gm_lane *lane = gm_request_open_lane(request, i, message);
-        reason = lane ? format->refuse(first->run, lane->run) : NULL; /* one that cannot be says why later */
+        reason = lane ? format->refuse(first->run, lane->run)
+                      : NULL; /* a lane that cannot be opened gives its reason later */
         gm_lane_close(lane);
     }
     gm_lane_close(first);
@@ -251,8 +252,8 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
     return true;
 }
 
-/* Puts the lanes behind each other in `file`, the first of which is `there` already. Without room for all of
-   them, those that come first. */
+/* Appends the lanes to each other in `file`, which has the first one if `there`. Without room for all of
+   them, it has the first ones. */
 static bool join(struct gm_save *save, int file, bool there)
 {
     const struct gm_saving *saving = &save->saving;

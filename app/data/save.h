@@ -111,7 +111,7 @@ bool gm_profile_is_there(const struct gm_run *run);
 /* "x,u,..." */
 void gm_profile_columns(const struct gm_run *run, FILE *stream);
 
-/* The rows, each beginning with `front`. False when memory is short. */
+/* The rows, each beginning with `front`. Returns false when out of memory. */
 bool gm_profile_write(const struct gm_run *run, const char *front, FILE *stream);
 
 #endif

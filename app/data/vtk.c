@@ -29,8 +29,8 @@ struct group {
     enum shape shape;
     size_t points, cells;
     const struct gm_quantity *axes[3]; /* NULL: 0 */
-    const struct gm_quantity *height;  /* of a line: what y is */
-    const struct gm_quantity *corners; /* of triangles */
+    const struct gm_quantity *height;  /* the y of a line */
+    const struct gm_quantity *corners; /* the corners of triangles */
     bool apart; /* each triangle has corners of its own, as on a torus, whose seam would be drawn across */
 };
 
@@ -38,7 +38,7 @@ enum section { FIELD, POINT, CELL, PLACES, TOPOLOGY, SECTIONS };
 enum { SOLID = 3 /* VTK's vectors have three components */, LONGEST = 32 };
 enum { VTK_POLY_VERTEX = 2, VTK_POLY_LINE = 4, VTK_TRIANGLE = 5 };
 
-/* An array of a file: what its head says, and who writes it. */
+/* An array of a file: the entries of its head, and its writer. */
 struct array {
     enum section section;
     const char *name, *type;
@@ -209,7 +209,7 @@ static void write_values(const struct group *group, const struct array *array, F
 /* The section of a quantity; SECTIONS: this file leaves it out. */
 static enum section section_of(const struct group *group, const struct gm_quantity *quantity)
 {
-    const bool line = group->shape == LINE && quantity->fixed; /* its grid is the points' x */
+    const bool line = group->shape == LINE && quantity->fixed; /* the line's grid is the points' x */
     if (quantity == group->corners || line || quantity == group->axes[0] || quantity == group->axes[1] ||
         quantity == group->axes[2]) {
         return SECTIONS;
@@ -360,10 +360,10 @@ static const struct {
 static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const char *slash = strrchr(saving->path, '/');
-    /* of the files' paths, which the list leaves out */
+    /* the length of the folder's path, which the list leaves out */
     const size_t front = slash ? (size_t)(slash + 1 - saving->path) : 0;
     bool good = true;
-    errno = ENOMEM; /* where no call to a file says otherwise */
+    errno = ENOMEM; /* the reason if no call for a file gives another one */
     int parts = 0;
     for (size_t i = 0; i < GM_COUNT(groups) && good; i++) {
         struct group group;
@@ -379,11 +379,11 @@ static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, 
         parts++;
         free(path);
     }
-    /* one line a row, which is there with its files */
+    /* one line per row, which exists with its files */
     return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
 }
 
-/* The groups of a lane with their arrays, and where those of the file of all rows are. */
+/* The groups of a lane with their arrays, and the offsets in the file of all rows. */
 struct places {
     size_t groups, counts[GM_COUNT(groups)];
     struct group group[GM_COUNT(groups)];
@@ -461,7 +461,7 @@ static bool put_item(struct gm_column *lines, const struct group *group, const s
 static bool put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
 {
     struct gm_column *lines = &lane->columns[0];
-    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* of arrays that change, and of others */
+    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* of changing arrays, and of others */
     bool good = gm_column_print(
         lines,
         "<Grid Name=\"row\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"%.17g\"/>", t);
@@ -522,7 +522,7 @@ static void shorten(const struct gm_saving *saving, const struct gm_saved *lane,
     find_places(lane, NULL, &places);
     char *path = rows_path_of(saving, lane);
     const bool cut = path && rows > 0 && truncate(path, (off_t)place_of_row(&places, rows)) == 0;
-    if (path && !cut && rows == 0) { /* what is longer than its rows is read all the same */
+    if (path && !cut && rows == 0) { /* a file longer than its rows can still be read */
         unlink(path);
     }
     free(path);
