@@ -17,7 +17,7 @@ enum { MOST_WITH_TANGENTS = 8 }; /* components */
 
 struct kept {
     const struct gm_lane *lane;
-    const struct gm_problem *problem; /* of one member */
+    const struct gm_problem *problem; /* the problem of one member */
     const struct gm_observable *row;
     /* the part of `problem` without tangents that is certified; NULL: all */
     const struct gm_problem *motion;

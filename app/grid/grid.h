@@ -23,8 +23,8 @@ enum gm_study_kind {
 
 enum gm_cell_verdict {
     GM_BOUNDED, /* or accurate, if that was asked */
-    GM_LOST,    /* what should be conserved fell below half of its start */
-    GM_GAINED,  /* ... rose above twice its start */
+    GM_LOST,    /* the conserved quantity fell below half of its start */
+    GM_GAINED,  /* the conserved quantity rose above twice its start */
     GM_WRONG,   /* bounded but not accurate, if accuracy was asked */
     GM_FAILED,  /* ended with a status */
 };
@@ -63,7 +63,7 @@ struct gm_grid_line {
     const struct gm_scheme *scheme;
     struct gm_grid_cell *cells;
     size_t count;
-    char reason[GM_MESSAGE]; /* why there are no numbers; "": there are some, or the statuses say why not */
+    char reason[GM_MESSAGE]; /* the reason for missing numbers; "": see the statuses */
     bool ended;              /* no lane can be opened */
     /* The cells, by rising cost, for which no other has a smaller error and cost; NULL unless the
        resolution varies. */
@@ -85,11 +85,11 @@ struct gm_grid_axis {
 struct gm_study_row;
 
 struct gm_grid {
-    struct gm_arena *arena;    /* of all that the others point to */
-    struct gm_request request; /* its first lane has the parameters that all share */
+    struct gm_arena *arena;    /* owns the memory of the others */
+    struct gm_request request; /* its first lane has the common parameters */
     const struct gm_study_row *row;
     const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
-    const char *requested;            /* ... and the measure or judge, NULL: what the scene says */
+    const char *requested;            /* the requested measure or judge; NULL: the scene's */
     struct gm_grid_line *lines;
     size_t count;                         /* number of lines */
     size_t begun;                         /* number of lines that are shown: measured or being measured */
@@ -100,24 +100,23 @@ struct gm_grid {
 
     /* stability */
     const struct gm_stability *plan;
-    double accuracy; /* above which the scene's error is not accurate; INFINITY: bounded is asked alone */
+    double accuracy; /* the largest error that is accurate; INFINITY: only boundedness is judged */
 
     /* work-precision */
     char settings[160];  /* the words that set parameters which all runs share: "viscosity=0.05" */
-    bool best;           /* built-in schemes are added that promise most */
+    bool best;           /* the most promising built-in schemes are added */
     const char *measure; /* "solution_error" or an observable's key */
     bool observed;       /* it is the observable, not the distance of the states */
     const char *measure_title;
-    char reference[96]; /* what the error is measured against, in words */
+    char reference[96]; /* the reference of the error, in words */
     const struct gm_scheme
-        *trusted; /* of a run that is the reference, and its step; NULL: the solution is exact */
+        *trusted; /* the scheme of the reference run, which has this step; NULL: the solution is exact */
     double reference_step;
-    struct gm_lane
-        *finer;       /* the run that errors are distances from, where the scene measures these; else NULL */
-    double *solution; /* the state that errors are differences from; NULL: none */
-    bool smaller_is_finer;            /* of the parameter, as of the distance of nodes */
-    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: it has steps */
-    const double *errors;             /* 3, falling: at which schemes are compared */
+    struct gm_lane *finer; /* the reference run, if the scene measures distances from it; else NULL */
+    double *solution;      /* the reference state for differences, or NULL */
+    bool smaller_is_finer; /* true for a parameter such as the distance of nodes */
+    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: steps */
+    const double *errors;             /* 3 falling errors, at which schemes are compared */
 
     /* sweep */
     struct gm_sweep sweep;
@@ -152,20 +151,20 @@ struct gm_study_row {
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
     /* ---- of gm_cells_measure; `prepare` in a body ---- */
-    bool
-        alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
-    /* Finds what runs are compared with; NULL: nothing. */
+    bool alone; /* timed runs, one after the other; a lane that cannot be opened ends only its line */
+    /* Makes the reference of the runs; NULL: none. */
     void (*prepare)(struct gm_grid *grid);
     /* Returns true if a cell is of no use after those before it; NULL: all are of use. */
     bool (*is_needless)(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
-    /* Makes the run of an open lane and fills its cell, in any thread; a message is why it has no numbers. */
+    /* Makes the run of an open lane and fills its cell, in any thread; a message is the reason for missing
+       numbers. */
     void (*run)(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell, char *message);
-    /* Finds what a line says, after each of its cells; NULL: nothing. */
+    /* Computes the results of a line, after each of its cells; NULL: none. */
     void (*conclude)(const struct gm_grid *grid, struct gm_grid_line *line);
 
     /* ---- of gm_cells_write and gm_grid_put_cells ---- */
     bool ordered; /* the scheme's order is a column */
-    int rows;     /* of a cell in CSV; `number` is that of one */
+    int rows;     /* rows per cell in CSV; `number` is one of them */
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
                      int number);
 };
@@ -174,9 +173,9 @@ extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: 
 /* The kind with that name, or GM_STUDY_NONE. */
 enum gm_study_kind gm_study_find(const char *name);
 
-/* Reads the words: a scene and its key=value; `measure` is the key of an observable or, of stability, what a
-   step is judged by; NULL: what the scene says. False with a sentence (GM_MESSAGE bytes); of the grid only
-   request.refusal says something then. */
+/* Reads the words: a scene and its key=value. `measure`: the key of an observable or, for stability, the
+   judge of a step; NULL: the scene's. Returns false with a sentence (GM_MESSAGE bytes); only
+   request.refusal is then set. */
 bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
                   const char *measure, char *message);
 /* Makes the runs; stopped, the others stay untried. False with a sentence. */
@@ -207,8 +206,8 @@ char gm_cell_letter(const struct gm_grid_cell *cell);
 /* The letters in use, but that of what is asked: "W wrong, M mesh-crossing". Returns text. */
 const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size);
 
-/* The largest step, in the plan's unit, up to which a scheme is as asked for all values; 0: none. NAN
-   where cells that were not tried leave it open. */
+/* The largest step, in the plan's unit, up to which a scheme passes for all values; 0 if it never does.
+   NAN if untried cells leave it open. */
 double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line);
 
 /* ---- work-precision ---- */

@@ -20,7 +20,8 @@ struct gm_grid_line *gm_grid_add(struct gm_grid *grid, const struct gm_scheme *s
 
 /* ---- runs ---- */
 
-/* A lane at its start in these parameters, which it takes: malloc'ed, NULL where memory is short. NULL with a sentence. */
+/* A lane at its start, which takes the malloc'ed parameters, or NULL when out of memory. Returns NULL with
+   a sentence. */
 struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_spec *spec,
                               struct gm_timing *parameters, const struct gm_scheme *scheme, char *message);
 

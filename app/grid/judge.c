@@ -127,7 +127,7 @@ size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm
 {
     size_t kept = 0;
     double least = INFINITY;
-    const double better = 0.97; /* by less than this, errors are the same */
+    const double better = 0.97; /* errors count as equal unless they differ by more */
     for (;;) {
         /* the cheapest of those that are more accurate than all before */
         const struct gm_grid_cell *next = NULL;

@@ -109,13 +109,13 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
                          const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message);
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
 
-/* "FILE.csv" of a table; of a share "FILE.I-of-N.csv". malloc'ed, NULL when memory is short. */
+/* "FILE.csv" of a table; "FILE.I-of-N.csv" of a shard. malloc'ed. Returns NULL when out of memory. */
 char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
 
 /* ---- shares ---- */
 
-/* Notes beside a table which sweep its shares belong to, FILE.csv.sweep, so that they can be joined. False
-   with a sentence if it says another one already. */
+/* Writes the sweep of a table's shards to FILE.csv.sweep, so that they can be joined. Returns false with a
+   sentence if the file has another sweep. */
 bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message);
 /* Opens the sweep of the note FILE.csv.sweep. */
 bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message);

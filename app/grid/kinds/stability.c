@@ -14,7 +14,7 @@
 
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
-    enum { MOST = 6 }; /* of the scene's schemes, where the plan names none */
+    enum { MOST = 6 }; /* schemes of the scene, if the plan gives none */
     if (!scene->stability) {
         gm_arena_refuse(grid->arena, "scene %s has no stability map: %s", scene->name,
                         scene->no_stability ? scene->no_stability
@@ -138,7 +138,7 @@ static double largest_to(const struct gm_grid *grid, struct gm_lane *lane, int64
     return largest;
 }
 
-/* The end to the start; of a conserved quantity that may start at 0 as a part of its size. */
+/* The end divided by the start; a conserved quantity that may start at 0 is measured by its size. */
 static double ratio_of(const struct gm_lane *lane, const struct gm_observable *conserved, double before,
                        double after)
 {

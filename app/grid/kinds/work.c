@@ -95,7 +95,7 @@ static bool take_best(struct gm_arguments *words)
         while (gm_span_take(list, &rest, ",", &name)) {
             if (name.end - name.begin == sizeof best - 1 &&
                 memcmp(list + name.begin, best, sizeof best - 1) == 0) {
-                /* with the comma behind it, or else that before it, so that something is left to be alike */
+                /* with the comma after it, or else the one before, so that the rest is a list */
                 const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
                 const size_t from = last && !alone ? name.begin - 1 : name.begin,
                              to = last ? name.end : rest.begin;
@@ -350,8 +350,8 @@ enum { REPEATS = 5 };
 /* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
-/* A run of the trusted scheme to the end that is not timed, which reports how far it is; with another value of a
-   parameter where `row` is not NULL. */
+/* A run of the trusted scheme to its end, which is not timed and reports its progress; with another value
+   of a parameter unless `row` is NULL. */
 static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
 {
     char message[GM_MESSAGE];
@@ -478,7 +478,7 @@ static double error_of(const struct gm_grid *grid, const struct gm_lane *lane, c
     return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
 }
 
-/* The same of a scheme that chose its steps and ends behind `until`: the solution is taken on to where it ends. */
+/* The same for an adaptive scheme that ends after `until`: the solution is advanced to its end. */
 static double error_behind(const struct gm_grid *grid, const struct gm_lane *lane)
 {
     const struct gm_problem *problem = &lane->problem;
@@ -542,7 +542,7 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
 {
     const struct gm_scheme *scheme = lane->scheme;
     if (grid->solution && scheme == grid->trusted && cell->dt <= 1.01 * grid->reference_step) {
-        cell->tried = false; /* that is the run that the others are measured against */
+        cell->tried = false; /* the run is the reference of the others */
         return;
     }
     double spent = cell->seconds = time_run(grid, lane);
@@ -568,8 +568,8 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
     }
 }
 
-/* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
-   varies, the resolution rules. */
+/* Returns true if shorter steps are of no use: round-off dominates, or they take too long, or the
+   resolution dominates. */
 static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *last)
 {
     const struct gm_grid_cell *before = last - 1;
@@ -582,7 +582,7 @@ static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *las
 static bool is_needless(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell)
 {
     const struct gm_grid_cell *last = &line->cells[cell] - 1;
-    const size_t before = cell % grid->steps.count; /* of the same resolution */
+    const size_t before = cell % grid->steps.count; /* cells before it with the same resolution */
     return line->ended || (before > 0 && !last->tried) || (before > 1 && is_enough(grid, last));
 }
 

@@ -127,7 +127,7 @@ static struct place name_place(const struct gm_panel *panel, const struct drawn 
             const double left = side & 1 ? u - aside - wide : u + aside;
             const double low = side & 2 ? v - 0.8 * tall : v - 0.2 * tall;
             const struct place place = {left, low, left + wide, low + tall};
-            /* later points lie lower, where lines part */
+            /* later points are lower, and lines separate there */
             double cost =
                 0.2 * (double)side + 0.5 * (double)(lines[own].count - k) / (double)lines[own].count;
             cost += place.left < 0 || place.right > 1 ? 40 : 0;
@@ -185,7 +185,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         const size_t count = points_of(&grid->lines[i], cost, points);
         for (size_t k = 0; k < count; k++) {
             gm_range_add(&panel->x.low, &panel->x.high, points[2 * k]);
-            /* an error above 10 says no more than 10 does */
+            /* errors above 10 are drawn as 10 */
             gm_range_add(&panel->y.low, &panel->y.high, fmin(points[2 * k + 1], 10));
         }
     }

@@ -29,7 +29,7 @@ struct gm_sweep_chart {
     const struct gm_sweep *sweep;
     size_t keys[2], key_count; /* the words along the axes */
     size_t bins[2];            /* 1 up, in a graph */
-    size_t lines;              /* of each observable: the combinations of all other words */
+    size_t lines;              /* lines per observable: the combinations of all other words */
     size_t shown;              /* observables: the first of the sweep's */
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
     size_t failed;             /* runs, which are left out */
@@ -124,7 +124,7 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
 
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
-    enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
+    enum { OBSERVABLES = 7 }; /* cells after the status: warning, t, steps, evaluations, solves, seconds */
     if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
@@ -354,7 +354,7 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
 struct cells {
     double *points, *values;
     int *triangles;
-    size_t count; /* of cells */
+    size_t count; /* number of cells */
 };
 
 static void add_cell(struct cells *cells, const double x[2], const double y[2], double value)

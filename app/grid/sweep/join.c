@@ -90,8 +90,8 @@ static void allow_files(void)
     }
 }
 
-/* Opens the share behind its head. A share that is not there has no rows; one that is being written, or that
-   is of another sweep, is refused. */
+/* Opens the shard after its head. A missing shard has no rows; one that is being written, or another
+   sweep's, is refused. */
 static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard,
                        struct gm_csv_lines *share, char *message)
 {

@@ -79,7 +79,7 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
     return good;
 }
 
-/* A text about a run; malloc'ed, NULL when memory is short. */
+/* A text about a run; malloc'ed. Returns NULL when out of memory. */
 static char *text_of(const struct gm_sweep *sweep, size_t run,
                      bool (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
 {
@@ -315,7 +315,7 @@ size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line
     return same ? length : 0;
 }
 
-/* The cells behind the front, of a run that has ended or could not begin (no lane). */
+/* Puts the cells after the front, for a run that has ended or could not begin (no lane). */
 static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
                     const char *warning, const double *values, FILE *stream)
 {
@@ -353,7 +353,7 @@ static bool is_of_the_end(const struct gm_sweep *sweep)
     return end;
 }
 
-/* Asks for the run as `geomint run` would, and makes it, unless a status says why it cannot be. */
+/* Reads the run's words as `geomint run` does, and makes it, unless a status gives a reason against it. */
 static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
                      const char *status, struct gm_sweep_row *row)
 {

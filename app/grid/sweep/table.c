@@ -106,7 +106,8 @@ static bool refuse_row(const struct gm_sweep_table *table, const char *line, cha
         table->path, row + 1, gm_sweep_run(sweep, row));
 }
 
-/* The head, or where the table is empty or its head torn, nothing; false with a sentence if it is another one. */
+/* Reads the head; an empty table or an incomplete head has none. Returns false with a sentence for another
+   head. */
 static bool read_head(struct gm_sweep_table *table, char *message)
 {
     const char *head = table->sweep->head;
@@ -165,7 +166,7 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
             table->unheard = errno == EPIPE;
             refuse_writing(message, path);
             if (table->path && ftruncate(table->fd, table->size) != 0) {
-                /* its last row stays torn, and is cut off when the table is opened again */
+                /* the last row stays incomplete, and is cut off when the table is opened again */
             }
             return false;
         }
@@ -270,8 +271,8 @@ const char *gm_sweep_table_path(const struct gm_sweep_table *table)
 
 /* ---- filling ---- */
 
-/* Rows that may wait for an earlier one: as the work behind a run that takes long is lost when the program is
-   killed, as much as that of the run itself, the number only bounds the memory. */
+/* Rows that may wait for an earlier one. A killed program loses the work after a long run, at most as much
+   as that run; the number only bounds the memory. */
 enum { WINDOW = 1024 };
 
 struct filling {
