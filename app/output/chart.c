@@ -54,7 +54,7 @@ static bool paint(struct gm_chart *chart, const void *data,
     return good;
 }
 
-/* Settles where both files are. False where a name is too long. */
+/* Sets the paths of both files. Returns false if a name is too long. */
 static bool name_files(struct gm_chart *chart)
 {
     const char *folder = chart->folder ? chart->folder : ".";

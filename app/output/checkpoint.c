@@ -16,9 +16,9 @@
 #include "render/message.h"
 #include "scenes/common/lane_pack.h"
 
-/* The file: this head, the identity, and the records of the lanes in order, each behind its size in bytes; of those
-   that have not begun the size is 0. A record is struct gm_paused, then the packed lane. Its numbers are this
-   machine's, as the lanes' bytes are this program's. */
+/* The file: this head, the identity, and the records of the lanes in order, each after its size in bytes,
+   0 for a lane that has not begun. A record is struct gm_paused, then the packed lane. Its numbers have
+   this machine's format, the lanes' bytes this program's. */
 struct head {
     char magic[16];
     uint64_t identity_size, body_size;
@@ -166,7 +166,7 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
            gm_temporary_refuse(message, path, strerror(errno));
 }
 
-/* The body as records; false if it is not made of them. */
+/* Splits the body into records; returns false if it does not consist of them. */
 static bool take_apart(struct gm_pause *pause, unsigned char *at, size_t left)
 {
     for (size_t i = 0; i < pause->count; i++) {
@@ -186,7 +186,7 @@ static bool take_apart(struct gm_pause *pause, unsigned char *at, size_t left)
     return left == 0;
 }
 
-/* Why the file is not the one that is meant; NULL: it is, and its records are read. */
+/* The reason why the file does not fit, or NULL, if its records were read. */
 static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
 {
     struct head head;

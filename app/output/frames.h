@@ -26,7 +26,7 @@ struct gm_schedule {
     long ours;          /* number of our frames */
 };
 
-/* False with a sentence (GM_MESSAGE bytes) if that contradicts itself or the request. */
+/* Returns false with a sentence (GM_MESSAGE bytes) if the options contradict each other or the request. */
 bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
                       const struct gm_pace *pace, char *message);
 
@@ -41,7 +41,7 @@ long gm_schedule_last(const struct gm_schedule *schedule);
 struct gm_frames {
     const struct gm_schedule *schedule;
     char *folder, *name;
-    char *pattern;  /* for gm_sink_open_png */
+    char *pattern;  /* the pattern for gm_sink_open_png */
     char *identity; /* the lanes, the size, the frames' times and the program */
     bool *there;    /* per frame: complete, and of this identity */
     long found;     /* number of our existing frames */
@@ -105,7 +105,8 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
 
 /* ---- the checkpoint of a render after one of its frames, in the frames' folder during the render ---- */
 
-/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; malloc'ed, NULL when memory is short. */
+/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; malloc'ed. Returns NULL when out of
+   memory. */
 char *gm_checkpoint_path(const struct gm_frames *frames);
 
 /* Replaces the file as gm_pause_write does. */

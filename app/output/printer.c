@@ -21,7 +21,7 @@
 #include "render/vector/vector.h"
 
 struct gm_printer {
-    struct gm_canvas *canvas; /* of PNG */
+    struct gm_canvas *canvas; /* the canvas of a PNG */
     unsigned char *rgb;
     const char *backend;
 };

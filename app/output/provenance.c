@@ -22,7 +22,7 @@ static bool take(struct gm_provenance *provenance, const char *key, char *text)
     return true;
 }
 
-/* A text that `put` writes; malloc'ed, NULL when memory is short. */
+/* A text that `put` writes; malloc'ed. Returns NULL when out of memory. */
 static char *text_of(void (*put)(FILE *stream, const void *data), const void *data)
 {
     char *text = NULL;

@@ -27,7 +27,7 @@ struct gm_provenance {
 #define GM_KEY_PAGE "geomint:page"       /* 80x60, in mm; default: from the pixels */
 #define GM_KEY_TITLE "geomint:title"     /* the picture's title; default: the scene's */
 #define GM_KEY_SYSTEM "geomint:system"   /* the text of a system, if the scene is a file's */
-#define GM_KEY_PAINTER "geomint:painter" /* of a PNG: gm_canvas_backend; else the writer */
+#define GM_KEY_PAINTER "geomint:painter" /* a PNG's gm_canvas_backend; else the writer */
 #define GM_KEY_ROOM "geomint:room" /* the name of a file's room, with a checksum of it and of its mesh */
 
 /* a chart has the words of its command line instead of all these */
@@ -36,7 +36,7 @@ struct gm_provenance {
 #define GM_KEY_FRAME "geomint:frame"       /* the frame and its render */
 #define GM_KEY_FAILURES "geomint:failures" /* a line for each lane that has failed */
 
-/* Everything but the steps. False when memory is short. */
+/* Everything but the steps. Returns false when out of memory. */
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
                         const struct gm_appearance *look, const char *backend);
 /* The same for a chart: the words with which `again` repeats it, to which the look is added, and the text
@@ -49,8 +49,8 @@ void gm_provenance_close(struct gm_provenance *provenance);
    continues, all of them but until, which may change. */
 void gm_provenance_put_lanes(FILE *stream, const struct gm_request *request, bool identity);
 
-/* The checksum of the running program: what another build made is not ours, whatever its version says. False
-   if the program cannot be read. */
+/* The checksum of the running program: another build's results are not ours, whatever its version is.
+   Returns false if the program cannot be read. */
 bool gm_program_checksum(unsigned *checksum);
 
 /* The index of a command's word that is the scene's: the first after its name, or the value of GM_ON for
@@ -62,10 +62,11 @@ int gm_provenance_scene_place(const struct gm_arguments *command);
    failed step counts: `again` has to try it. */
 char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
 
-/* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
+/* A line for each lane that has failed; malloc'ed. Returns NULL when out of memory. */
 char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count);
 
-/* Adds the steps of the lanes and, with `failures`, a line for each lane that has failed. False when memory is short. */
+/* Adds the steps of the lanes and, with `failures`, a line for each lane that has failed. Returns false
+   when out of memory. */
 bool gm_provenance_take_lanes(struct gm_provenance *provenance, const struct gm_lane *const *lanes,
                               size_t count, bool failures);
 
