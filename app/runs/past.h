@@ -21,7 +21,7 @@ struct gm_past {
     int64_t every; /* steps between snapshots */
 };
 
-/* An empty past is {.every = 1}. This sets how many snapshots it may hold. */
+/* Sets the largest number of snapshots. An empty past is {.every = 1}. */
 void gm_past_limit(struct gm_past *past, size_t bound);
 void gm_past_close(struct gm_past *past);
 /* A copy for a fork of the lane; an empty one if memory is short. */

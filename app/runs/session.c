@@ -13,7 +13,7 @@
 #include "scenes/common/lane_pack.h"
 #include "scenes/common/symbol.h"
 
-/* Says a sentence; false. */
+/* Writes a sentence and returns false. */
 static bool short_of_memory(char *message)
 {
     return gm_refuse(message, "There is not enough memory.");
@@ -41,7 +41,7 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
     return false;
 }
 
-/* ---- where the lanes are in model time ---- */
+/* ---- the lanes in model time ---- */
 
 static bool goes(const struct gm_lane *lane)
 {
@@ -61,7 +61,7 @@ static double next_time(const struct gm_session *session, size_t i)
     return gm_session_direction(session) * (run->t + run->dt * (1 - 1e-9));
 }
 
-/* Lanes that stand still have no say, unless all do. */
+/* Lanes that have stopped do not count, unless all have. */
 double gm_session_time(const struct gm_session *session)
 {
     const double direction = gm_session_direction(session);
@@ -137,7 +137,7 @@ double gm_session_from_start(const struct gm_session *session, size_t i)
     return largest;
 }
 
-/* ---- what is kept of the past: snapshots, and the log of changes ---- */
+/* ---- the stored past: snapshots, and the log of changes ---- */
 
 /* Snapshots of all lanes together take at most this. */
 enum { PAST_BUDGET = 64 << 20 };
@@ -200,7 +200,7 @@ struct fresh {
     void *start;
 };
 
-/* NULL lane with a sentence */
+/* a NULL lane comes with a sentence */
 static struct fresh open_lane(const struct gm_scene *scene, const void *parameters,
                               const struct gm_settings *settings, const struct gm_scheme *scheme,
                               char *message)
@@ -273,8 +273,7 @@ static void show_in_order(struct gm_session *session)
 
 /* ---- a session's beginning and end ---- */
 
-/* Room for every lane that may come is there from the beginning, so that only the parameters are
-   allocated. */
+/* Opens the log with room for every lane, so that later only parameters are allocated. */
 static bool log_open(struct gm_session *session, const struct gm_request *request)
 {
     session->log = (struct gm_request){.scene = session->scene};
@@ -377,7 +376,7 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
            session->scene->settle(wanted->parameters, &row->key, 1, message);
 }
 
-/* Makes a change on a lane now, and keeps its course right where that turns its time. */
+/* Makes a change on a lane now, and corrects its course if that reverses its time. */
 static bool apply_change(struct gm_session *session, size_t i, const char *text, char *message)
 {
     const struct gm_lane *lane = session->lanes[i];
@@ -411,7 +410,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     if (!apply_change(session, i, text, message)) {
         return false;
     }
-    /* of several changes of one key at one step only the last one counts */
+    /* the last change of a key at a step replaces earlier ones */
     const int64_t step = session->lanes[i]->run->steps;
     gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
     if (!gm_change_add(&session->log, i, step, text)) {
@@ -655,7 +654,8 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
     settle(session);
     double ahead = gm_session_gone(session) - fabs(gm_session_time(session) - fresh.lane->t0);
     place_lane(session, session->count, fresh, &(const struct gm_shown){0});
-    session->courses[session->count].gone = fmax(ahead, 0); /* where time was turned, all have gone further */
+    session->courses[session->count].gone =
+        fmax(ahead, 0); /* after time was reversed, all have gone further */
     count_lane(session);
     note_lanes(session);
     return true;

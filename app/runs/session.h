@@ -50,8 +50,8 @@ double gm_session_direction(const struct gm_session *session);
 double gm_session_time(const struct gm_session *session);
 double gm_session_next(const struct gm_session *session);
 
-/* Lets the lane that is furthest behind make steps that end no further than t: one, or a share of many. False
-   if no lane has such a step to make. */
+/* Advances the lane that is furthest behind by steps that end no later than t: one step, or a part of
+   many. Returns false if no lane has such a step to make. */
 bool gm_session_advance(struct gm_session *session, double t);
 
 /* One step back for the lanes that are ahead; false with a sentence. */
@@ -73,9 +73,8 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message);
 
 /* ---- changes ---- */
 
-/* Sets a parameter of the scene or of the schemes. Every lane takes it, but where lanes differ in it, only
-   `lane`. A live one acts at once; otherwise *restart is set, and the change takes effect with
-   gm_session_restart. */
+/* Sets a parameter of the scene or of the schemes, in every lane, or only in `lane` if lanes differ in it.
+   A live one acts at once; otherwise *restart is set, and the change takes effect with gm_session_restart. */
 bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
                     const char *text, bool *restart, char *message);
 /* Returns true if the lanes differ in a parameter. */
@@ -99,7 +98,7 @@ bool gm_session_overlay(struct gm_session *session, char *message);
 
 /* The first scheme, in the scene's order, that fits and that no lane has, or NULL. */
 const struct gm_scheme *gm_session_unused(const struct gm_session *session);
-/* The schemes that fit, those the scene prefers first; returns how many, at most GM_FITTING_SCHEMES. */
+/* The fitting schemes, the scene's preferred ones first; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
 
 /* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while
@@ -152,7 +151,7 @@ struct gm_shot {
     double t, speed;
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
-    double ahead;       /* where to run ahead is of use */
+    double ahead;       /* time to which running ahead is useful */
     double gone, reach; /* model time gone through, and up to the last snapshot */
     bool backwards;     /* time runs */
     bool turned;        /* or has run */
@@ -160,13 +159,13 @@ struct gm_shot {
     bool in_space;      /* the picture can be gone around */
     bool drawn;         /* the picture is a new one */
     bool running_ahead; /* nothing is drawn meanwhile */
-    double progress;    /* of that, 0 to 1 */
+    double progress;    /* progress of running ahead, 0 to 1 */
     bool paused;
     bool behind; /* the steps cost more than the speed allows */
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
     double recorded;              /* seconds of the movie so far; below 0: none is made */
-    char *commands[GM_COMMANDS];  /* that redo a view; NULL: memory was short */
+    char *commands[GM_COMMANDS];  /* commands that reproduce a view; NULL: out of memory */
     unsigned long command_number; /* changes with every one */
 };
 

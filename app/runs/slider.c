@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The value; of a step that runs backwards its size. */
+/* The value; for a negative step its size. */
 static double size_of(const struct gm_parameter *row, const void *owner)
 {
     double value = gm_parameter_get(row, owner);
@@ -78,7 +78,7 @@ enum { ROUND_COUNT = GM_COUNT(rounds) };
 static double next_by_ratio(double value, int direction)
 {
     double decade = floor(log10(value) + 1e-9), scale = pow(10, decade), mantissa = value / scale;
-    double near = 1e-6; /* what differs less is the same value, read back from its text */
+    double near = 1e-6; /* values that differ by less are the same, read back from text */
     for (int i = 0; direction > 0 && i < ROUND_COUNT; i++) {
         if (rounds[i] > mantissa * (1 + near)) {
             return rounds[i] * scale;
