@@ -36,10 +36,10 @@ void gm_arguments_put_shell(FILE *stream, const char *word);
 void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene);
 /* The same as a shell reads it, as far as `text` has room. */
 void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size);
-/* "FRONT word word"; malloc'ed, NULL when memory is short. */
+/* "FRONT word word"; malloc'ed. Returns NULL when out of memory. */
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 
-/* A text as printf writes it; malloc'ed, NULL when memory is short. */
+/* A text as printf writes it; malloc'ed. Returns NULL when out of memory. */
 __attribute__((format(printf, 1, 2))) char *gm_text(const char *format, ...);
 
 #endif

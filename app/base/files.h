@@ -13,7 +13,7 @@
 
 struct gm_file {
     const struct gm_built_in *built_in; /* NULL: it is at the path */
-    char path[4096];                    /* of a built-in one below share/ */
+    char path[4096];                    /* the path of the file; a built-in one is below share/ */
 };
 
 /* The file that a word means; false: no name of this kind is that word. */
@@ -40,7 +40,7 @@ bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
 /* The place of a fault in some words. */
 struct gm_word_place {
     int word;      /* index of the word; negative: no word has it */
-    size_t offset; /* in bytes */
+    size_t offset; /* bytes from the start of the word */
 };
 
 struct gm_fault;

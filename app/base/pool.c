@@ -14,7 +14,7 @@ struct crew {
     pthread_cond_t ready, room; /* the next piece can be taken; one more may be begun */
     size_t next, taken, working;
     bool leave;
-    bool *done; /* by slot */
+    bool *done; /* one per slot */
 };
 
 size_t gm_pool_cores(void)
