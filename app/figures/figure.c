@@ -17,8 +17,7 @@
 
 enum { FEW_SCHEMES = 3 };
 
-/* The arguments with those of `quick` instead of their namesakes; where memory is short they stay as they
- * are. */
+/* Replaces arguments by those of `quick` with the same keys; when out of memory they do not change. */
 static void shorten(char *arguments, size_t size, const char *quick)
 {
     struct gm_arguments self = {0}, instead = {0};
