@@ -39,7 +39,7 @@ static bool has_reached(const struct gm_session *session, double t)
 {
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_run *run = session->lanes[i]->run;
-        /* as far as a session goes for t, round-off considered */
+        /* the limit of a session's advance to t, with round-off */
         if (run->status == GM_OK && run->t + run->dt * (1 - 1e-9) <= t) {
             return false;
         }

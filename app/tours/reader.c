@@ -32,14 +32,14 @@ struct entry {
 };
 
 struct reader {
-    const char *name; /* of the file, in sentences */
+    const char *name; /* the file's name in sentences */
     const char *text;
     size_t size;
-    struct gm_arena *arena; /* of the tour */
+    struct gm_arena *arena; /* the tour's arena */
     struct gm_tour *tour;
     struct entry *entries;
     size_t count;
-    unsigned long refusals; /* of memory, before it was read */
+    unsigned long refusals; /* refused requests for memory before reading */
 };
 
 /* ---- lines ---- */
@@ -264,7 +264,7 @@ static int by_time(const void *a, const void *b)
     return (x->t > y->t) - (x->t < y->t);
 }
 
-/* Texts and numbers of one step; what it shows comes after them. */
+/* Takes texts and numbers of one step; its show comes after them. */
 static void take_entry(const struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
 {
     char **const places[WORDS] = {
@@ -362,7 +362,7 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
 static void read_head(const struct reader *reader, size_t count)
 {
     struct gm_tour *tour = reader->tour;
-    tour->place = MOST_BYTES; /* those without a place come last */
+    tour->place = MOST_BYTES; /* tours without a place come last */
     for (size_t i = 0; i < count; i++) {
         const struct entry *entry = &reader->entries[i];
         double place = NAN;
@@ -447,7 +447,7 @@ static void place_files(const struct reader *reader)
             words->words[k] = word;
         }
         char *text = gm_arena_keep(reader->arena, gm_arguments_join("", words), free);
-        entry->text = text + 1; /* behind the blank in front */
+        entry->text = text + 1; /* the text after the first blank */
     }
 }
 

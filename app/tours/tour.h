@@ -30,7 +30,7 @@ struct gm_tour_step {
     struct gm_request request;
     double until;                   /* model time to run to */
     double seconds;                 /* time for watching the run */
-    struct gm_tour_change *changes; /* in order of time */
+    struct gm_tour_change *changes; /* sorted by time */
     size_t change_count;
     enum gm_study_kind study;
     char *study_words; /* the words of the study's command, the scene first; NULL: no study */
