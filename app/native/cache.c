@@ -16,7 +16,7 @@
 enum { MOST_ENTRIES = 256, LARGEST = 1 << 24, MOST_BYTES = 1 << 26 };
 static const char ending[] = ".so";
 
-/* Behind the library; loaders do not mind. */
+/* The end of the file, after the library; loaders ignore it. */
 struct seal {
     char magic[8];
     uint64_t a, b;
@@ -161,8 +161,8 @@ static bool is_entry(const char *name)
            strspn(name, "0123456789abcdef") == GM_KEY_TEXT - 1 && strcmp(name + GM_KEY_TEXT - 1, ending) == 0;
 }
 
-/* Calls `each` for whatever has the name of an entry, or for the regular files that have none. False where the
-   folder, which need not be there, cannot be read. */
+/* Calls `each` for everything with the name of an entry, or for the other regular files. Returns false if
+   the folder, which may be missing, cannot be read. */
 static bool each_file(const char *folder, bool entries,
                       void (*each)(void *data, const char *path, const char *name, const struct stat *about),
                       void *data)
@@ -258,7 +258,7 @@ static void remove_entry(void *data, const char *path, const char *name, const s
     struct removed *removed = data;
     if (remove(path) == 0) {
         removed->count++;
-    } else if (removed->all && errno != ENOENT) { /* which somebody else removed */
+    } else if (removed->all && errno != ENOENT) { /* ENOENT: another process has removed it */
         removed->all = gm_refuse(removed->sentence, "%.400s could not be removed: %s", path, strerror(errno));
     }
 }

@@ -100,7 +100,7 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     limit(RLIMIT_CPU, seconds, seconds + 1); /* the first limit's signal gives the reason */
     limit(RLIMIT_FSIZE, MOST_BYTES, MOST_BYTES);
     limit(RLIMIT_CORE, 0, 0);
-    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* what libraries have opened */
+    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* files that libraries have opened */
     if (nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
         dup2(log, STDERR_FILENO) >= 0 && fchdir(folder) == 0) {
         execve(arguments[0], (char *const *)arguments, environment);
@@ -164,7 +164,7 @@ static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
     if (!at || at[1] != ' ' || !at[2]) {
         return false;
     }
-    at += 3; /* behind the letter of its state, which is number 0 */
+    at += 3; /* after the letter of the state, which is number 0 */
     for (int k = 1; k <= LAST_TIME; k++, at = end) {
         const long number = strtol(at, &end, 10);
         if (end == at) {

@@ -81,7 +81,7 @@ enum state { NEW, COMPILING, READY, REFUSED };
 /* The loops of one kernel's text. */
 struct build {
     struct build *next;
-    struct gm_digest source; /* of text and part */
+    struct gm_digest source; /* the digest of text and part */
     struct part part;
     enum state state;
     const struct gm_loops *loops;
