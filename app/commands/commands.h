@@ -51,7 +51,7 @@ struct gm_options {
     int *end;                      /* the exit status of gm_command_end */
 };
 
-/* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
+/* Reads argv[first..]; the texts point into it. Returns false with a sentence. The caller closes it in
    both cases. */
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);

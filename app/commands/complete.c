@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint complete WORD ...: what the last word may become, a line each, with a tab and a few words on it.
-   The completions of the shells ask this, so that they know what the tables know. */
+/* geomint complete WORD ...: the completions of the last word, one per line, with a tab and a few words on
+   each. The shells' completions call it, so that they follow the tables. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +19,7 @@
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
-/* The word that is being typed: what stays of it, and what the candidates have to begin with. */
+/* The word being typed: the part that stays, and the beginning of the candidates. */
 struct stem {
     char front[256];
     const char *begin;

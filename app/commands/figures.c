@@ -284,7 +284,7 @@ static void print_outcome(const struct series *series, size_t i)
     }
 }
 
-/* Prints what is finished, in order. */
+/* Prints the finished figures, in order. */
 static void print_finished(struct series *series)
 {
     while (series->printed < series->count && series->outcomes[series->printed].progress >= GM_MADE) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint list: scenes, schemes, figures, and what one scene takes. */
+/* geomint list: scenes, schemes, figures, and the parameters and schemes of one scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

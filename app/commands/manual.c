@@ -30,7 +30,7 @@ static void put(const char *text)
     }
 }
 
-/* A tagged paragraph: a term in bold and what follows it in italics. */
+/* A tagged paragraph: a term in bold, then text in italics. */
 static void put_term(const char *term, const char *rest)
 {
     printf(".TP\n\\fB");

@@ -262,7 +262,7 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         .text_count = work->provenance.count,
         .interruptions = &gm_interrupted,
     };
-    /* first what can be known to fail */
+    /* the parts that can fail come first */
     if (options->movie && (!gm_folder_make_for(options->movie, message) ||
                            !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
         return false;

@@ -49,7 +49,7 @@ struct report {
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     struct gm_user_wave wave;
-    struct gm_problem problem; /* for the file's values; not opened if no scheme can advance it */
+    struct gm_problem problem; /* set up with the file's values; not opened if no scheme can advance it */
 };
 
 static bool fits(const struct report *report, const struct gm_scheme *scheme)

@@ -28,7 +28,7 @@
 #include "render/files/temporary.h"
 #include "render/picture/picture.h"
 
-/* ---- what a certificate looks like ---- */
+/* ---- the display of a certificate ---- */
 
 static void print_certificate(const struct gm_certificate *certificate)
 {
@@ -255,7 +255,7 @@ static int chart(const struct gm_options *options, const struct gm_certificate *
     return written == GM_EXIT_OK ? status : written;
 }
 
-/* The schemes that are certified, and what came of them. */
+/* The schemes to certify, and their results. */
 struct certifying {
     const struct gm_scheme **schemes;
     const struct gm_options *options;

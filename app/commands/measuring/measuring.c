@@ -16,7 +16,7 @@
 #include "core/basics.h"
 #include "core/memory.h"
 
-/* "stability kepler dt=0.1": what `again` reads. */
+/* "stability kepler dt=0.1": the words for `again`. */
 static const char *command_line(const char *command, const struct gm_options *options)
 {
     struct gm_arena *arena = options->arena;
