@@ -50,7 +50,7 @@ void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
    scheme ends far beyond it. Empty if it did. */
 void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes what is wrong with a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
+/* Writes the warning on a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
    is nothing. */
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From words to a scene and its lanes, with a sentence for what cannot be. */
+/* From words to a scene and its lanes, with a sentence for a fault. */
 #include "app/words/request.h"
 
 #include <math.h>
@@ -533,7 +533,7 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     if (!request->scene) {
         return false;
     }
-    /* a scene is shown by its own lanes, but for what is typed */
+    /* a scene shows its default lanes, except for typed words */
     struct gm_arguments arguments = {0};
     const struct gm_arguments given = {.words = (char **)typed, .count = count};
     const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;

@@ -13,8 +13,8 @@ struct gm_lane_spec {
     void *parameters; /* the scene's own struct */
     struct gm_settings settings;
     const struct gm_scheme *scheme;
-    int64_t steps; /* the requested end, in model time; NAN if steps= gives it */
-    double until;  /* as asked for; NAN where steps= says it */
+    int64_t steps; /* number of steps from start to until */
+    double until;  /* the requested end, in model time; NAN if steps= gives it */
     double end;    /* the time of the last step; for an adaptive scheme the end to reach */
 };
 

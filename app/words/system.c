@@ -119,7 +119,7 @@ bool gm_system_is(const char *word)
            gm_file_is(GM_FILE_ROOM, word) || gm_file_is(GM_FILE_SYSTEM, word);
 }
 
-/* The file's name, without what no file's name should have. */
+/* The file's name, without characters unusual in names. */
 static char *name_of(const char *word, const char *ending)
 {
     const char *slash = strrchr(word, '/');
@@ -151,7 +151,7 @@ struct making {
     char *message;
 };
 
-/* Reports what is wrong with the text, with its exit status. Returns false. */
+/* Reports a fault of the text, with its exit status. Returns false. */
 static bool refuse_text(struct making *making, const struct gm_fault *fault)
 {
     making->trial->status =
@@ -408,7 +408,7 @@ bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[]
         const unsigned long refusals = gm_memory_refusals();
         pthread_mutex_lock(&making_one);
         make(&making);
-        if (gm_memory_refusals() != refusals) { /* whatever else was blamed, and what is only there in part */
+        if (gm_memory_refusals() != refusals) { /* other faults, and incomplete results, may follow from it */
             if (trial->made->scene) {
                 trial->made->close(trial->made->scene);
             }

@@ -18,8 +18,8 @@ struct gm_system_value;
 
 extern const char gm_system_typed[]; /* "system": the word before a formula */
 
-/* Opens the system of a file; without one, of the words "system H=... key=value ...". Returns 0, or an exit status with a
-   sentence. To be closed in both cases. */
+/* Opens the system of a file, or without one, of the words "system H=... key=value ...". Returns 0, or an
+   exit status with a sentence. The caller closes it in both cases. */
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
                    const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
                    char *message);
@@ -27,8 +27,8 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 /* Returns true if the first word means a system: a file's, or `system` with a formula after it; or a room
    of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
-/* The keys of formulas that the words of a system, of which this is the first, may set or replace, until
-   NULL. */
+/* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
+   words. */
 const char *const *gm_system_keys(const char *word);
 /* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
    built have the given values, and typed formulas replace those of the file. The scene lives as long as

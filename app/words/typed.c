@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A typed line as words, and what is wrong with it. */
+/* A typed line as words, and its faults. */
 #include "app/words/typed.h"
 
 #include <ctype.h>
@@ -134,7 +134,7 @@ char *gm_typed_join(const struct gm_arguments *words)
     return stream && fclose(stream) == 0 ? text : NULL;
 }
 
-/* ---- what they mean ---- */
+/* ---- the meaning of the words ---- */
 
 /* The words of a line with the scene first, which a formula does not need; `shift`: the number of words
    added, or negative, of leading words of a command line removed. */
@@ -165,7 +165,7 @@ static bool fail(struct gm_typed_fault *fault, const char *message)
     return false;
 }
 
-/* The word that has the key: its value, or, of a key that there is not, the key. */
+/* The place of a key's value, or, for an unknown key, of the key. */
 static struct gm_word_place word_of(const struct gm_arguments *words, const struct gm_scene *scene,
                                     const char *key)
 {
@@ -179,7 +179,7 @@ static struct gm_word_place word_of(const struct gm_arguments *words, const stru
     return (struct gm_word_place){-1, 0};
 }
 
-/* `trial`: what was made is left to it, and no request. */
+/* `trial` gets the scene, and no request is made. */
 static bool read_line(struct gm_request *request, struct gm_system_trial *trial, const char *line,
                       size_t schemes, struct gm_typed_fault *fault)
 {

@@ -116,7 +116,7 @@ bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)
     return good;
 }
 
-/* ---- what is wrong ---- */
+/* ---- faults ---- */
 
 static void word_fault(const char *word, size_t at, const char *sentence, char *message)
 {

@@ -36,7 +36,7 @@ bool gm_typed_file_replace(struct gm_typed_file *file);
 /* Returns true if a word is one of these lines. */
 bool gm_typed_file_has(const struct gm_typed_file *file, const char *word);
 
-/* Reports what is wrong with the text, and sets `place` if it is in one of the words. Returns an exit status. */
+/* Reports a fault of the text, and sets `place` if it is in one of the words. Returns an exit status. */
 int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault *fault,
                         struct gm_word_place *place, char *message);
 

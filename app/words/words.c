@@ -41,8 +41,8 @@ static double to_15_digits(double value)
     return strtod(text, NULL);
 }
 
-/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is what "0.3" is read as, not
-   its neighbour, and values by equal factors have 15 digits: so what is printed is what one would type. */
+/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is the double read from
+   "0.3", not its neighbour, and values by equal factors have 15 digits: a printed value can be typed. */
 static double value_in(const struct gm_range *range, size_t index)
 {
     const double last = (double)(range->count - 1), at = (double)index;
@@ -163,7 +163,7 @@ void gm_words_close(struct gm_words *words)
     words->count = 0;
 }
 
-/* False: out of memory, or with a sentence. */
+/* Returns false when out of memory, or with a sentence. */
 static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
 {
     if (length == 0) {

@@ -53,8 +53,8 @@ extern const size_t gm_common_key_count;
 /* The key with that name, or NULL. */
 const struct gm_common_key *gm_common_key_find(const char *name);
 
-/* Reads `count` words "key=value,value" for a scene; without scheme= the first `schemes` that it prefers are
-   put in front. False with a sentence (GM_MESSAGE bytes). In both cases to be closed. */
+/* Reads `count` words "key=value,value" for a scene; without scheme= its first `schemes` preferred ones
+   are added. Returns false with a sentence (GM_MESSAGE bytes). The caller closes it in both cases. */
 bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
                    size_t schemes, char *message);
 void gm_words_close(struct gm_words *words);
@@ -72,7 +72,8 @@ bool gm_word_is_number(const struct gm_scene *scene, const char *key);
 /* The word with that key, or NULL. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
-/* Value `index` of a list: as typed, or, of a range, in `text` (GM_TEXT_SIZE bytes) as it would be. */
+/* Value `index` of a list: as typed, or, for a range, written to `text` (GM_TEXT_SIZE bytes) as it would
+   be typed. */
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
