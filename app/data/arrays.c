@@ -160,7 +160,7 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
     return true;
 }
 
-/* Opens what was saved before. */
+/* Opens the rows saved before. */
 static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
 {
     uint32_t crcs[GM_COLUMNS];

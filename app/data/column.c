@@ -80,7 +80,7 @@ bool gm_bytes_clear(int file, uint64_t place, uint64_t size)
     return good;
 }
 
-/* From the end; shorten: the source loses what was moved. */
+/* Moves blocks from the end and truncates the source after each. */
 static bool move(int from, uint64_t place, uint64_t size, int to, uint64_t there, bool shorten)
 {
     unsigned char block[SMALL_BLOCK];

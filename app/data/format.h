@@ -27,7 +27,7 @@ bool gm_bytes_raise(int file, uint64_t place, uint64_t size, uint64_t there);
    the move needs no more room. */
 bool gm_bytes_take(int from, uint64_t size, int to, uint64_t there);
 
-/* A part of a file that grows from its place on, by way of a buffer. */
+/* A part of a file that grows from its offset on, through a buffer. */
 
 struct gm_column {
     int file;              /* the file; the caller closes it */

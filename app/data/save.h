@@ -97,7 +97,8 @@ bool gm_tracks_knows(const char *path, const struct gm_scene *scene, char *messa
 
 /* Begins a file of `lanes` lanes; NULL with a sentence. */
 struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message);
-/* Adds lane `index`, and what was run (gm_meta_text). False with a sentence; so is the following. */
+/* Adds lane `index`, and the description of its run (gm_meta_text). Returns false with a sentence; so does
+   the following. */
 bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane *lane, const char *meta,
                    char *message);
 /* Puts the file in its place if it is `complete`, and frees. */

@@ -70,7 +70,7 @@ static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_s
     return NULL;
 }
 
-/* False if nothing of the lane has its place there. */
+/* Returns false if the lane has nothing on this support. */
 static bool group_of(const struct gm_saved *lane, const struct gm_run *run, enum gm_support support,
                      struct group *group)
 {
@@ -289,7 +289,7 @@ static void write_head(const struct group *group, const struct array *arrays, si
     fputs("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
 }
 
-/* False with errno. */
+/* Returns false with errno. */
 static bool write_array(const struct group *group, const struct array *array, FILE *file)
 {
     const off_t before = ftello(file);
