@@ -46,8 +46,8 @@ struct gm_grid_cell {
     double error; /* NAN: unknown, or the run failed */
     double ratio; /* the conserved quantity divided by its start; NAN: unknown */
     enum gm_cell_verdict verdict;
-    /* Cut off after dt^k: the largest |H~(y_n) - H~(y_0)| of all looks at the run, and of the terms the
-       largest |dt^k H_k|, both divided by what the energy error is divided by. */
+    /* With the truncation after dt^k: the largest |H~(y_n) - H~(y_0)| at the sampled steps, and the
+       largest |dt^k H_k| of the terms, both divided by the divisor of the energy error. */
     double errors[GM_POWERS], terms[GM_POWERS];
     int best; /* the k with the smallest error */
     /* If terms continue as the last two known ones, k! (dt / gamma)^k, they are smallest at k = gamma /
@@ -203,7 +203,7 @@ const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t
 const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell);
 char gm_cell_letter(const struct gm_grid_cell *cell);
 
-/* The letters in use, but that of what is asked: "W wrong, M mesh-crossing". Returns text. */
+/* The letters in use, except that of the question: "W wrong, M mesh-crossing". Returns text. */
 const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size);
 
 /* The largest step, in the plan's unit, up to which a scheme passes for all values; 0 if it never does.
@@ -222,7 +222,7 @@ size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm
 /* The cells that make up a line's curve and costs. */
 const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
 
-/* The second cost that schemes are compared by, beside the run time; and what an error costs so, as it is printed. */
+/* The second cost for comparing schemes, after the run time; and this cost of an error, as it is printed. */
 enum gm_cost gm_work_second_cost(const struct gm_grid *grid);
 double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error);
 

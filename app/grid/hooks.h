@@ -39,7 +39,7 @@ bool gm_grid_goes_on(const struct gm_grid *grid, const struct gm_lane *lane, int
    interruption; gives up after `most` seconds of CPU time. Returns the seconds used. */
 double gm_grid_advance(const struct gm_grid *grid, struct gm_lane *lane, int64_t steps, double most);
 
-/* Notes how a run ended, and what it cost but for the time. */
+/* Notes the end of a run, and its costs except the time. */
 void gm_grid_take_end(const struct gm_lane *lane, struct gm_grid_cell *cell);
 
 size_t gm_grid_cells(const struct gm_grid *grid);

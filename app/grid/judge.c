@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Verdicts on steps; fronts and what an error costs on them; slopes. */
+/* Verdicts on steps; fronts and the cost of an error on them; slopes. */
 #include "app/grid/grid.h"
 
 #include <math.h>

@@ -44,8 +44,8 @@ struct gm_sweep {
     struct gm_chosen chosen; /* observables, one column each */
 };
 
-/* Reads a scene and its key=value, and a list of observables, or NULL for all. False with a sentence
-   (GM_MESSAGE bytes). To be closed in both cases. */
+/* Reads a scene and its key=value, and a list of observables, or NULL for all. Returns false with a
+   sentence (GM_MESSAGE bytes). The caller closes it in both cases. */
 bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
                    char *message);
 void gm_sweep_close(void *sweep);
@@ -63,10 +63,8 @@ char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 /* A run's row, malloc'ed; NULL if it was interrupted, or when out of memory. */
 struct gm_sweep_row {
     char *text;
-    bool ok; /* its status is `ok` */
-    char sentence
-        [GM_MESSAGE]; /* the warning of one that is ok, why one with the status `refused` cannot be asked
-                                  for, else "" */
+    bool ok;                   /* its status is `ok` */
+    char sentence[GM_MESSAGE]; /* the warning for status ok, the reason for status `refused`, else "" */
 };
 
 /* Makes a run. In any thread. */
@@ -76,7 +74,7 @@ void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row
 double gm_sweep_total(const struct gm_sweep *sweep,
                       double (*of)(const struct gm_request *request, size_t index));
 
-/* The words that a row's status may be, and `warning`, of one that is ok with a warning: as a list. */
+/* The list of a row's possible statuses, and `warning`, for a row with status ok and a warning. */
 extern const char gm_sweep_statuses[];
 
 /* ---- the table ---- */

@@ -34,8 +34,8 @@ static bool is_typed(const struct gm_grid *grid, const char *key)
     return gm_arguments_have(grid->typed, word);
 }
 
-/* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
-   those. */
+/* Lanes may differ only in scheme, dt, resolution and ratio, and in values that follow from those unless
+   typed. */
 static bool is_one_problem(const struct gm_grid *grid)
 {
     const struct gm_request *request = &grid->request;
@@ -347,7 +347,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
 
 enum { REPEATS = 5 };
 
-/* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
+/* A measurement is repeated up to this time, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
 /* A run of the trusted scheme to its end, which is not timed and reports its progress; with another value
@@ -381,8 +381,8 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     return lane;
 }
 
-/* The run that errors are distances from, of a scene that measures these: at twice the finest resolution, with half the
-   shortest step. */
+/* The reference run of a scene that measures distances from it: at twice the finest resolution, with half
+   the shortest step. */
 static void run_finer(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shares of a sweep: what it was is noted beside them, and their rows become one table. */
+/* The shards of a sweep: a note beside them has the sweep's words, and their rows become one table. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
