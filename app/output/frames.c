@@ -147,7 +147,7 @@ char *gm_frames_path(const struct gm_frames *frames, long frame)
     return gm_text("%s/%s-%06ld.png", frames->folder, frames->name, frame);
 }
 
-/* Looks at one file of the folder: a frame, or what a killed run left of one. */
+/* Checks one file of the folder: a frame, or a killed run's incomplete one. */
 static bool look_at(struct gm_frames *frames, int folder, const char *file)
 {
     const size_t length = strlen(frames->name);
