@@ -64,8 +64,8 @@ struct gm_past gm_past_copy(const struct gm_past *past)
     return copy;
 }
 
-/* Bytes from a moment's start to its snapshot: the parameters, whose size may be any (a system's texts), and
-   what the snapshot's own alignment needs. */
+/* Bytes from a moment's start to its snapshot: the parameters, of any size (a system's texts), and the
+   padding for the snapshot's alignment. */
 static size_t snapshot_at(const struct gm_lane *lane)
 {
     const size_t unit = _Alignof(max_align_t);

@@ -4,12 +4,12 @@
 
 #include "scenes/common/lane.h"
 
-/* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the whole
-   past stays within reach: what lies between two snapshots is stepped again. */
+/* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the
+   whole past stays available: the steps between two snapshots are repeated. */
 
 struct gm_moment {
     int64_t steps;
-    double gone; /* model time that the lane has gone through, forwards and backwards */
+    double gone; /* model time that the lane has passed, forwards and backwards */
     size_t size;
     void *memory; /* the lane's parameters, then its snapshot */
 };
@@ -24,7 +24,7 @@ struct gm_past {
 /* Sets the largest number of snapshots. An empty past is {.every = 1}. */
 void gm_past_limit(struct gm_past *past, size_t bound);
 void gm_past_close(struct gm_past *past);
-/* A copy for a fork of the lane; an empty one if memory is short. */
+/* A copy for a fork of the lane; an empty one when out of memory. */
 struct gm_past gm_past_copy(const struct gm_past *past);
 
 /* Saves the lane's current state, `gone` after its start, if it is far enough from the last snapshot; with
@@ -40,7 +40,7 @@ const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane
 /* Sets a parameter in all snapshots: one that is the same at all times (struct gm_parameter, looks). */
 void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text);
 
-/* Forgets what is later than `steps`. */
+/* Drops snapshots later than `steps`. */
 void gm_past_forget(struct gm_past *past, int64_t steps);
 
 #endif

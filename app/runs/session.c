@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A session: what lanes that are driven live have in common. It is one file because everything in it keeps
-   the same few things in step: the lanes, their snapshots, and the log that redoes them. */
+/* A session: the common part of lanes that are driven live. It is one file because everything in it keeps
+   the same data consistent: the lanes, their snapshots, and the log that reproduces them. */
 #include "app/runs/session.h"
 
 #include <math.h>
@@ -259,7 +259,7 @@ static void clear_lane(struct gm_session *session, size_t i)
     cut_log(session, i, -1);
 }
 
-/* Panels and colours for the lanes, in order: what the lanes' arguments give when they are read again. */
+/* Panels and colours for the lanes, in order, as the lanes' arguments give when they are read again. */
 static void show_in_order(struct gm_session *session)
 {
     forget_arguments(session);
@@ -547,7 +547,7 @@ static void replay(struct gm_session *session, size_t i, int64_t steps)
     }
 }
 
-/* The lane was taken to a moment. */
+/* Notes that the lane was taken to a moment. */
 static void follow(struct gm_session *session, size_t i, const struct gm_moment *moment)
 {
     session->courses[i] = (struct gm_course){.gone = moment->gone, .from = session->lanes[i]->run->t};

@@ -152,11 +152,11 @@ struct gm_shot {
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
     double ahead;       /* time to which running ahead is useful */
-    double gone, reach; /* model time gone through, and up to the last snapshot */
+    double gone, reach; /* model time passed, and the last snapshot's */
     bool backwards;     /* time runs */
     bool turned;        /* or has run */
     bool overlaid;      /* all lanes are in one panel */
-    bool in_space;      /* the picture can be gone around */
+    bool in_space;      /* the picture can be seen from all sides */
     bool drawn;         /* the picture is a new one */
     bool running_ahead; /* nothing is drawn meanwhile */
     double progress;    /* progress of running ahead, 0 to 1 */
@@ -172,7 +172,7 @@ struct gm_shot {
 bool gm_shot_open(struct gm_shot *shot);
 void gm_shot_close(struct gm_shot *shot);
 
-/* Fills in what comes from the session; looks only. The picture is drawn, or left as it was. */
+/* Copies the session's data without a change to it. The picture is drawn, or stays. */
 void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw);
 
 /* Returns true if a lane has the scheme. */

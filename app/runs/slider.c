@@ -92,8 +92,8 @@ static double next_by_ratio(double value, int direction)
     return direction > 0 ? 12 * scale : 0.8 * scale;
 }
 
-/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far wider
-   than what is of use, so it is a tenth of the value or of its default, whichever is larger. */
+/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far too
+   wide, so it is a tenth of the value or of its default, whichever is larger. */
 static double linear_step(const struct gm_parameter *row, double value)
 {
     double raw = fmin(fmax(usual_size(row), fabs(value)) / 10, (row->highest - row->lowest) / 20);
