@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words as one owned list: split from a text, completed by what is usual, written so that they are read
+/* Words as one owned list: split from a text, completed by defaults, written so that they can be read
    again. */
 #include "app/base/arguments.h"
 

@@ -23,8 +23,8 @@ struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
 
-/* The first of the words that sets what `word` sets, "dt=" or "dt=0.1"; NULL. Both steps= and until= set the
-   end of a run. */
+/* The first word that sets the same key as `word`, "dt=" or "dt=0.1", or NULL. Both steps= and until= set
+   the end of a run. */
 const char *gm_arguments_find(const struct gm_arguments *arguments, const char *word);
 bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
 

@@ -7,9 +7,10 @@
 
 #include "core/files/files.h"
 
-/* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
-   name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
-   GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
+/* Files of systems, rooms, schemes and tours by name. A word with the ending of such a file is a path. Any
+   other word is the name of a file in the program, in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS,
+   GEOMINT_SCHEMES, GEOMINT_TOURS), or in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of
+   these counts. */
 
 struct gm_file {
     const struct gm_built_in *built_in; /* NULL: it is at the path */
@@ -45,11 +46,11 @@ struct gm_word_place {
 
 struct gm_fault;
 
-/* Reports what is wrong with the text of a file, with its line and column (GM_MESSAGE bytes). */
+/* Reports a fault of a file's text, with its line and column (GM_MESSAGE bytes). */
 void gm_place_report(const char *path, const char *text, const struct gm_fault *fault, char *message);
 
-/* Appends to a message (GM_MESSAGE bytes) the line of a text that is wrong, and below it a line with a caret
-   at the place. Only what is ASCII is shown as it is. */
+/* Appends to a message (GM_MESSAGE bytes) the faulty line of a text, and below it a line with a caret at
+   the place. Only ASCII is shown unchanged. */
 void gm_place_show(const char *text, size_t length, size_t offset, char *message);
 
 #endif

@@ -11,7 +11,7 @@
 struct crew {
     const struct gm_pool *pool;
     pthread_mutex_t lock;
-    pthread_cond_t ready, room; /* the next piece can be taken; one more may be begun */
+    pthread_cond_t ready, room; /* the next piece can be taken; a further one may begin */
     size_t next, taken, working;
     bool leave;
     bool *done; /* one per slot */
@@ -43,7 +43,7 @@ static size_t begin(struct crew *crew)
     if (crew->leave || crew->next == pool->count) {
         return pool->count;
     }
-    if (crew->next + 1 == pool->count) { /* nothing is left for those who wait */
+    if (crew->next + 1 == pool->count) { /* waiting threads find no further piece */
         pthread_cond_broadcast(&crew->room);
     }
     return crew->next++;
