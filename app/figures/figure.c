@@ -199,7 +199,7 @@ static double scale_of(const struct gm_lane *lane, const struct gm_statement *st
                : scale->size;
 }
 
-/* The number of a lane over which an order is taken. */
+/* The abscissa of a lane for an order. */
 static double abscissa(const struct gm_lane *lane, const char *key)
 {
     const int observable = gm_scene_observable(lane->scene, key);

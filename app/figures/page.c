@@ -138,7 +138,7 @@ static bool put_picture(FILE *page, const struct gm_figure_output *output, const
     return good;
 }
 
-/* "open" is not judged either: the document leaves out what decides it. */
+/* "open" is not judged either: the document leaves out the deciding values. */
 static void put_verdict(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome,
                         size_t index)
 {
