@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour as a movie or as pictures: what the explorer shows, with the texts below. */
+/* A tour as a movie or as pictures: the explorer's display, with the texts below. */
 #include "app/tours/tour.h"
 
 #include <math.h>

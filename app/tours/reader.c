@@ -178,7 +178,7 @@ static struct gm_arguments *split(const struct reader *reader, const char *text)
 
 static const double usual_seconds = 8;
 
-/* Reads the words of step->show, of a line. */
+/* Reads the words of step->show, given in this line. */
 static void parse_show(const struct reader *reader, long line, struct gm_tour_step *step)
 {
     char message[GM_MESSAGE];

@@ -24,8 +24,8 @@ struct gm_tour_step {
     char *say;     /* the subject of the step */
     char *ask;     /* a question to answer before it runs; NULL: none */
     char *answer;  /* the answer to the question */
-    char *watch;   /* what to watch; NULL: nothing in particular */
-    char *attempt; /* what to try; NULL: nothing in particular */
+    char *watch;   /* a hint for watching, or NULL */
+    char *attempt; /* a suggestion to try, or NULL */
     char *show;    /* the arguments of `request`; NULL: the step continues from the end of the one before */
     struct gm_request request;
     double until;                   /* model time to run to */
@@ -80,7 +80,7 @@ struct gm_agenda {
     bool over;                 /* the stop was reached; the user continues freely */
 };
 
-/* The agenda of a step for a session that begins where step `from` <= step does. */
+/* The agenda of a step for a session that begins at the start of step `from` <= step. */
 struct gm_agenda gm_agenda_of(const struct gm_tour *tour, size_t step, size_t from);
 
 /* The model time that a session must not pass before gm_agenda_keep; infinite without one. */
