@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The folder of compiled loops: whose it is, what is whole, what has to go. */
+/* The folder of compiled code: its owner, its checks, and its removal of old entries. */
 #include "app/native/cache.h"
 
 #include <dirent.h>

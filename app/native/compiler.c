@@ -280,7 +280,7 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
 void gm_compilation_stop(struct gm_compilation *compilation)
 {
     if (compilation->process > 0) {
-        /* it is asked first, since compilers then remove what they have written aside */
+        /* it is asked to end first, since compilers then remove their temporary files */
         enum { LOOKS = 100 };
         siginfo_t ended = {0};
         kill(-compilation->process, SIGTERM);
@@ -297,7 +297,7 @@ void gm_compilation_stop(struct gm_compilation *compilation)
     }
 }
 
-/* The program or the library that this is part of. */
+/* The program or the library that contains this function. */
 static bool find_self(char self[4096])
 {
     static const char part = 0;

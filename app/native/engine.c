@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Native loops: made, found, tried, taken. */
+/* Native loops: compiled, cached, checked, taken. */
 #include "app/native/engine.h"
 
 #include <dlfcn.h>
@@ -99,7 +99,7 @@ static enum gm_engine chosen = GM_ENGINE_INTERPRETED;
 static char kernel_folder[GM_CACHE_PATH];
 static void (*tell)(const char *sentence);
 static bool (*interrupted)(void);
-static atomic_bool stopping; /* the program ends, and what compiles with it */
+static atomic_bool stopping; /* the program ends, and its compilations with it */
 static double spent_in_all;
 
 bool gm_engine_named(const char *word, enum gm_engine *engine)
