@@ -311,7 +311,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     }
 }
 
-/* The keys of a system's formulas; the scene of a file has the keys of its own. */
+/* The keys of a system's formulas; a file's scene has the keys of its formulas. */
 static void offer_formulas(const char *word, const char *system, const struct gm_scene *scene)
 {
     const struct stem stem = whole(word);

@@ -357,7 +357,7 @@ static void start(struct series *series, struct worker *worker)
     *worker = (struct worker){process, job};
 }
 
-/* Waits until a worker ends, hands interruptions on. False when all are idle. */
+/* Waits until a worker ends, and passes interruptions on. Returns false when all are idle. */
 static bool wait_for_one(struct series *series)
 {
     bool any = false;

@@ -227,7 +227,8 @@ static const char *default_lanes(const struct gm_options *options, const char *n
 struct entry {
     const struct gm_scene *scene;
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* the fitting schemes */
-    const struct gm_scheme *same[GM_FITTING_SCHEMES]; /* and others whose steps are the same here; or NULL */
+    const struct gm_scheme
+        *same[GM_FITTING_SCHEMES]; /* the other schemes whose steps are the same here, or NULL */
     size_t scheme_count;
     const struct gm_parameter **rows; /* the parameters of the scene and of its fitting schemes */
     size_t row_count;

@@ -304,7 +304,7 @@ static bool write_rows(struct outcome *outcome, char *message)
     return !outputs->save || gm_save_row(outputs->save, outcome->drive.lane->run, message);
 }
 
-/* Replaces the checkpoint. False with a sentence. */
+/* Replaces the checkpoint. Returns false with a sentence. */
 static bool replace_checkpoint(const struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
