@@ -44,8 +44,9 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
 
 /* Names of scenes, systems and rooms. */
 
-/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word. False: none
-   is near; the message then names a folder of the environment that could not be opened, "" if all could. */
+/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word. Returns
+   false if none is near; the message then names a folder of the environment that could not be opened, ""
+   if all could. */
 enum { GM_NEAR = 64 };
 bool gm_system_near(const char *word, char near[GM_NEAR], char *message);
 

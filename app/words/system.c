@@ -304,7 +304,7 @@ static void find_largest(struct making *making)
     }
 }
 
-/* Reports that memory is short, with the largest length. */
+/* Reports a lack of memory, with the largest length. */
 static void refuse_memory(const struct making *making)
 {
     const struct gm_typed_file *written = &making->written;

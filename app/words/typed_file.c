@@ -425,7 +425,7 @@ static struct gm_word_place place_of(const struct gm_typed_file *file, const cha
     return (struct gm_word_place){-1, 0};
 }
 
-/* Every name has to be given: the components at the start, all others as parameters. */
+/* Checks that every name is given: the components at the start, all others as parameters. */
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
     char missing[160] = "";

@@ -19,7 +19,7 @@ struct gm_typed_file { /* {0} is an empty text */
     char *const *words; /* "NAME key=value ..." */
 };
 
-extern const char *const gm_typed_keys[];     /* for words only: H L rate coordinates momenta, and NULL */
+extern const char *const gm_typed_keys[]; /* keys without a file: H L rate coordinates momenta, and NULL */
 extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
 
 /* Returns true if a word sets H, L or rate. */
@@ -40,7 +40,7 @@ bool gm_typed_file_has(const struct gm_typed_file *file, const char *word);
 int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault *fault,
                         struct gm_word_place *place, char *message);
 
-/* The formulas of a text as words, "H=p^2/2", which would replace them. False: no memory. */
+/* The formulas of a text as words that would replace them, "H=p^2/2". Returns false when out of memory. */
 bool gm_typed_file_formulas(const char *text, struct gm_arguments *words);
 
 #endif

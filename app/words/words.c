@@ -92,8 +92,8 @@ static const char *fault_of(const struct gm_range *range, bool whole)
     return NULL;
 }
 
-/* Reads "END..END:COUNT" or "END..END:logCOUNT", the ends numbers as gm_number_parse takes them. False with a
-   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values have to be whole numbers. */
+/* Reads "END..END:COUNT" or "END..END:logCOUNT" with ends for gm_number_parse. Returns false with a
+   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values must be whole numbers. */
 static bool parse_range(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
 {
     const char *between = strstr(text, ".."), *colon = strrchr(text, ':');

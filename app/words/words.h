@@ -12,7 +12,7 @@
 
 struct gm_range {
     double first, last; /* first < last; for equal factors both have one sign */
-    size_t count;       /* at least 2, at most 1e15 */
+    size_t count;       /* number of values, at least 2, at most 1e15 */
     bool logarithmic;
 };
 
