@@ -60,7 +60,7 @@ static inline bool gm_column_put(struct gm_column *column, const void *bytes, si
 /* Appends `count` numbers, `stride` of them apart, fewer than a buffer holds; false with errno. */
 bool gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count);
 __attribute__((format(printf, 2, 3))) bool gm_column_print(struct gm_column *column, const char *format, ...);
-/* Writes the buffer. False with errno: `place` is then after the written bytes. */
+/* Writes the buffer. Returns false with errno: `place` is then after the written bytes. */
 bool gm_column_flush(struct gm_column *column);
 
 /* Opens a column of lines after the first `lines` of the file; false with errno, EILSEQ if it has fewer. */
@@ -124,7 +124,7 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message);
 void gm_part_close(struct gm_part *part, bool remove);
 
 /* Gives a new folder an identity, on the disk when this returns: with it a checkpoint recognises its rows,
-   and not those of another run to the same file. False with errno. */
+   and not those of another run to the same file. Returns false with errno. */
 bool gm_part_sign(struct gm_part *part);
 /* The folder's identity; 0: it has none. */
 uint64_t gm_part_identity(const struct gm_part *part);
@@ -135,7 +135,7 @@ int gm_part_file(const struct gm_part *part, size_t lane, bool begun);
 bool gm_part_take(const struct gm_part *part, size_t lane);
 /* Removes the lane's file or, with `begun`, its replacement. */
 void gm_part_drop(const struct gm_part *part, size_t lane, bool begun);
-/* Renames a lane's file to the path of the complete file. False with errno. */
+/* Renames a lane's file to the path of the complete file. Returns false with errno. */
 bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path);
 
 /* The largest size, in bytes, of a file in the folder that already has `own` bytes of the disk; by the
@@ -159,8 +159,8 @@ struct gm_saved {
     char *meta;       /* the run as JSON, once the lane has ended */
     size_t meta_size; /* approximate size of meta, in bytes */
     uint64_t size;    /* the lane's bytes of its file, once the lane has ended */
-    uint64_t heads;   /* for .csv: lines before the rows */
-    /* for .npz */
+    uint64_t heads;   /* lines before the rows of .csv */
+    /* the fields of .npz */
     bool plain; /* every row is the numbers of the state, one per column */
     struct gm_npz *npz;
     uint64_t capacity, starts[GM_COLUMNS]; /* rows that have room; offsets of the columns */

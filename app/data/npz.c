@@ -17,7 +17,7 @@
 enum { TYPE = 24, NPY_HEAD = 256 };
 
 struct entry {
-    char *name;           /* with its ending */
+    char *name;           /* the name with its ending */
     uint64_t place, size; /* offset of the header; size of head and numbers */
     uint32_t crc;
     char type[TYPE];

@@ -125,7 +125,8 @@ static bool write_apart(const struct group *group, const struct gm_quantity *qua
     return true;
 }
 
-/* Point by point, from quantities that may have to be derived one by one: x, y and z are collected first. */
+/* Writes coordinates point by point. Quantities may have to be derived one by one, so x, y and z are
+   collected first. */
 static void write_places(const struct group *group, FILE *file)
 {
     if (group->apart) {
@@ -461,7 +462,7 @@ static bool put_item(struct gm_column *lines, const struct group *group, const s
 static bool put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
 {
     struct gm_column *lines = &lane->columns[0];
-    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* of changing arrays, and of others */
+    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* offsets of changing and fixed arrays */
     bool good = gm_column_print(
         lines,
         "<Grid Name=\"row\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"%.17g\"/>", t);
