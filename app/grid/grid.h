@@ -88,14 +88,14 @@ struct gm_grid {
     struct gm_arena *arena;    /* owns the memory of the others */
     struct gm_request request; /* its first lane has the common parameters */
     const struct gm_study_row *row;
-    const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
+    const struct gm_arguments *typed; /* a scene and its key=value, while the grid is opened */
     const char *requested;            /* the requested measure or judge; NULL: the scene's */
     struct gm_grid_line *lines;
     size_t count;                         /* number of lines */
     size_t begun;                         /* number of lines that are shown: measured or being measured */
     const struct gm_parameter *parameter; /* the parameter that varies beside step and scheme, or NULL */
     struct gm_grid_axis steps, values;
-    const struct gm_listener *listener; /* while it is measured */
+    const struct gm_listener *listener; /* the listener of a running measurement */
     size_t jobs;                        /* number of parallel runs; 0: one per core */
 
     /* stability */
@@ -178,7 +178,7 @@ enum gm_study_kind gm_study_find(const char *name);
    request.refusal is then set. */
 bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
                   const char *measure, char *message);
-/* Makes the runs; stopped, the others stay untried. False with a sentence. */
+/* Makes the runs; after a stop the others stay untried. Returns false with a sentence. */
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 void gm_grid_close(void *grid);
 

@@ -28,7 +28,8 @@ struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_s
 /* Closes a lane with the grid, and returns it; NULL leaves the body of the grid's arena with this message. */
 struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message);
 
-/* The lane of a cell at its start, in parameters of its own; settles the cell's dt. NULL with a sentence. */
+/* The lane of a cell at its start, with its own parameters; sets the cell's dt. Returns NULL with a
+   sentence. */
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
                                   struct gm_grid_cell *cell, char *message);
 

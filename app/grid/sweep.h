@@ -54,7 +54,7 @@ void gm_sweep_close(void *sweep);
 size_t gm_sweep_share(const struct gm_sweep *sweep);
 size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k);
 
-/* The length of a line's front, if it is that of the run's row; 0: it differs, or memory is short. */
+/* The length of a line's front, if it is that of the run's row; 0: it differs, or out of memory. */
 size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line);
 
 /* The arguments of `geomint run` for this run. malloc'ed. Returns NULL when out of memory. */
@@ -70,7 +70,7 @@ struct gm_sweep_row {
 /* Makes a run. In any thread. */
 void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row);
 
-/* The sum over all runs of the share of a number that `of` finds for a request, judged by some of them. */
+/* The sum of a number over all runs of the shard. `of` finds it for a request; only some runs are asked. */
 double gm_sweep_total(const struct gm_sweep *sweep,
                       double (*of)(const struct gm_request *request, size_t index));
 

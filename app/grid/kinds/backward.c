@@ -141,7 +141,7 @@ static void look(const struct gm_lane *lane, struct gm_modified_energy *energy, 
 static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_modified_energy *energy,
                   double *y, struct gm_grid_cell *cell)
 {
-    enum { LOOKS = 400 }; /* at a run, at most */
+    enum { LOOKS = 400 }; /* the largest number of sampled steps */
     double first[GM_POWERS], terms[GM_POWERS];
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;

@@ -95,7 +95,7 @@ static bool take_best(struct gm_arguments *words)
         while (gm_span_take(list, &rest, ",", &name)) {
             if (name.end - name.begin == sizeof best - 1 &&
                 memcmp(list + name.begin, best, sizeof best - 1) == 0) {
-                /* with the comma after it, or else the one before, so that the rest is a list */
+                /* cut with the comma after it, or else the one before, so that the rest is a list */
                 const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
                 const size_t from = last && !alone ? name.begin - 1 : name.begin,
                              to = last ? name.end : rest.begin;
