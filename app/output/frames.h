@@ -47,7 +47,8 @@ struct gm_frames {
     long found;     /* number of our existing frames */
 };
 
-/* Makes the folder if it is missing and looks for frames. False with a sentence (GM_MESSAGE bytes). */
+/* Makes the folder if it is missing and looks for frames. Returns false with a sentence (GM_MESSAGE
+   bytes). */
 bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule, const char *folder,
                     const char *name, const struct gm_provenance *provenance, char *message);
 void gm_frames_close(struct gm_frames *frames);
@@ -100,7 +101,7 @@ bool gm_pause_has_rows(const struct gm_pause *pause);
 bool gm_pause_note(struct gm_pause *pause, size_t index, const struct gm_lane *lane,
                    const struct gm_paused *paused);
 
-/* Replaces the file by all that was noted, at once, or leaves it as it was. False with a sentence. */
+/* Replaces the file by all noted states, at once, or leaves it as it was. Returns false with a sentence. */
 bool gm_pause_write(const struct gm_pause *pause, const char *path, char *message);
 
 /* ---- the checkpoint of a render after one of its frames, in the frames' folder during the render ---- */

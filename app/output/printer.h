@@ -64,8 +64,7 @@ struct gm_chart {
 };
 
 /* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno (NULL: the
-   numbers are somewhere already); makes the folders that they lie in. False with a sentence (GM_MESSAGE
-   bytes). */
+   numbers exist already); makes their folders. Returns false with a sentence (GM_MESSAGE bytes). */
 bool gm_chart_write(struct gm_chart *chart, const void *data,
                     void (*draw)(const void *data, struct gm_picture *picture),
                     bool (*write)(const void *data, const char *path), char *message);

@@ -24,7 +24,7 @@ __attribute__((format(printf, 3, 0))) static void put_line(FILE *stream, const c
     if (stream == stderr && strstr(text, "not enough memory")) {
         atomic_store(&complained_of_memory, true);
     }
-    char *rest = text; /* a place in a text is shown on lines of its own */
+    char *rest = text; /* the place in a text is shown on separate lines */
     for (char *line; (line = strsep(&rest, "\n")); front = "") {
         fprintf(stream, "%s%s\n", front, gm_text_tame(line));
     }
