@@ -17,7 +17,7 @@ struct gm_moment {
 struct gm_past {
     struct gm_moment *moments;
     size_t count;
-    size_t bound;  /* on count */
+    size_t bound;  /* the largest count */
     int64_t every; /* steps between snapshots */
 };
 

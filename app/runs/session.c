@@ -488,7 +488,7 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
         return false;
     }
     session->log.lanes[lane].shown =
-        session->lanes[lane]->named; /* differs from the default once a change is made */
+        session->lanes[lane]->named; /* a change before the first step renames it */
     return true;
 }
 

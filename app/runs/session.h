@@ -33,7 +33,7 @@ struct gm_session {
     bool turned;           /* time has run backwards since the start */
 };
 
-/* Opens the lanes of a request, which is copied. False with a sentence (GM_MESSAGE bytes). */
+/* Opens the lanes of a request, which is copied. Returns false with a sentence (GM_MESSAGE bytes). */
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message);
 void gm_session_close(struct gm_session *session);
 
@@ -132,7 +132,7 @@ struct gm_shot_lane {
 struct gm_shot_parameter {
     const struct gm_parameter *row;
     bool of_scheme;
-    bool differs;    /* from lane to lane; the value is the selected one's */
+    bool differs;    /* lanes differ; the value is the selected one's */
     double position; /* 0 to 1 in its range, or -1 */
     char value[GM_TEXT_SIZE];
 };
@@ -147,7 +147,8 @@ struct gm_shot {
     struct gm_shot_parameter parameters[GM_SHOT_PARAMETERS];
     size_t scheme_count;
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit, */
-    const struct gm_scheme *same[GM_SHOT_SCHEMES];    /* and others whose steps are the same here; or NULL */
+    const struct gm_scheme
+        *same[GM_SHOT_SCHEMES]; /* the other schemes whose steps are the same here, or NULL */
     double t, speed;
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
@@ -183,7 +184,8 @@ bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme);
 /* The position of the value in its range, 0 to 1; -1 if it has no range to show. */
 double gm_slider_position(const struct gm_parameter *row, const void *owner);
 
-/* The value at a place from 0 to 1 in the range, rounded, as it would be typed. False if it has no range. */
+/* The value at a place from 0 to 1 in the range, rounded, as it would be typed. Returns false without a
+   range. */
 bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_TEXT_SIZE]);
 
 /* The next value up (direction > 0) or down, as it would be typed; a fine step is about ten times smaller.
