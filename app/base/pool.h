@@ -14,7 +14,7 @@ struct gm_pool {
     /* Does piece `index` and leaves its result in place `slot` < window, which is reserved until the
        result is taken. Called in any thread. */
     void (*work)(void *self, size_t index, size_t slot);
-    /* Takes the result: in the caller's thread, in order of the pieces. False ends the work. */
+    /* Takes the result: in the caller's thread, in order of the pieces. Returns false to end the work. */
     bool (*take)(void *self, size_t index, size_t slot);
     /* Returns true to begin no further piece; NULL: never. Called in any thread. */
     bool (*stopped)(void *self);
