@@ -101,7 +101,7 @@ static void put_sentence(FILE *page, const char *text)
     put_text(page, text + 1);
 }
 
-/* A file's bytes in base64. False if it cannot be read. */
+/* A file's bytes in base64. Returns false if it cannot be read. */
 static bool put_base64(FILE *page, const char *path)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
