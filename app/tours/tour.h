@@ -15,7 +15,7 @@ enum { GM_EVERY_LANE = -1 };
 /* A change during the run, at a model time. */
 struct gm_tour_change {
     double t;
-    long lane;  /* from 0, or GM_EVERY_LANE */
+    long lane;  /* a lane's number from 0, or GM_EVERY_LANE */
     char *text; /* "scheme=midpoint", "dt=0.1" */
 };
 
@@ -43,11 +43,11 @@ struct gm_tour {
     char *about; /* one line for the list */
     long place;  /* position in the list */
     struct gm_tour_step *steps;
-    size_t count; /* at least 1 */
+    size_t count; /* number of steps, at least 1 */
 };
 
-/* Reads a tour and tries out everything that it shows. False with one sentence that names file and line
-   (GM_MESSAGE bytes); the tour is then empty. */
+/* Reads a tour and tries out everything that it shows. Returns false with one sentence that names file and
+   line (GM_MESSAGE bytes); the tour is then empty. */
 struct gm_file;
 bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *message);
 /* The same from memory; `name` stands for the file in sentences, and paths of schemes are from its folder. */
@@ -61,8 +61,8 @@ double gm_tour_begin(const struct gm_tour *tour, size_t step);
 
 /* ---- the places of tours ---- */
 
-/* The file of the tour that a word means: a path, a name, or a title. False with a sentence; *unreadable: because a
-   folder or a tour could not be read. */
+/* The file of the tour that a word means: a path, a name, or a title. Returns false with a sentence;
+   *unreadable: a folder or a tour could not be read. */
 bool gm_tour_find(const char *word, struct gm_file *file, bool *unreadable, char *message);
 
 /* The readable tours in their order; sets *count. An unreadable tour is left out; message has the sentence
