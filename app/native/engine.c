@@ -87,7 +87,7 @@ struct build {
     const struct gm_loops *loops;
     struct gm_compilation compilation;
     struct gm_cache_key key;
-    char text_name[80], library_name[80]; /* while it compiles */
+    char text_name[80], library_name[80]; /* names of temporary files, while it compiles */
     char sentence[GM_MESSAGE];            /* the reason if it is refused */
     bool said;
 };
@@ -121,7 +121,7 @@ void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*teller)
     tell = teller;
     interrupted = asked;
     static bool stops;
-    /* the compiler works in a folder of its own */
+    /* the compiler works in a separate folder */
     if (strlen(kernels) >= sizeof kernel_folder || !realpath(kernels, kernel_folder)) {
         kernel_folder[0] = '\0';
     }
