@@ -148,7 +148,7 @@ enum { GM_COLUMNS = GM_QUANTITIES + 1 };
 
 /* A lane of the file: its rows so far, and its columns while it runs. */
 struct gm_saved {
-    size_t index; /* the lane's index */
+    size_t index;
     struct gm_quantity quantities[GM_QUANTITIES];
     size_t sizes[GM_QUANTITIES]; /* numbers per row of each quantity (gm_quantity_size) */
     size_t count, members;
@@ -167,7 +167,7 @@ struct gm_saved {
 };
 
 struct gm_saving {
-    const char *path;   /* the path of the file */
+    const char *path;
     const char *folder; /* the path without its ending, for the files beside it */
     const struct gm_part *part;
     struct gm_saved *lanes; /* the first `begun` have begun */

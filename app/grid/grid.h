@@ -91,7 +91,7 @@ struct gm_grid {
     const struct gm_arguments *typed; /* a scene and its key=value, while the grid is opened */
     const char *requested;            /* the requested measure or judge; NULL: the scene's */
     struct gm_grid_line *lines;
-    size_t count;                         /* number of lines */
+    size_t count;
     size_t begun;                         /* number of lines that are shown: measured or being measured */
     const struct gm_parameter *parameter; /* the parameter that varies beside step and scheme, or NULL */
     struct gm_grid_axis steps, values;

@@ -63,7 +63,7 @@ char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 /* A run's row, malloc'ed; NULL if it was interrupted, or when out of memory. */
 struct gm_sweep_row {
     char *text;
-    bool ok;                   /* its status is `ok` */
+    bool ok;
     char sentence[GM_MESSAGE]; /* the warning for status ok, the reason for status `refused`, else "" */
 };
 

@@ -35,7 +35,7 @@ struct reader {
     const char *name; /* the file's name in sentences */
     const char *text;
     size_t size;
-    struct gm_arena *arena; /* the tour's arena */
+    struct gm_arena *arena;
     struct gm_tour *tour;
     struct entry *entries;
     size_t count;
