@@ -100,8 +100,7 @@ static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_sa
 
 enum { CONTENTS = 1 << 16, HEADS = 512 /* bytes of a column's head */ };
 
-/* The size of the archive's end, meta and the table of contents. It has room from the start, so that the
-   archive can be finished on a full disk. */
+/* The size of the archive's end, meta and table of contents. It is reserved at the start, for a full disk. */
 static uint64_t end_size(const struct gm_saved *lane)
 {
     enum { LETTER = sizeof(uint32_t) };

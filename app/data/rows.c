@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Returns true if the rows follow the time, and are not so dense that every step has one. */
+/* Returns true if rows follow the time, and not every step has one. */
 static bool is_by_time(const struct gm_rows *rows, const struct gm_run *run)
 {
     return rows->every == 0 && !isnan(rows->interval) &&

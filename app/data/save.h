@@ -39,8 +39,7 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
 bool gm_save_takes_many(const struct gm_save *save);
 bool gm_save_rows(struct gm_save *save, const struct gm_run *run, const double *rows, size_t count,
                   char *message);
-/* Puts the current lane's rows safely on the disk, and returns their number, from which gm_save_begin
-   resumes. */
+/* Syncs the current lane's rows, and returns their number, from which gm_save_begin resumes. */
 bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message);
 /* Ends the lane; meta: JSON that describes its run. */
 bool gm_save_end(struct gm_save *save, const char *meta, char *message);

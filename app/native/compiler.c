@@ -25,8 +25,8 @@
 
 enum { MOST_BYTES = 1 << 24, MOST_COMPLAINTS = 1 << 20, COULD_NOT_START = 127, LONGEST = 12 };
 
-/* The limit of the CPU time, and of the clock time in which none is used, in seconds; the total clock time
-   may be LONGEST times as long. */
+/* The limit of CPU time, and of clock time without it, in seconds; the limit of all clock time is LONGEST
+   times that. */
 static double most_seconds(void)
 {
     const char *own = getenv("GEOMINT_COMPILER_SECONDS");
@@ -153,8 +153,8 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
     return true;
 }
 
-/* Reads a line of /proc/PID/stat: the process's group, and the CPU time, in ticks, of the process and of
-   children for which it has waited. Returns false for any other line. */
+/* Reads the group and the CPU time, in ticks, of a process and its ended children from a line of
+   /proc/PID/stat. Returns false for any other line. */
 static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
 {
     enum { GROUP = 2, FIRST_TIME = 11, LAST_TIME = 14 };

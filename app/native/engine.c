@@ -135,8 +135,7 @@ static bool is_written(const struct gm_lane *lane)
     return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
 }
 
-/* Returns true if the lane has taken compiled code; it must include its scheme's family, if the family has
-   loops. */
+/* Returns true if the lane has compiled code, with its scheme's family if that has loops. */
 static bool is_native(const struct gm_lane *lane)
 {
     const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);

@@ -263,7 +263,7 @@ static double overshoot(const struct gm_drive *drive)
     return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }
 
-/* Returns true if the end is missed by more than half of the time to it. */
+/* Returns true if the overshoot is more than half of the requested time. */
 static bool is_far_beyond(const struct gm_drive *drive)
 {
     const double over = overshoot(drive);

@@ -112,7 +112,7 @@ static size_t place_of(const char *line, int word, size_t offset)
     return at;
 }
 
-/* Returns true if a word needs quotes: blanks or quotes in it would split or change it. */
+/* Returns true if blanks or quotes would split or change the word. */
 static bool needs_quotes(const char *word)
 {
     struct gm_arguments alone = {0};

@@ -256,7 +256,7 @@ static bool has_digits_alone(const char *text)
     return text[strspn(text, "0123456789")] == '\0';
 }
 
-/* Returns true for 05 and similar: a list does not have such numbers. */
+/* Returns true for 05 and similar, which lists do not have. */
 static bool begins_with_zero(const char *text)
 {
     return text[0] == '0' && text[1] != '\0' && has_digits_alone(text);
@@ -448,8 +448,7 @@ static const struct gm_preference *preferred(const struct gm_scene *scene, int c
     return NULL;
 }
 
-/* Returns true if the typed words make a default word ineffective: a mesh file does so with rows, a
-   preferred scheme with the schemes. */
+/* Returns true if the typed words make a default word ineffective, such as rows with a mesh file. */
 static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
 {
     char key[64];
