@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint: the first word is the command, or a scene for the explorer; what that returns is the exit status,
-   unless memory was short. */
+/* geomint: the first word is the command, or a scene for the explorer. The command's result is the exit
+   status, unless memory was short. */
 #include <locale.h>
 #include <malloc.h>
 #include <signal.h>
@@ -22,14 +22,14 @@
 #include "render/gl/context.h"
 #include "render/pixels/canvas.h"
 
-/* What may stand first: a command or a scene. */
+/* The possible first words: commands and scenes. */
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
     return i < gm_command_count ? gm_commands[i].name : gm_scene_name(i - gm_command_count);
 }
 
-/* Whether a word is one of a few, as --help, -h and help are. */
+/* Returns true if a word is in a list, such as --help, -h, help. */
 static bool is_one_of(const char *word, const char *const *words)
 {
     while (*words && strcmp(*words, word) != 0) {
@@ -92,9 +92,9 @@ static bool is_interrupted(void)
     return gm_interrupted;
 }
 
-/* A movie asks for the same buffers frame after frame. What is given back stays with the process, up to a few
-   frames' worth: fetching it anew from the system, page by page, is a seventh of a frame's time. The first of it
-   comes in huge pages, where the system has some: pages of 4 KB are a sixth of the time of one picture. */
+/* Keeps freed buffers in the process, up to a few frames: a movie requests the same ones for every frame,
+   and fetching them again from the system, page by page, takes a seventh of a frame's time. The first
+   buffers have huge pages if available: pages of 4 KB take a sixth of the time of one picture. */
 static void keep_buffers(void)
 {
     static const size_t huge = (size_t)2 << 20, room = (size_t)31 << 20;
@@ -107,7 +107,7 @@ static void keep_buffers(void)
         madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);
         free(block);
     } else {
-        gm_memory_forget(); /* it was asked for to be quick */
+        gm_memory_forget(); /* the request was only for speed */
     }
 }
 
@@ -130,7 +130,7 @@ static int run(int argc, char *argv[])
 {
     keep_buffers();
     setlocale(LC_CTYPE, "");
-    /* a broken pipe and a full disk are answered where they are written to */
+    /* a broken pipe and a full disk are reported after the write */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     gm_context_answer_crashes();
@@ -183,8 +183,8 @@ static int run(int argc, char *argv[])
 int main(int argc, char *argv[])
 {
     const int status = run(argc, argv);
-    /* whoever was refused memory may have made something else of it: a mistake in what was asked for, or less
-       than was asked for */
+    /* a lack of memory may have had other consequences: an apparent mistake in the request, or a smaller
+       result */
     if (!gm_memory_was_short() || status == GM_EXIT_INTERRUPTED || status == GM_EXIT_PIPE) {
         return status;
     }

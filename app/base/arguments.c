@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words as one owned list: split from a text, completed by what is usual, written so that they are read
+/* Words as one owned list: split from a text, completed by defaults, written so that they can be read
    again. */
 #include "app/base/arguments.h"
 
@@ -61,7 +61,7 @@ bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
     return good;
 }
 
-/* How long a word's key is; both keys of a run's end count as one. */
+/* The length of a word's key; both keys of a run's end count as one. */
 static size_t key_of(const char *word, const char **key)
 {
     *key = strncmp(word, "steps=", 6) == 0 ? "until=" : word;

@@ -5,41 +5,41 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
+/* Typed words, or the words of a text: a scene and its key=value, or the words of a command. */
 
 struct gm_arena;
 struct gm_scene;
 
 struct gm_arguments { /* {0} is an empty list */
-    char **words;     /* its own copies, and a NULL behind the last */
+    char **words;     /* copies of the words, and a NULL after the last */
     int count;
 };
 void gm_arguments_close(void *arguments);
-/* An empty list that closes with the arena, in a body of it. */
+/* An empty list that closes with the arena; called in a body of it. */
 struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
 
 /* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
-   that belongs to a word. False when memory is short; the list is then to be closed as always. */
+   that belongs to a word. Returns false when out of memory; the caller closes the list in any case. */
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
 
-/* The first of the words that sets what `word` sets, "dt=" or "dt=0.1"; NULL. Both steps= and until= set the
-   end of a run. */
+/* The first word that sets the same key as `word`, "dt=" or "dt=0.1", or NULL. Both steps= and until= set
+   the end of a run. */
 const char *gm_arguments_find(const struct gm_arguments *arguments, const char *word);
 bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
 
 /* Writes one word as gm_arguments_split reads it. */
 void gm_arguments_put(FILE *stream, const char *word);
-/* Writes one word as a shell reads it: quotes are where they are needed. */
+/* Writes one word for a shell, with quotes if they are needed. */
 void gm_arguments_put_shell(FILE *stream, const char *word);
-/* Writes a scene as the first word, or as those that it was made of. */
+/* Writes a scene as its name, or as the words on which it was built. */
 void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene);
 /* The same as a shell reads it, as far as `text` has room. */
 void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size);
-/* "FRONT word word"; malloc'ed, NULL when memory is short. */
+/* "FRONT word word"; malloc'ed. Returns NULL when out of memory. */
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 
-/* A text as printf writes it; malloc'ed, NULL when memory is short. */
+/* A text as printf writes it; malloc'ed. Returns NULL when out of memory. */
 __attribute__((format(printf, 1, 2))) char *gm_text(const char *format, ...);
 
 #endif

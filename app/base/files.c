@@ -23,7 +23,7 @@ enum { LARGEST_DESCRIBED = 1 << 24 };
 /* The folders that are searched, in this order. */
 enum { OF_THE_ENVIRONMENT, OF_THE_USER, FOLDERS };
 
-/* Returns folder; "": there is none. */
+/* Returns folder, "" if the kind has none. */
 static const char *find_folder(enum gm_file_kind kind, int which, char folder[4096])
 {
     const char *named = getenv(variables[kind]), *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
@@ -108,7 +108,7 @@ static void list_file(const char *name, const struct gm_file *file,
     free(about);
 }
 
-/* Those of a folder that no earlier folder has, and the program has not. */
+/* Calls `each` for the files of a folder whose names neither an earlier folder nor the program has. */
 static void each_of_folder(enum gm_file_kind kind, const char *folder,
                            void (*each)(const struct gm_listed *listed, const void *data), const void *data)
 {

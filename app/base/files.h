@@ -7,49 +7,50 @@
 
 #include "core/files/files.h"
 
-/* Files of systems, rooms, schemes and tours by name. A word that ends as such a file does is a path. Another one is a
-   name: of a file that is part of the program, of one in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS, GEOMINT_SCHEMES,
-   GEOMINT_TOURS), or of one in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of these counts. */
+/* Files of systems, rooms, schemes and tours by name. A word with the ending of such a file is a path. Any
+   other word is the name of a file in the program, in the folder of GEOMINT_SYSTEMS (GEOMINT_ROOMS,
+   GEOMINT_SCHEMES, GEOMINT_TOURS), or in $XDG_CONFIG_HOME/geomint, or ~/.config/geomint; the first of
+   these counts. */
 
 struct gm_file {
     const struct gm_built_in *built_in; /* NULL: it is at the path */
-    char path[4096];                    /* of a built-in one below share/ */
+    char path[4096];                    /* the path of the file; a built-in one is below share/ */
 };
 
 /* The file that a word means; false: no name of this kind is that word. */
 bool gm_file_find(enum gm_file_kind kind, const char *word, struct gm_file *file);
-/* Whether it means one. */
+/* Returns true if the word means a file. */
 bool gm_file_is(enum gm_file_kind kind, const char *word);
 
-/* Its text with a zero behind it; malloc'ed. NULL with a sentence (GM_MESSAGE bytes), as where it has more than
-   `most` bytes. */
+/* The file's text, ended by a zero byte; malloc'ed. Returns NULL with a sentence (GM_MESSAGE bytes) if it
+   cannot be read, or has more than `most` bytes. */
 char *gm_file_read(const struct gm_file *file, size_t most, size_t *length, char *message);
 
-/* A name, what lists call its file (gm_file_title), and the line `about:`; "" where it cannot be read. */
+/* A name, the title in lists (gm_file_title), and the line `about:`; "" if it cannot be read. */
 struct gm_listed {
     const char *name, *title, *about;
     const struct gm_file *file;
 };
-/* Calls `each` for every file that has a name of this kind, but for those that memory is too short for. False, with a
-   sentence, where the environment names a folder that cannot be opened. */
+/* Calls `each` for every file that has a name of this kind, except files for which memory is short.
+   Returns false with a sentence if the environment names a folder that cannot be opened. */
 bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *listed, const void *data),
                    const void *data, char *message);
-/* Whether that folder can be opened, or there is none; false with the sentence. */
+/* Returns true if the environment names no folder or one that can be opened; else false with the sentence. */
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
 
-/* Where in some words something is wrong. */
+/* The place of a fault in some words. */
 struct gm_word_place {
-    int word;      /* below 0: nowhere in them */
-    size_t offset; /* in bytes */
+    int word;      /* index of the word; negative: no word has it */
+    size_t offset; /* bytes from the start of the word */
 };
 
 struct gm_fault;
 
-/* Reports what is wrong with the text of a file, with its line and column (GM_MESSAGE bytes). */
+/* Reports a fault of a file's text, with its line and column (GM_MESSAGE bytes). */
 void gm_place_report(const char *path, const char *text, const struct gm_fault *fault, char *message);
 
-/* Appends to a message (GM_MESSAGE bytes) the line of a text that is wrong, and below it a line with a caret
-   at the place. Only what is ASCII is shown as it is. */
+/* Appends to a message (GM_MESSAGE bytes) the faulty line of a text, and below it a line with a caret at
+   the place. Only ASCII is shown unchanged. */
 void gm_place_show(const char *text, size_t length, size_t offset, char *message);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Interruptions are counted; whoever works for long looks. */
+/* Counts interruptions; long work checks the count. */
 #include "app/base/interrupt.h"
 
 #include <stddef.h>

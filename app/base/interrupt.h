@@ -5,18 +5,18 @@
 #include <signal.h>
 #include <stdbool.h>
 
-/* How often SIGINT or SIGTERM came; long work looks at it between steps. */
+/* The number of signals SIGINT and SIGTERM; long work checks it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
 
-/* From now on they are counted. Work that does not look at the count for 2 s, in one step or an opening, is cut off: the
-   process ends with status 130, without the files that it has not completed. A second signal cuts it off at once,
-   unless it comes together with the first one: timeout sends its signal twice. */
+/* Starts counting signals. Work that does not check the count for 2 s, in one step or an opening, is cut
+   off: the process ends with status 130, without its incomplete files. A second signal cuts it off at
+   once, unless it comes together with the first one: timeout sends its signal twice. */
 void gm_catch_interrupts(void);
-/* An interruption was seen: what there is is written now, for as long as it takes. */
+/* Notes that an interruption was seen: existing results are now written, without a time limit. */
 void gm_interrupts_seen(void);
 
-/* Whether one that is caught ends the process where it is, with status 130: while something takes long that cannot look,
-   and nothing else is unfinished. One that came before counts. */
+/* With `at_once` a signal, also an earlier one, ends the process at once with status 130: for long work
+   that cannot check the count, while no file is unfinished. */
 void gm_interrupts_end(bool at_once);
 
 /* Exit statuses of the program. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where in a text something is wrong, for people to see. */
+/* The display of a fault's place in a text. */
 #include "app/base/files.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pool of threads for one piece of work after the other: whoever is free begins the next one. */
+/* A pool of threads for pieces of work in their order: a free thread begins the next one. */
 #include "app/base/pool.h"
 
 #include <pthread.h>
@@ -11,10 +11,10 @@
 struct crew {
     const struct gm_pool *pool;
     pthread_mutex_t lock;
-    pthread_cond_t ready, room; /* the next piece can be taken; one more may be begun */
+    pthread_cond_t ready, room; /* the next piece can be taken; a further one may begin */
     size_t next, taken, working;
     bool leave;
-    bool *done; /* by slot */
+    bool *done; /* one per slot */
 };
 
 size_t gm_pool_cores(void)
@@ -29,7 +29,7 @@ static bool is_stopped(const struct gm_pool *pool)
     return pool->stopped && pool->stopped(pool->self);
 }
 
-/* Begins a piece: its number, or `count` when there is none any more. Under the lock. */
+/* Begins a piece and returns its number, or `count` after the last one. The caller holds the lock. */
 static size_t begin(struct crew *crew)
 {
     const struct gm_pool *pool = crew->pool;
@@ -43,7 +43,7 @@ static size_t begin(struct crew *crew)
     if (crew->leave || crew->next == pool->count) {
         return pool->count;
     }
-    if (crew->next + 1 == pool->count) { /* nothing is left for those who wait */
+    if (crew->next + 1 == pool->count) { /* waiting threads find no further piece */
         pthread_cond_broadcast(&crew->room);
     }
     return crew->next++;
@@ -141,5 +141,5 @@ size_t gm_pool_run(const struct gm_pool *pool)
     }
     free(crew.done);
     free(threads);
-    return started > 0 ? crew.taken : run_alone(pool); /* where there is no thread, there is this one */
+    return started > 0 ? crew.taken : run_alone(pool); /* without a thread the caller does the work */
 }

@@ -5,27 +5,28 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Independent pieces of work on all cores, what they leave taken in order. */
+/* Independent pieces of work on all cores; their results are taken in order. */
 
 struct gm_pool {
     size_t count;  /* pieces, numbered from 0 */
-    size_t jobs;   /* so many at once; 0: one a core that this process may use */
-    size_t window; /* so many may be begun and not yet taken, at least 1: memory does not grow with `count` */
-    /* Does piece `index` and leaves what came of it in place `slot` < window, which is its own until it is
-       taken. In any thread. */
+    size_t jobs;   /* number of parallel pieces; 0: one per core that this process may use */
+    size_t window; /* most pieces that have begun and are not yet taken, at least 1: bounds the memory */
+    /* Does piece `index` and leaves its result in place `slot` < window, which is reserved until the
+       result is taken. Called in any thread. */
     void (*work)(void *self, size_t index, size_t slot);
-    /* Takes what was left: in the caller's thread, in order of the pieces. False: that is enough. */
+    /* Takes the result: in the caller's thread, in order of the pieces. Returns false to end the work. */
     bool (*take)(void *self, size_t index, size_t slot);
-    /* Whether to begin no further piece; NULL: never. In any thread. */
+    /* Returns true to begin no further piece; NULL: never. Called in any thread. */
     bool (*stopped)(void *self);
     void *self;
 };
 
-/* Returns when every piece was taken, or when it was stopped: those begun are then finished, and taken as
-   far as none is missing before them. Returns how many were taken (where `take` said no: that one not). */
+/* Returns when every piece was taken, or when it was stopped: started pieces are then finished, and taken
+   up to the first missing one. Returns the number of taken pieces, without the one for which `take`
+   returned false. */
 size_t gm_pool_run(const struct gm_pool *pool);
 
-/* How many cores this process may use, at least 1. */
+/* The number of cores that this process may use, at least 1. */
 size_t gm_pool_cores(void);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint again FILE: makes a picture once more from what it tells of itself. */
+/* geomint again FILE: redraws a picture from its stored metadata. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,7 +94,7 @@ static bool same_room(const struct gm_request *request, const char *told, char *
            gm_refuse(message, "its room is another one now: it was %.100s, and is %.100s", told, now);
 }
 
-/* The word that named the system means the text that the picture tells. */
+/* The word that named the system now means the text stored in the picture. */
 static void recall_system(const struct gm_options *options, char *const *texts)
 {
     struct gm_arguments *words = gm_arguments_in(options->arena);
@@ -122,7 +122,7 @@ static const struct gm_command_row *chart_of(const char *name)
     return command && command->bit & GM_CHARTS ? command : NULL;
 }
 
-/* Measures a chart once more: the run times are those of now. */
+/* Repeats a chart's measurement: its run times are new. */
 static int chart_again(const struct gm_options *options, const char *command)
 {
     char message[GM_MESSAGE] = "its command is damaged";
@@ -146,24 +146,24 @@ static int chart_again(const struct gm_options *options, const char *command)
     return status;
 }
 
-/* What painted the PNG paints it again, unless somebody says otherwise. */
+/* The painter of the stored PNG is used by default. */
 static bool take_painter(const struct gm_options *options, char *painter, char *message)
 {
     if (options->painter || options->format != GM_FORMAT_PNG || !painter) {
         return true;
     }
-    painter[strcspn(painter, ",")] = '\0'; /* what else it tells are versions */
+    painter[strcspn(painter, ",")] = '\0'; /* versions follow the painter's name */
     return gm_canvas_choose(painter, message);
 }
 
-/* A number of a text within bounds; 0 for no text. False where it is damaged. */
+/* Reads a number of a text within bounds; 0 for no text. Returns false if it is damaged. */
 static bool take_number(const char *text, double low, double high, double *number)
 {
     *number = 0;
     return !text || (gm_number_parse(text, number) && *number >= low && *number <= high);
 }
 
-/* The look that the texts tell of; its title is one of them. */
+/* The appearance that the texts describe; its title is one of them. */
 static bool take_look(struct gm_appearance *look, char *const *texts)
 {
     char theme[8] = "";
@@ -182,7 +182,7 @@ static bool take_look(struct gm_appearance *look, char *const *texts)
            take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
 }
 
-/* Where the picture goes. */
+/* The path of the new picture. */
 static const char *print_path(const struct gm_options *options)
 {
     const char *end = gm_arena_print(options->arena, ".%s", gm_format_name(options->format));
@@ -191,7 +191,7 @@ static const char *print_path(const struct gm_options *options)
                                             output_name(options, end));
 }
 
-/* Says which schemes were named as the program no longer names them. */
+/* Reports schemes that were given by names of earlier versions. */
 static void tell_aliases(const struct gm_options *options, const char *arguments)
 {
     static const char key[] = "scheme=";
@@ -211,7 +211,7 @@ static void tell_aliases(const struct gm_options *options, const char *arguments
     }
 }
 
-/* Draws a picture of lanes once more. */
+/* Redraws a picture of lanes. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
     char message[GM_MESSAGE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What commands share: their table, and that what takes very long is asked about first. */
+/* The table of commands, and the confirmation of runs that take very long. */
 #include "app/commands/commands.h"
 
 #include <stdarg.h>

@@ -10,7 +10,7 @@
 #include "app/output/row.h"
 #include "app/words/request.h"
 
-/* The commands, as bits: an option says which of them take it. */
+/* The commands, as bits: an option has the set of commands that take it. */
 enum {
 #define GM_COMMAND(bit, ...) bit##_NUMBER,
 #include "app/commands/commands.def"
@@ -20,13 +20,13 @@ enum gm_command {
 #define GM_COMMAND(bit, ...) bit = 1 << bit##_NUMBER,
 #include "app/commands/commands.def"
 #undef GM_COMMAND
-    /* those that draw what they measured */
+    /* the commands that draw a measurement */
     GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
-    /* those that paint pixels */
+    /* the commands that paint pixels */
     GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };
 
-/* The --options of a command line; what is not given is 0, NULL or as said. */
+/* The --options of a command line; an option that is not given is 0, NULL or the stated default. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
@@ -34,38 +34,38 @@ struct gm_options {
     const char *output; /* one picture's file; NULL: not given */
     const char *painter;
     const char *format_name;
-    enum gm_engine engine;            /* auto, if it is not given */
-    enum gm_format format;            /* of pictures: png, unless the two before say otherwise */
-    const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
-    const char *table, *retry, *join; /* of sweep */
+    enum gm_engine engine; /* auto, if it is not given */
+    enum gm_format format; /* the pictures' format: png, unless the two options before give another one */
+    const char *name;      /* the name of a chart's files, set only by `again`; NULL: the command's */
+    const char *table, *retry, *join; /* options of sweep */
     long every, frames, jobs;
     long shard, shards;            /* 0, 0: not given */
     double fps, rate;              /* NAN: not given */
     double from, at, interval;     /* NAN: not given */
     struct gm_appearance look;     /* 1280 x 720, light */
-    double page[2];                /* its size in mm, where that was given; else 0 */
+    double page[2];                /* the page's size in mm, if it was given; else 0 */
     bool sized;                    /* a size was given */
-    struct gm_overrides terminal;  /* what to believe of it */
-    struct gm_arguments arguments; /* what is left: scene, key=value, names */
-    struct gm_arena *arena;        /* in whose body the command runs: refused memory ends it */
+    struct gm_overrides terminal;  /* the assumed abilities of the terminal */
+    struct gm_arguments arguments; /* the other words: scene, key=value, names */
+    struct gm_arena *arena;        /* owns the command's memory: refused memory ends the command */
     int *end;                      /* the exit status of gm_command_end */
 };
 
-/* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
+/* Reads argv[first..]; the texts point into it. Returns false with a sentence. The caller closes it in
    both cases. */
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
 
-/* Whether a picture goes to standard output, and nothing else may. */
+/* Returns true if a picture goes to standard output; nothing else may then be written there. */
 bool gm_options_take_stdout(const struct gm_options *options);
 
-/* All there is to say of an option, from which it is read, explained and completed. */
+/* The description of an option, from which it is read, explained and completed. */
 struct gm_option {
     const char *name;  /* "--size" */
-    int kind;          /* of its value, as it is read */
-    unsigned commands; /* those that take it */
-    size_t offset;     /* of its value in gm_options */
+    int kind;          /* the kind of its value, for the reader */
+    unsigned commands; /* the set of commands that take it */
+    size_t offset;     /* the offset of its value in gm_options */
     const char *value; /* "WxH"; "" if it takes none */
     const char *help;
 };
@@ -74,7 +74,7 @@ extern const size_t gm_option_count;
 /* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
 const char *gm_option_name(const char *word);
 
-/* A command, as a line of commands.def says: its bit, its function, which returns the exit status, and texts. */
+/* A command, from a line of commands.def: its bit, its function, which returns the exit status, and texts. */
 struct gm_command_row {
     enum gm_command bit;
     int (*function)(const struct gm_options *options);
@@ -101,21 +101,21 @@ struct gm_request *gm_command_parse(const struct gm_options *options, int count,
 /* More steps than these are made if --yes confirms that. */
 extern const double gm_many_steps;
 
-/* Ends the command with a sentence on how many steps these are, and how long they take, unless they are to be made. */
+/* Reports the number of steps and their time, and ends the command unless the user agrees to the run. */
 void gm_command_confirm(const struct gm_options *options, const struct gm_request *request);
 
 /* "3.2 years" */
 void gm_put_duration(double seconds, char *text, size_t size);
 
-/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
-   parameters other values; without a file they are all there is, "system H=... key=value ...". Returns the
+/* geomint list SYSTEM: a system's definition and its derived structure. Further words give parameters
+   other values. Without a file the words are the whole system, "system H=... key=value ...". Returns the
    exit status. */
 int gm_list_system(const struct gm_options *options, const struct gm_file *file);
 
 /* Puts "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
 void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
                       const struct gm_scheme *const *same, size_t count);
-/* "file":"systems/toda.system","source":"..."; null both where there is no file. */
+/* "file":"systems/toda.system","source":"..."; both are null without a file. */
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 
 /* The tours, as `tour` and `list tours` print them. Returns an exit status. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint complete WORD ...: what the last word may become, a line each, with a tab and a few words on it.
-   The completions of the shells ask this, so that they know what the tables know. */
+/* geomint complete WORD ...: the completions of the last word, one per line, with a tab and a few words on
+   each. The shells' completions call it, so that they follow the tables. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +19,7 @@
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
-/* The word that is being typed: what stays of it, and what the candidates have to begin with. */
+/* The word being typed: the part that stays, and the beginning of the candidates. */
 struct stem {
     char front[256];
     const char *begin;
@@ -37,7 +37,7 @@ static struct stem whole(const char *word)
     return (struct stem){.begin = word};
 }
 
-/* What stands behind the last of these characters is the stem, the rest its front. */
+/* The stem is the text after the last of these characters, the front is the rest. */
 static struct stem behind_last(const char *word, const char *breaks)
 {
     struct stem stem = {.begin = word};
@@ -57,7 +57,7 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
     offer(stem, listed->name, gm_text_tame(title));
 }
 
-/* A system or a room; those that are scenes are offered as scenes. */
+/* A system or a room, unless it is offered as a scene. */
 static void offer_other(const struct gm_listed *listed, const void *stem)
 {
     if (gm_scene_number(listed->name) == gm_scene_count()) {
@@ -65,7 +65,7 @@ static void offer_other(const struct gm_listed *listed, const void *stem)
     }
 }
 
-/* A folder that cannot be opened is for `geomint list` to tell. */
+/* An unreadable folder is ignored here; `geomint list` reports it. */
 static void offer_files(const struct stem *stem, enum gm_file_kind kind)
 {
     char message[GM_MESSAGE];
@@ -121,14 +121,14 @@ static void offer_named(const struct stem *stem, const char *names)
     }
 }
 
-/* The values of an option; of files and numbers nothing is known. */
+/* The values of an option; files and numbers have no list. */
 static void offer_values(const struct gm_option *option, const struct stem *stem,
                          const struct gm_scene *scene)
 {
     if (strcmp(option->name, "--measure") == 0) {
         const char *comma = option->commands & (GM_SWEEP | GM_RUN) ? strrchr(stem->begin, ',') : NULL;
         struct stem last = *stem;
-        if (comma) { /* of a list the last one */
+        if (comma) { /* a list is completed at its last value */
             const size_t used = strlen(last.front);
             snprintf(last.front + used, sizeof last.front - used, "%.*s", (int)(comma + 1 - stem->begin),
                      stem->begin);
@@ -187,7 +187,7 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     }
 }
 
-/* All values of a parameter as a range: one of another kind is soon made of it. */
+/* All values of a parameter as a range, which is easily edited into another one. */
 static void offer_range(const struct stem *stem, const struct gm_parameter *row)
 {
     enum { FEW = 20 };
@@ -203,7 +203,7 @@ static void offer_range(const struct stem *stem, const struct gm_parameter *row)
     offer(stem, text, equal_factors ? "a range, by equal factors" : "a range, evenly");
 }
 
-/* key=value, where the value may be a list. */
+/* key=value; the value may be a list. */
 static void offer_assignment(const char *word, const struct gm_scene *scene, bool sweeps)
 {
     const struct stem stem = behind_last(word, "=,");
@@ -268,7 +268,7 @@ static void offer_options(const struct gm_command_row *command, const char *word
     }
 }
 
-/* What a command takes that is no option. */
+/* The words of a command that do not begin with --. */
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
     static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
@@ -311,7 +311,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     }
 }
 
-/* What a system is made of; a file's scene has those of its formulas. */
+/* The keys of a system's formulas; a file's scene has the keys of its formulas. */
 static void offer_formulas(const char *word, const char *system, const struct gm_scene *scene)
 {
     const struct stem stem = whole(word);

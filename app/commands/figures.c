@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint figures: published figures made again by as many processes as there are processors, on one page
-   with what the documents say and whether it holds; beside them, or alone, systems of somebody's own. */
+/* geomint figures: reproduces published figures on one page, with the documents' statements and the
+   verdicts; user files are added or replace them. It uses as many processes as there are processors. */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -34,7 +34,7 @@ struct worker {
 struct series {
     const struct gm_options *options;
     struct gm_figure_output output;
-    struct gm_figure *user; /* of systems of somebody's own, as many as there are words */
+    struct gm_figure *user; /* user-defined systems, one per word */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes; /* shared with the workers */
     size_t count, next, made, printed;
@@ -61,14 +61,14 @@ static bool wanted(const struct gm_options *options, const char *name)
     return options->arguments.count == 0;
 }
 
-/* In the order of the documents, and of the numbers in them. */
+/* Sorts names in the order of the documents, and numbers in them by value. */
 static int by_name(const void *one, const void *other)
 {
     return strverscmp(((const struct gm_figure_job *)one)->figure->name,
                       ((const struct gm_figure_job *)other)->figure->name);
 }
 
-/* As many as there may be. */
+/* The largest number of figures. */
 static size_t all_figures(const struct gm_options *options)
 {
     size_t count = (size_t)options->arguments.count;
@@ -89,7 +89,7 @@ static bool is_published(const char *word)
     return known;
 }
 
-/* The system of somebody's own that a word names; NULL with a sentence and an exit status. */
+/* The user-defined system that a word names; NULL with a sentence and an exit status. */
 static const struct gm_scene *own_scene(char *word, int *status, char *message)
 {
     const struct gm_scene *scene = gm_request_scene(1, &word, status, message);
@@ -101,7 +101,7 @@ static const struct gm_scene *own_scene(char *word, int *status, char *message)
     return scene;
 }
 
-/* The figures of systems of somebody's own among the words. */
+/* The figures of user-defined systems among the words. */
 static void plan_user_figures(struct series *series, const struct gm_arguments *words)
 {
     char message[GM_MESSAGE];
@@ -284,7 +284,7 @@ static void print_outcome(const struct series *series, size_t i)
     }
 }
 
-/* Prints what is finished, in order. */
+/* Prints the finished figures, in order. */
 static void print_finished(struct series *series)
 {
     while (series->printed < series->count && series->outcomes[series->printed].progress >= GM_MADE) {
@@ -308,7 +308,7 @@ static bool write_page(struct series *series, int *status)
     return true;
 }
 
-/* What became of a worker that has ended: a worker that was killed or crashed tells nothing itself. */
+/* The result of a worker that has ended; it is composed here if the worker was killed or crashed. */
 static void take_end(struct series *series, size_t job, int end)
 {
     struct gm_outcome *outcome = &series->outcomes[job];
@@ -357,7 +357,7 @@ static void start(struct series *series, struct worker *worker)
     *worker = (struct worker){process, job};
 }
 
-/* Waits until a worker ends, hands interruptions on. False when all are idle. */
+/* Waits until a worker ends, and passes interruptions on. Returns false when all are idle. */
 static bool wait_for_one(struct series *series)
 {
     bool any = false;
@@ -436,7 +436,7 @@ int gm_command_figures(const struct gm_options *options)
     }
     gm_catch_interrupts();
     run(series, &status);
-    /* finished ones behind one that was interrupted */
+    /* finished ones that follow an interrupted one */
     for (size_t i = series->printed; i < series->count; i++) {
         if (series->outcomes[i].progress == GM_MADE) {
             print_outcome(series, i);

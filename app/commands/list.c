@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint list: scenes, schemes, figures, and what one scene takes. */
+/* geomint list: scenes, schemes, figures, and the parameters and schemes of one scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,8 +22,8 @@
 #include "core/ode/ode.h"
 #include "core/schemes.h"
 
-/* A row of a list: as JSON its texts with their keys, else the first, the second behind it, and in a long list those
-   that follow, up to number `longer`. */
+/* A row of a list: JSON has its texts with their keys; otherwise the first two, and in a long list the
+   next ones, up to number `longer`. */
 static void list_texts(const struct gm_options *options, const char *const texts[][2], size_t count,
                        size_t longer, int width)
 {
@@ -66,7 +66,7 @@ static void print_formula(const char *text)
     }
 }
 
-/* Whether there are further schemes of its name, for other kinds. */
+/* Returns true if other kinds of problems have schemes with the same name. */
 static bool shares_name(const struct gm_scheme *scheme)
 {
     for (size_t i = 0; i < gm_scheme_count(); i++) {
@@ -81,8 +81,8 @@ static bool shares_name(const struct gm_scheme *scheme)
 /* The widths of the columns of schemes' names, and up to their titles. */
 enum { NAME = 29, TITLE = 42 };
 
-/* `kinds`: rows of one name say which kind of problem each is for; `same`: the scheme that makes the same steps, or
-   NULL. */
+/* `kinds`: rows with the same name give their kinds of problems; `same`: the scheme with the same steps,
+   or NULL. */
 static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options, bool kinds,
                         const struct gm_scheme *same)
 {
@@ -107,7 +107,7 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
     printf("\n");
 }
 
-/* What the letters of claims mean, of all that these schemes have. */
+/* The meanings of the letters of claims, for all claims that these schemes make. */
 static void print_legend(const struct gm_scheme *const *schemes, size_t count)
 {
     char text[512] = "claims:";
@@ -214,7 +214,7 @@ static void put_keys(struct gm_row *row, const char *key, const struct gm_observ
     gm_row_close(&keys);
 }
 
-/* What a command takes where nothing is said but the scene, by its name or the path of its file:
+/* The default lanes of a command for a scene, given by its name or the path of its file:
    "scheme=rk4,verlet". */
 static const char *default_lanes(const struct gm_options *options, const char *name, size_t schemes)
 {
@@ -223,15 +223,16 @@ static const char *default_lanes(const struct gm_options *options, const char *n
     return lanes ? lanes + 1 : "";
 }
 
-/* All that is known of a scene. */
+/* The description of a scene. */
 struct entry {
     const struct gm_scene *scene;
-    const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* those that fit, */
-    const struct gm_scheme *same[GM_FITTING_SCHEMES]; /* and others whose steps are the same here; or NULL */
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* the fitting schemes */
+    const struct gm_scheme
+        *same[GM_FITTING_SCHEMES]; /* the other schemes whose steps are the same here, or NULL */
     size_t scheme_count;
-    const struct gm_parameter **rows; /* those of the scene, and those that a fitting scheme brings */
+    const struct gm_parameter **rows; /* the parameters of the scene and of its fitting schemes */
     size_t row_count;
-    const char *run, *render; /* their lanes */
+    const char *run, *render; /* the default lanes of these commands */
 };
 
 static void open_entry(struct entry *entry, const struct gm_scene *scene, const char *name,
@@ -252,7 +253,7 @@ static void open_entry(struct entry *entry, const struct gm_scene *scene, const 
             entry->rows[entry->row_count++] = &gm_settings_parameters[i];
         }
     }
-    /* half a list would be taken for a whole one */
+    /* an incomplete list looks like a complete one */
     gm_arena_need(options->arena, !gm_memory_was_short());
 }
 
@@ -316,7 +317,7 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     printf("}\n");
 }
 
-/* `file`: that of the scene; NULL: it has none. */
+/* `file`: the scene's file, or NULL. */
 static int list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
                       const struct gm_options *options)
 {
@@ -334,7 +335,7 @@ static int list_scene(const struct gm_scene *scene, const char *name, const stru
 static const struct list {
     const char *name;
     int (*print)(const struct gm_options *options); /* returns an exit status; NULL: it is one of files */
-    const char *word;                               /* of one file, in JSON */
+    const char *word;                               /* the word for one file, in JSON */
     enum gm_file_kind kind;
 } lists[] = {{.name = "scenes", .print = list_scenes},
              {.name = "systems", .word = "system", .kind = GM_FILE_SYSTEM},
@@ -408,7 +409,8 @@ static int refuse_name(const char *word)
         word, found ? "; did you mean " : "", found ? found : "");
 }
 
-/* Whether a word means a file: a scene of the program hides a file of its name, unless it is made of it. */
+/* Returns true if a word means a file: a scene of the program has precedence over a file, unless it is
+   built on it. */
 static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *file)
 {
     return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));

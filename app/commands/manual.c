@@ -10,7 +10,7 @@
 #include "core/basics.h"
 #include "core/schemes.h"
 
-/* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */
+/* Writes text for troff: no request at the start of a line, hyphens that can be copied. */
 static void put(const char *text)
 {
     if (*text == '.' || *text == '\'') {
@@ -30,7 +30,7 @@ static void put(const char *text)
     }
 }
 
-/* A tagged paragraph: a term in bold and what follows it in italics. */
+/* A tagged paragraph: a term in bold, then text in italics. */
 static void put_term(const char *term, const char *rest)
 {
     printf(".TP\n\\fB");

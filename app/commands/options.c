@@ -121,7 +121,7 @@ static bool refuse(char *message, const char *name, const char *value, const cha
     return gm_refuse(message, "%s %.60s%s%s", name, value, *value ? " " : "", what);
 }
 
-/* A number of its kind; of one without an upper bound the lower one is none. */
+/* Stores a number of the option's kind; a range without an upper bound excludes its lower bound. */
 static bool store_number(char *place, const struct gm_option *row, const char *value, char *message)
 {
     static const double bounds[][2] = {[TIME] = {-INFINITY, INFINITY},
@@ -301,14 +301,14 @@ static const struct gm_option *find(const char *word, size_t length, enum gm_com
     return found;
 }
 
-/* The name without its dashes; "" where this command does not take it. */
+/* The name without its dashes; "" if this command does not take it. */
 static const char *name_at(size_t i, const void *data)
 {
     const enum gm_command *command = data;
     return gm_option_rows[i].commands & *command ? gm_option_rows[i].name + strlen("--") : "";
 }
 
-/* Says that there is no such option, and which one was probably meant, or all that the command has. */
+/* Reports an unknown option, with the one that was probably meant, or all options of the command. */
 static void refuse_option(char *message, const char *word, enum gm_command command)
 {
     char name[64];
@@ -369,7 +369,7 @@ static bool is_same_file(const char *a, const char *b)
     return same;
 }
 
-/* Whether no file is written twice, or is one that is read; a picture may be made again in its place. */
+/* Returns true if no file is written twice or also read; `again` may overwrite its picture. */
 static bool check_files(const struct gm_options *options, enum gm_command command, char *message)
 {
     const struct {
@@ -408,7 +408,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
     return true;
 }
 
-/* Whether the options that were given agree. */
+/* Returns true if the given options agree. */
 static bool check_pairs(const struct gm_options *options, enum gm_command command, const bool given[ROWS],
                         char *message)
 {
@@ -455,7 +455,8 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
     bool given[ROWS] = {false};
     for (int i = first; i < argc; i++) {
         const char *word = gm_option_name(argv[i]);
-        if (strncmp(word, "--", 2) != 0 || command == GM_COMPLETE) { /* what may be unfinished is no option */
+        if (strncmp(word, "--", 2) != 0 ||
+            command == GM_COMPLETE) { /* a word to complete may be an unfinished option */
             if (!gm_arguments_add(&options->arguments, argv[i])) {
                 return gm_refuse(message, "not enough memory");
             }

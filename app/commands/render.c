@@ -20,10 +20,10 @@
 #include "render/files/sink.h"
 #include "render/pixels/canvas.h"
 
-/* A render of many frames leaves them as pictures from the first one on, a movie's beside the movie until
-   that is complete, and a checkpoint of its lanes now and then. So a killed one goes on by the same command:
-   frames that are there are looked at and kept, the state comes from the checkpoint or, if there is none that
-   helps, from the start without painting. Both give the same bits as a render that nobody disturbed. */
+/* A render of many frames writes them as pictures from the first one, a movie's into a folder beside the
+   movie until it is complete, and a checkpoint of its lanes from time to time. The same command resumes a
+   killed render: existing frames are checked and kept. The state comes from the checkpoint or, without a
+   usable one, from the start without painting. Both give the same bits as an uninterrupted render. */
 
 struct work {
     struct gm_request *request;
@@ -34,11 +34,11 @@ struct work {
     struct gm_picture *picture;
     struct gm_schedule schedule;
     struct gm_provenance provenance;
-    /* of a sequence */
+    /* the files of a sequence */
     struct gm_frames frames;
-    char *checkpoint;                 /* its path; NULL: the lanes cannot be continued from a snapshot */
-    long done;                        /* frames that are there */
-    struct gm_sink *pictures, *movie; /* NULL: not wanted */
+    char *checkpoint; /* the checkpoint's path; NULL: the lanes cannot be resumed from a snapshot */
+    long done;        /* the number of existing frames */
+    struct gm_sink *pictures, *movie; /* NULL: not requested */
 };
 
 static const struct gm_lane *const *lanes_of(const struct work *work)
@@ -72,7 +72,7 @@ static bool drive_to(struct work *work, long frame, char *message)
     return true;
 }
 
-/* Hands a painted frame to the pictures, with what it tells of itself. */
+/* Passes a painted frame to the pictures, with its metadata. */
 static bool put_picture(struct work *work, unsigned char *rgb, long frame)
 {
     struct gm_png_text texts[3];
@@ -106,7 +106,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
     unsigned char *rgb = gm_sink_frame(work->pictures);
     unsigned char *copy = work->movie && rgb ? gm_sink_frame(work->movie) : NULL;
     if (!rgb || (work->movie && !copy)) {
-        return false; /* the sink tells why when it is closed */
+        return false; /* the sink reports the reason when it is closed */
     }
     gm_picture_clear(work->picture);
     gm_lanes_draw(lanes_of(work), work->request->count, work->picture);
@@ -123,7 +123,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
     return true;
 }
 
-/* A frame that is there already goes into the movie as it is. */
+/* An existing frame goes into the movie as it is. */
 static bool reuse_frame(struct work *work, long frame, char *message)
 {
     if (!work->movie) {
@@ -131,7 +131,7 @@ static bool reuse_frame(struct work *work, long frame, char *message)
     }
     unsigned char *rgb = gm_sink_frame(work->movie);
     if (!rgb) {
-        return false; /* the sink tells why when it is closed */
+        return false; /* the sink reports the reason when it is closed */
     }
     char *path = gm_frames_path(&work->frames, frame);
     const bool good =
@@ -164,7 +164,7 @@ static bool open_lanes(struct work *work, char *message)
     return true;
 }
 
-/* The state behind the last frame before the first that is missing, where a checkpoint has one. */
+/* Loads the state after the frame before the first missing one, if a checkpoint has it. */
 static bool resume(struct work *work, char *message)
 {
     const long first = gm_frames_missing(&work->frames, false);
@@ -189,7 +189,7 @@ static bool resume(struct work *work, char *message)
     return true;
 }
 
-/* The lanes as they are behind a frame, when all frames up to there are written. */
+/* Saves the lanes' state after a frame, when all frames up to it are written. */
 static bool keep_state(struct work *work, long frame, char *message)
 {
     return !gm_sink_flush(work->pictures) ||
@@ -199,7 +199,7 @@ static bool keep_state(struct work *work, long frame, char *message)
 
 static bool make_frames(struct work *work, char *message)
 {
-    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
+    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; part of the time that they may take */
     const double started = gm_clock_seconds();
     const bool progress = isatty(STDERR_FILENO);
     const long last = work->movie ? work->schedule.count - 1 : gm_frames_missing(&work->frames, true);
@@ -242,7 +242,7 @@ static bool make_frames(struct work *work, char *message)
     return true;
 }
 
-/* Where the frames go: --out, or beside the movie until it is complete. */
+/* The folder of the frames: --out, or one beside the movie until it is complete. */
 static const char *folder_of(const struct gm_options *options)
 {
     const char *named = options->out ? options->out : ".";
@@ -262,7 +262,7 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         .text_count = work->provenance.count,
         .interruptions = &gm_interrupted,
     };
-    /* first what can be known to fail */
+    /* the parts that can fail come first */
     if (options->movie && (!gm_folder_make_for(options->movie, message) ||
                            !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
         return false;
@@ -278,7 +278,7 @@ static bool open_sinks(struct work *work, const char *name, char *message)
     return work->pictures != NULL;
 }
 
-/* What the last frame of ours tells of lanes that failed, wherever it was painted. malloc'ed. */
+/* The failures of lanes in the shard's last frame, painted now or read from its file. malloc'ed. */
 static char *last_failures(const struct work *work)
 {
     const long last = gm_schedule_last(&work->schedule);
@@ -292,7 +292,7 @@ static char *last_failures(const struct work *work)
     return text ? text : strdup("");
 }
 
-/* What the last frame's lanes have to be told of, where it was painted now. */
+/* Prints the warnings on the last frame's lanes, if it was painted now. */
 static void tell_warnings(const struct work *work)
 {
     const long last = gm_schedule_last(&work->schedule);
@@ -306,8 +306,8 @@ static void tell_warnings(const struct work *work)
     }
 }
 
-/* The ends that are none of those asked for, each once; a scene's own lanes end where their picture is
-   best. */
+/* Reports ends that differ from the requested ones, each once; a scene's default lanes end at the best
+   picture. */
 static void tell_other_ends(const struct work *work)
 {
     char last[GM_MESSAGE] = "", sentence[GM_MESSAGE];
@@ -338,7 +338,7 @@ static int tell_end(const struct work *work)
     return work->options->strict && failed ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
 }
 
-/* Says what was written; frames that were there already are told of before. */
+/* Reports the written files; existing frames have been reported before. */
 static void tell_written(const struct work *work)
 {
     const struct gm_options *options = work->options;
@@ -411,7 +411,7 @@ static bool write_still(struct gm_print *print, struct work *work, char *message
     return written;
 }
 
-/* One picture: of no sequence, so that nothing of it is kept to go on from. */
+/* Paints a single picture, without files for a resumed render. */
 static int paint_still(struct work *work, const char *name)
 {
     char message[GM_MESSAGE];

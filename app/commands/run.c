@@ -22,17 +22,17 @@
 #include "render/clock.h"
 #include "render/files/temporary.h"
 
-/* What the command writes beside its numbers. */
+/* The files that the command writes. */
 struct outputs {
     const struct gm_options *options;
-    struct gm_chosen chosen; /* the observables that are told */
+    struct gm_chosen chosen; /* the observables to print */
     struct gm_rows rows;
-    FILE *csv;   /* NULL: not asked for, as the others */
+    FILE *csv;   /* NULL: not requested, as for the others */
     int csv_why; /* errno of the row that could not be written; 0: all could */
     struct gm_save *save;
     struct gm_pause *pause;
     struct gm_tracks *tracks;
-    /* what could not be written, and was told: the last checkpoint, the profiles, the tracks */
+    /* true if the last checkpoint, the profiles or the tracks could not be written, which was reported */
     bool unkept, unprofiled, untracked;
 };
 
@@ -42,9 +42,9 @@ struct outcome {
     double *maxima;           /* one per observable, of largest magnitude; NULL without --max */
     char *front;              /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
     bool interrupted;         /* before it came to its end */
-    struct outputs *outputs;  /* of all lanes */
+    struct outputs *outputs;  /* the files that all lanes share */
     struct gm_paused paused;  /* numbers: the maxima */
-    char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
+    char warning[GM_MESSAGE]; /* the warning on an end with status ok, or "" */
 };
 
 static bool is_standard_output(const char *path)
@@ -52,7 +52,7 @@ static bool is_standard_output(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
-/* The observable that is told in place i. */
+/* The printed observable i. */
 static const struct gm_observable *told(const struct outcome *outcome, size_t i)
 {
     return gm_scene_observable_at(outcome->drive.lane->scene, outcome->outputs->chosen.numbers[i]);
@@ -63,7 +63,7 @@ static double observe_told(const struct outcome *outcome, size_t i)
     return gm_lane_observe(outcome->drive.lane, outcome->outputs->chosen.numbers[i]);
 }
 
-/* Why there is no value of it; NULL: there is one. */
+/* The reason for its missing value, or NULL. */
 static const char *missing(const struct outcome *outcome, size_t i)
 {
     return isnan(outcome->values[i])
@@ -71,7 +71,8 @@ static const char *missing(const struct outcome *outcome, size_t i)
                : NULL;
 }
 
-/* Looks at the lane's end. Where there is no memory for that the lane says so, and the number is not one. */
+/* Evaluates the observables at the lane's end. When out of memory the lane reports it, and the numbers are
+   NAN. */
 static void observe(struct outcome *outcome)
 {
     struct gm_lane *lane = outcome->drive.lane;
@@ -87,7 +88,7 @@ static void observe(struct outcome *outcome)
     }
 }
 
-/* How it ended, and a sentence on that, or none. */
+/* The lane's status, and a sentence on it, or "". */
 static const char *tell_end(const struct outcome *outcome, char *sentence, size_t size)
 {
     const struct gm_lane *lane = outcome->drive.lane;
@@ -141,7 +142,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     for (size_t i = 0; i < count; i++) {
         reasoned |= missing(outcome, i) != NULL;
     }
-    if (reasoned) { /* why values are null */
+    if (reasoned) { /* the reasons for null values */
         struct gm_row reasons = gm_row_open(&row, "reasons", '}');
         for (size_t i = 0; i < count; i++) {
             if (missing(outcome, i)) {
@@ -155,7 +156,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         snprintf(layout, sizeof layout, "y[component * m + member], n = %zu components, m = %zu members",
                  lane->problem.n, lane->problem.m);
         gm_row_text(&row, "layout", layout);
-        /* null: a tracer that was lost */
+        /* null: a lost tracer */
         gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }
     printf("}\n");
@@ -168,7 +169,7 @@ static void print_text(const struct outcome *outcome)
     const struct gm_shown *shown = &lane->shown;
     gm_say("%s  %s%s%s%s%s", lane->scene->name, lane->scheme->name, shown->panel_name[0] ? "  " : "",
            shown->panel_name, shown->colour_name[0] ? "  " : "", shown->colour_name);
-    int width = 0; /* of the names */
+    int width = 0; /* the width of the names, in columns */
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         const int length = (int)strlen(told(outcome, i)->key) + (outcome->maxima ? 4 : 0);
         width = length > width ? length : width;
@@ -203,7 +204,7 @@ static void print_text(const struct outcome *outcome)
     }
 }
 
-/* Whether not all lanes have the same value of a parameter: of the scene, or one that schemes bring. */
+/* Returns true if the lanes differ in a parameter of the scene or of schemes. */
 static bool differs(const struct gm_request *request, const struct gm_parameter *row, bool own)
 {
     char first[GM_TEXT_SIZE], other[GM_TEXT_SIZE];
@@ -231,8 +232,8 @@ static void put_cell(FILE *stream, const struct gm_parameter *row, const void *o
     gm_csv_put_text(stream, text);
 }
 
-/* How every row of CSV of a lane begins, or, without a lane, the names of these columns; malloc'ed, NULL when
-   memory is short. */
+/* The front of every CSV row of a lane, or, without a lane, the names of these columns; malloc'ed. Returns
+   NULL when out of memory. */
 static char *front_of(const struct gm_request *request, const struct gm_lane *lane, size_t index)
 {
     char *text = NULL;
@@ -303,7 +304,7 @@ static bool write_rows(struct outcome *outcome, char *message)
     return !outputs->save || gm_save_row(outputs->save, outcome->drive.lane->run, message);
 }
 
-/* Replaces the checkpoint. False with a sentence. */
+/* Replaces the checkpoint. Returns false with a sentence. */
 static bool replace_checkpoint(const struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -314,8 +315,8 @@ static bool replace_checkpoint(const struct outcome *outcome, char *message)
     return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
 }
 
-/* Keeps the state: the rows that a checkpoint counts are on the disk before it is. False with a sentence if
-   these cannot be written; without a checkpoint a run goes on. */
+/* Saves the state. The rows that a checkpoint counts are on disk before it. Returns false with a sentence
+   if they cannot be written; a failed checkpoint does not end the run. */
 static bool keep_state(struct outcome *outcome, char *message)
 {
     struct outputs *outputs = outcome->outputs;
@@ -338,7 +339,7 @@ static bool keep_state(struct outcome *outcome, char *message)
     return true;
 }
 
-/* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
+/* The clock of checkpoints: the number of steps until the time is checked again. */
 struct pace {
     int64_t steps;
     double looked, kept;
@@ -355,12 +356,12 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
     }
     const bool good = keep_state(outcome, message);
     pace->looked = gm_clock_seconds();
-    /* what is kept may be large: it takes a small part of the time */
+    /* a saved state may be large: saving takes a small part of the time */
     pace->kept = pace->looked + fmax(0, share * (pace->looked - now) - interval);
     return good;
 }
 
-/* Whether nobody looks at a step but who saves its state: steps and rows are then made many at once. */
+/* Returns true if steps are observed only for saving; steps and rows are then made in blocks. */
 static bool only_saves(const struct outcome *outcome)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -410,7 +411,7 @@ static bool make_steps(struct outcome *outcome, int64_t stop, char *message)
     return !due || write_rows(outcome, message);
 }
 
-/* Whether nobody is left who reads what is written, and that is all that is wanted. */
+/* Returns true if the reader of standard output is gone and no file is requested. */
 static bool is_in_vain(const struct outputs *outputs)
 {
     const struct gm_options *options = outputs->options;
@@ -420,7 +421,7 @@ static bool is_in_vain(const struct outputs *outputs)
     return !makes_file && ferror(stdout);
 }
 
-/* Drives one lane to its end. Looks at every step only where that is asked for. */
+/* Drives one lane to its end, and observes every step only if that is requested. */
 static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
 {
     const bool keeps = outcome->outputs->options->checkpoint != NULL;
@@ -441,7 +442,7 @@ static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
     return good;
 }
 
-/* What was run, as JSON; malloc'ed, NULL when memory is short. */
+/* A description of the run, as JSON; malloc'ed. Returns NULL when out of memory. */
 static char *meta_of(const struct outcome *outcome)
 {
     char sentence[GM_MESSAGE];
@@ -449,7 +450,7 @@ static char *meta_of(const struct outcome *outcome)
     return gm_meta_text(outcome->drive.lane, status, sentence);
 }
 
-/* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
+/* Begins a lane's rows with its start, or appends them to the existing rows of a resumed lane. */
 static bool begin_rows(struct outcome *outcome, int64_t steps, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -475,7 +476,7 @@ static bool begin_rows(struct outcome *outcome, int64_t steps, char *message)
     return !(outputs->csv || outputs->save) || write_rows(outcome, message);
 }
 
-/* The rows of a lane end with the last good state. A lane that did not come to its end says so in its history. */
+/* Ends a lane's rows with the last good state. The history of a failed lane gives its status. */
 static bool end_rows(struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -508,8 +509,8 @@ static bool save_tracks(const struct outcome *outcome, char *message)
     return good;
 }
 
-/* Not all rows could be written, mostly for want of room: those that could are what was saved of this lane,
-   even where there is no memory to say more of it. */
+/* Ends incomplete rows, mostly after a lack of memory: the saved rows remain, even if the reason cannot be
+   stored. */
 static void end_cut(struct outcome *outcome)
 {
     char message[GM_MESSAGE], sentence[GM_MESSAGE];
@@ -523,7 +524,7 @@ static void end_cut(struct outcome *outcome)
     free(meta);
 }
 
-/* Whether the rows that were saved before are spaced as those to come. */
+/* Returns true if the saved rows have the same spacing as the new ones. */
 static bool is_spacing(const struct outcome *outcome)
 {
     const double *before = outcome->paused.spacing;
@@ -532,7 +533,7 @@ static bool is_spacing(const struct outcome *outcome)
            (before[1] == rows->interval || (isnan(before[1]) && isnan(rows->interval)));
 }
 
-/* Whether what was saved before can be gone on with. False with a sentence. */
+/* Returns true if a saved run can be resumed; else false with a sentence. */
 static bool fits_saved(const struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -548,7 +549,7 @@ static bool fits_saved(const struct outcome *outcome, char *message)
                      outputs->options->save, outputs->options->from_checkpoint);
 }
 
-/* Runs one lane; how it ended, if not well, is the last row of its history. */
+/* Runs one lane; the status of a failed run is the last row of its history. */
 static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
 {
     outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
@@ -585,7 +586,7 @@ static FILE *open_stream(const char *path, const char *mode, char *message)
     return stream;
 }
 
-/* False with errno; `why`: that of what could not be written before, or 0. */
+/* Returns false with errno; `why`: the errno of an earlier failed write, or 0. */
 static bool close_csv(FILE *csv, int why)
 {
     const bool failed = ferror(csv) != 0, closed = csv == stdout || fclose(csv) == 0;
@@ -601,7 +602,7 @@ static FILE *open_csv(const char *path, const struct gm_request *request, const 
         return NULL;
     }
     char *names = front_of(request, NULL, 0);
-    if (!names) { /* rows without a head tell nothing */
+    if (!names) { /* rows need their head */
         gm_refuse(message, "not enough memory");
         close_csv(csv, 0);
         return NULL;
@@ -650,7 +651,7 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     return true;
 }
 
-/* What one lane's run has to say, where it is asked for. */
+/* Prints one lane's result, if it is requested. */
 static void tell(const struct outcome *outcome, const struct gm_options *options)
 {
     struct outputs *outputs = outcome->outputs;
@@ -666,7 +667,7 @@ static void tell(const struct outcome *outcome, const struct gm_options *options
     if (options->profile && !outputs->unprofiled) {
         outputs->unprofiled = !write_profile(options->profile, outcome, message);
         if (outputs->unprofiled && !is_standard_output(options->profile)) {
-            gm_complain("%s", message); /* of standard output gm_finish tells */
+            gm_complain("%s", message); /* gm_finish reports faults of standard output */
         }
     }
 }
@@ -687,17 +688,17 @@ static void check_options(const struct gm_options *options)
     }
 }
 
-/* Whether the scene has profiles of its own, or its states have nodes on a line. */
+/* Returns true if the scene has its own profiles, or its states have nodes on a line. */
 static bool has_profile(const struct gm_request *request)
 {
     char message[GM_MESSAGE];
     struct gm_lane *lane = request->scene->profile ? NULL : gm_request_open_lane(request, 0, message);
     const bool has = request->scene->profile || !lane || gm_profile_is_there(lane->run);
     gm_lane_close(lane);
-    return has; /* a lane that cannot be opened says why later */
+    return has; /* a lane that cannot be opened gives its reason later */
 }
 
-/* Opens what is to be written; the status to exit with, and a sentence unless that is 0. */
+/* Opens the requested files. Returns the exit status, with a sentence unless it is 0. */
 static int open_outputs(struct outputs *outputs, const struct gm_request *request, char *message)
 {
     const struct gm_options *options = outputs->options;
@@ -717,7 +718,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         while (i < request->count && !request->lanes[i].scheme->family->not_resumable) {
             i++;
         }
-        const bool keeps_to_itself = i < request->count; /* the library behind a scheme */
+        const bool keeps_to_itself = i < request->count; /* the library of a scheme does not give its state */
         gm_refuse(message, "a run %s%s cannot be gone on with from a checkpoint",
                   keeps_to_itself ? "by " : "",
                   keeps_to_itself ? request->lanes[i].scheme->name : "that is changed in flight");
@@ -743,13 +744,13 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     return good ? GM_EXIT_OK : GM_EXIT_FILE;
 }
 
-/* Finishes what was begun, and tells of each file whether it was written; the status to exit with. */
+/* Finishes the opened files and reports each one; returns the exit status. */
 static int close_outputs(struct outputs *outputs, bool opened, int status)
 {
     char history[GM_MESSAGE] = "", states[GM_MESSAGE] = "", tracks[GM_MESSAGE] = "";
     const struct gm_options *options = outputs->options;
     const bool complete = opened && status != GM_EXIT_FILE;
-    /* what a checkpoint goes on with is not lost to a slip */
+    /* the files of a resumable run are protected from mistakes */
     const bool keeps = options->checkpoint || (options->from_checkpoint && !complete);
     if (outputs->csv && !close_csv(outputs->csv, outputs->csv_why) && outputs->csv != stdout) {
         gm_refuse(history, "%.360s could not be written: %s", options->csv, strerror(errno));
@@ -764,7 +765,7 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
     gm_chosen_close(&outputs->chosen);
     const struct {
         const char *path, *why;
-        bool failed; /* and was told so when it did */
+        bool failed; /* true if its failure was reported at once */
     } files[] = {{options->csv, history, false},
                  {options->profile, "", outputs->unprofiled},
                  {options->save, states, false},
@@ -781,7 +782,7 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
     return status;
 }
 
-/* Opens and runs lane `index` and tells of it; the status to exit with. */
+/* Opens and runs lane `index` and reports its result; returns the exit status. */
 static int make_lane(struct outputs *outputs, const struct gm_request *request, size_t index)
 {
     char message[GM_MESSAGE];

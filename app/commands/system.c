@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is known of somebody's own system: its equations as they were derived, its structure with reasons, and
-   the schemes that fit it. */
+/* The report on a user-defined system: its derived equations, its structure with reasons, and the schemes
+   that fit it. */
 #include "app/commands/commands.h"
 
 #include <math.h>
@@ -40,16 +40,16 @@ static const struct {
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
 };
 
-enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
+enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
 
 struct report {
-    struct gm_arena *arena; /* of its texts */
+    struct gm_arena *arena; /* owns the report's texts */
     struct gm_user_system system;
     struct gm_user_model model;
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     struct gm_user_wave wave;
-    struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
+    struct gm_problem problem; /* set up with the file's values; not opened if no scheme can advance it */
 };
 
 static bool fits(const struct report *report, const struct gm_scheme *scheme)
@@ -58,7 +58,7 @@ static bool fits(const struct report *report, const struct gm_scheme *scheme)
            gm_scheme_fits(scheme, &report->problem);
 }
 
-/* That it is long, of a formula that is too long to be read; -0, which a derivative of nothing is, as 0. */
+/* The text of a formula; a note for one that is too long to read; -0, a derivative of 0, as 0. */
 static const char *formula_of(const struct report *report, gm_node_id node, bool latex)
 {
     const struct gm_node *whole = &report->system.graph.nodes[node];
@@ -141,7 +141,7 @@ static gm_node_id equation_of(const struct report *report, size_t i, bool latex,
         *left = name_row(report, i, latex);
     } else if (system->kind == GM_EVOLUTION) {
         *left = name_rate(report, i, latex);
-    } else if (system->kind == GM_FIELD) { /* number 1: the first one says that u_t is u_t */
+    } else if (system->kind == GM_FIELD) { /* the first equation of a field only states u_t = u_t */
         const char *name = name_of(report, system->variables[0].name, latex);
         *left = gm_arena_print(report->arena,
                                latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
@@ -175,7 +175,7 @@ static bool is_kept(const struct gm_system_item *item)
     return item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
 }
 
-/* The name of an invariant; of a momentum map without one its number. */
+/* The name of an invariant; a momentum map without a name has its number. */
 static const char *kept_name(const struct report *report, const struct gm_system_item *item)
 {
     int number = 0;
@@ -185,7 +185,7 @@ static const char *kept_name(const struct report *report, const struct gm_system
     return item->name[0] ? item->name : gm_arena_print(report->arena, "momentum%d", number);
 }
 
-/* Its formula; GM_NO_NODE where a symmetry has no momentum map. */
+/* The item's formula; GM_NO_NODE for a symmetry without a momentum map. */
 static gm_node_id kept_node(const struct gm_user_system *system, const struct gm_system_item *item)
 {
     return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
@@ -371,7 +371,7 @@ static void print_facts(const struct report *report)
     each_fact(report, print_fact, NULL);
 }
 
-/* Those that fit, and those of another kind of grid. */
+/* Prints the fitting schemes, and those of another kind of grid. */
 static void print_names(const struct report *report, const struct gm_kind *other)
 {
     const char *text = "";
@@ -495,14 +495,14 @@ static void print_json(const struct report *report, const struct gm_file *file)
     printf("}\n");
 }
 
-/* What was derived as it is to be printed; what was typed stays. */
+/* Simplifies a derived formula for printing; a typed formula stays. */
 static void tidy(struct report *report, gm_node_id *node)
 {
     const struct gm_naming naming = gm_system_naming(&report->system);
     if (*node != GM_NO_NODE && report->system.graph.places[*node] == GM_NO_PLACE) {
         const gm_node_id tidied = gm_formula_tidied(&report->system.graph, *node, &naming);
         char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
-        *node = text ? tidied : *node; /* what is multiplied out may be too long to be read */
+        *node = text ? tidied : *node; /* an expanded formula may be too long to read */
         free(text);
     }
     gm_arena_need(report->arena, !gm_memory_was_short());
@@ -638,7 +638,7 @@ static bool open_equations(struct report *report, const double *start)
             gm_user_problem_open(&report->problem, &report->model, start));
 }
 
-/* What was derived, and not typed, is only printed from here on. */
+/* Derived formulas are only printed after this call. */
 static void tidy_all(struct report *report)
 {
     struct gm_user_system *system = &report->system;
@@ -745,7 +745,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
     check_scene(options, !file);
     const double *start = start_of(report);
     const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
-    /* what was not checked for want of memory is not called unchecked */
+    /* a check without memory does not count as unchecked */
     gm_arena_need(options->arena, opened && !gm_memory_was_short());
     tidy_all(report);
     if (options->json) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What opens the explorer: geomint tui and geomint tour, which also lists tours and renders them without a screen; and
-   geomint terminal, what the explorer found out. */
+/* The commands around the explorer: geomint tui, geomint tour, which also lists and renders tours, and
+   geomint terminal, which reports the terminal's abilities. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static void print_text(const char *word, const char *text)
     }
 }
 
-/* What a teacher wants to read beforehand. */
+/* Lists the steps of a tour, for teachers. */
 static int list_steps(const struct gm_tour *tour)
 {
     printf("%s\n%s\n", tour->title, tour->about ? tour->about : "");

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States as NumPy's arrays: t, a quantity each, meta; of several lanes with the prefix lane0/ and so on.
-   Column 0 is t, the others are the quantities in their order.
-
-   A lane's file is its part of the archive from the start: each column has its place, with room for as many
-   rows as are expected, so that what is written stays where it is. Where there are more rows, or were fewer at
-   the end, the file is made anew with room for others, beside the one that there is. */
+/* States as NumPy arrays: t, one array per quantity, meta; several lanes have the prefix lane0/ and so on.
+   Column 0 is t, the others are the quantities in their order. A lane's file is its part of the archive
+   from the start: each column has room for the expected number of rows, so that written rows never move.
+   If there are more rows, or fewer at the end, the file is written again beside the old one, with room for
+   that number. */
 #include <errno.h>
 #include <unistd.h>
 
@@ -30,8 +29,8 @@ static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *r
     return true;
 }
 
-/* Whether all quantities are single numbers of the state in its order, as of most ordinary differential
-   equations: saving them is to cost little beside a step. */
+/* Returns true if all quantities are single numbers of the state in its order, as for most ordinary
+   differential equations; saving them must cost little compared with a step. */
 static bool is_plain(const struct gm_saved *lane)
 {
     bool plain = lane->members == 1;
@@ -48,7 +47,7 @@ static bool is_fixed(const struct gm_saved *lane, size_t column)
     return column > 0 && lane->quantities[column - 1].fixed;
 }
 
-/* Of one row; of a column that does not change, of all. */
+/* The bytes of one row of a column, or of all of a fixed column. */
 static size_t bytes_of(const struct gm_saved *lane, size_t column)
 {
     return (column > 0 ? lane->sizes[column - 1] : 1) * sizeof(double);
@@ -78,7 +77,7 @@ static void name_of(const struct gm_saving *saving, const struct gm_saved *lane,
     }
 }
 
-/* The archive that `file` is, or is to be, with room for so many rows; NULL with errno. */
+/* The archive of `file` with room for `capacity` rows, existing or new; NULL with errno. */
 static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_saved *lane, int file,
                               uint64_t capacity, uint64_t starts[], uint32_t crcs[])
 {
@@ -99,17 +98,16 @@ static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_sa
     return good ? npz : NULL;
 }
 
-enum { CONTENTS = 1 << 16, HEADS = 512 /* of a column */ };
+enum { CONTENTS = 1 << 16, HEADS = 512 /* bytes of a column's head */ };
 
-/* What ends the archive, meta and its contents, has its room from the start: it can be ended on a disk that is
-   full. */
+/* The size of the archive's end, meta and table of contents. It is reserved at the start, for a full disk. */
 static uint64_t end_size(const struct gm_saved *lane)
 {
     enum { LETTER = sizeof(uint32_t) };
     return CONTENTS + (lane->meta_size + GM_MESSAGE) * LETTER;
 }
 
-/* How much a column has of what there is. */
+/* The bytes of a column's rows. */
 static uint64_t size_of(const struct gm_saved *lane, size_t column)
 {
     return bytes_of(lane, column) * (is_fixed(lane, column) ? 1 : lane->rows);
@@ -130,7 +128,7 @@ static void adopt(struct gm_saved *lane, struct gm_npz *npz, int file, uint64_t 
     }
 }
 
-/* Makes the lane's file anew, with room for so many rows and all that there are. */
+/* Writes the lane's file again, with its rows and room for `capacity` rows. */
 static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
     uint64_t starts[GM_COLUMNS] = {0};
@@ -161,7 +159,7 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
     return true;
 }
 
-/* Opens what was saved before. */
+/* Opens the rows saved before. */
 static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
 {
     uint32_t crcs[GM_COLUMNS];
@@ -179,7 +177,7 @@ static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
 
 enum { FEW_ROWS = 1 << 12, MORE = 4 };
 
-/* For how many rows there is room at most, in a file that has `own` bytes of the disk already. */
+/* The largest number of rows for a file that already has `own` bytes of the disk. */
 static uint64_t most_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t own)
 {
     uint64_t row = 0, beside = end_size(lane);
@@ -191,7 +189,7 @@ static uint64_t most_rows(const struct gm_saving *saving, const struct gm_saved 
     return room > beside ? (room - beside) / row : 0;
 }
 
-/* For how many rows there is to be room: no more than the disk has. */
+/* The capacity of the file, in rows: no more than the disk has. */
 static uint64_t capacity_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t expected)
 {
     const uint64_t most = most_rows(saving, lane, 0);
@@ -214,8 +212,8 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     return good;
 }
 
-/* The columns, which are full, move apart within their file. Their room is made sure of first, as they are
-   lost if that fails on the way. */
+/* Moves the full columns apart within their file. Their room is reserved first: a failure in the middle
+   would lose them. */
 static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
     uint64_t starts[GM_COLUMNS] = {0};
@@ -243,8 +241,8 @@ static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_
     return good;
 }
 
-/* Without room for a second file there may be some for a longer one, for so many rows at most and at least this part
-   of more. */
+/* Lengthens the file if a second one has no room: up to `wanted` rows, and by more than 1/PART of its
+   rows. */
 static bool use_up(const struct gm_saving *saving, struct gm_saved *lane, uint64_t wanted)
 {
     enum { PART = 64 };
@@ -286,7 +284,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good;
 }
 
-/* The columns take their numbers out of the rows. Where one of them fails the rows are counted (cut). */
+/* Copies the columns' numbers out of the rows. If a column fails the rows are counted (cut). */
 static bool rows(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                  const double *rows, size_t count)
 {
@@ -319,7 +317,7 @@ static bool end(const struct gm_saving *saving, struct gm_saved *lane)
     char name[80];
     bool good = true;
     const bool full = lane->rows == lane->capacity || make(saving, lane, lane->rows);
-    if (!full && saving->kept) { /* what the checkpoint counts stays in its places */
+    if (!full && saving->kept) { /* rows that the checkpoint counts must not move */
         return false;
     }
     /* without room for another file the one that there is has gaps, of which a reader knows nothing */

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { BLOCK = 1 << 18, SMALL_BLOCK = 1 << 14 /* where there may be no room for more */ };
+enum { BLOCK = 1 << 18, SMALL_BLOCK = 1 << 14 /* without malloc */ };
 
-/* As many of the bytes as can be written; with errno, where that is not all. */
+/* Writes as many of the bytes as possible and returns their number; sets errno if it is not all. */
 static size_t write_most(int file, const void *bytes, size_t size, uint64_t place)
 {
     size_t written = 0;
@@ -80,7 +80,7 @@ bool gm_bytes_clear(int file, uint64_t place, uint64_t size)
     return good;
 }
 
-/* From the end; shorten: the source loses what was moved. */
+/* Moves blocks from the end and truncates the source after each. */
 static bool move(int from, uint64_t place, uint64_t size, int to, uint64_t there, bool shorten)
 {
     unsigned char block[SMALL_BLOCK];
@@ -124,7 +124,7 @@ void gm_column_close(struct gm_column *column)
     column->buffer = NULL;
 }
 
-/* Of a write that fails, what comes before the failure counts: a disk may be full in the middle. */
+/* Writes bytes; those before a failure count, since a disk may be full in the middle. */
 static bool write_out(struct gm_column *column, const unsigned char *bytes, size_t size)
 {
     const size_t written = write_most(column->file, bytes, size, column->place);
@@ -169,7 +169,7 @@ bool gm_column_print(struct gm_column *column, const char *format, ...)
     return length >= 0 && (size_t)length < sizeof text && gm_column_put(column, text, (size_t)length);
 }
 
-/* How many lines a file has, `most` at most, and where the last of them ends. */
+/* The number of lines of a file, `most` at most, and the end of the last one. */
 static uint64_t count_lines(int file, uint64_t most, uint64_t *end)
 {
     char block[1 << 14];

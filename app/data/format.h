@@ -11,28 +11,28 @@
 #include "core/quantity.h"
 #include "scenes/common/lane.h"
 
-/* Bytes at places of open files, all of them or none: false with errno, of a file that is too short EIO. */
+/* Bytes at places of open files, all or none: return false with errno, EIO for a file that is too short. */
 
 bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place);
 bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place);
 
-/* Copies bytes to another file, none where `to` is below 0, and goes on with their checksum (CRC-32). */
+/* Copies bytes to another file, unless `to` is negative, and updates their checksum (CRC-32). */
 bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc);
 
 /* Zeros. */
 bool gm_bytes_clear(int file, uint64_t place, uint64_t size);
 /* Moves bytes to a later place of their file, which may overlap with theirs. */
 bool gm_bytes_raise(int file, uint64_t place, uint64_t size, uint64_t there);
-/* Moves the first bytes of a file to another one, from their end on, which the file loses as they go: no more
-   room is needed on the way than before. */
+/* Moves the first bytes of a file to another one, from their end, and truncates the file block by block:
+   the move needs no more room. */
 bool gm_bytes_take(int from, uint64_t size, int to, uint64_t there);
 
-/* A part of a file that grows from its place on, by way of a buffer. */
+/* A part of a file that grows from its offset on, through a buffer. */
 
 struct gm_column {
-    int file;       /* the caller's */
-    uint64_t place; /* of what is put next, but for what is in the buffer */
-    uint32_t crc;   /* the checksum (CRC-32) of what was written, and of what the caller began it with */
+    int file;              /* the file; the caller closes it */
+    uint64_t place;        /* the offset of the next byte, without the buffer */
+    uint32_t crc;          /* the checksum (CRC-32) of the written bytes, continued from the caller's value */
     unsigned char *buffer; /* NULL: closed */
     size_t used;
 };
@@ -42,12 +42,12 @@ enum { GM_COLUMN_BUFFER = 1 << 18 };
 
 /* Makes the buffer; false with errno. */
 bool gm_column_open(struct gm_column *column);
-/* Frees it, and what was put and not flushed is lost. */
+/* Frees the buffer; bytes that are not flushed are lost. */
 void gm_column_close(struct gm_column *column);
 
-/* Appends where there is no room in the buffer; false with errno. */
+/* Appends bytes for which the buffer has no room; false with errno. */
 bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size);
-/* Appends; false with errno. Here, since it is called for every number of a row. */
+/* Appends; false with errno. It is inline since it is called for every number of a row. */
 static inline bool gm_column_put(struct gm_column *column, const void *bytes, size_t size)
 {
     if (size > GM_COLUMN_BUFFER - column->used) {
@@ -60,19 +60,18 @@ static inline bool gm_column_put(struct gm_column *column, const void *bytes, si
 /* Appends `count` numbers, `stride` of them apart, fewer than a buffer holds; false with errno. */
 bool gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count);
 __attribute__((format(printf, 2, 3))) bool gm_column_print(struct gm_column *column, const char *format, ...);
-/* Hands all that was put to the system. False with errno: `place` is behind what was written. */
+/* Writes the buffer. Returns false with errno: `place` is then after the written bytes. */
 bool gm_column_flush(struct gm_column *column);
 
-/* A column of lines goes on, or begins, behind the first `lines` of the file; false with errno, EILSEQ where
-   there are not so many. */
+/* Opens a column of lines after the first `lines` of the file; false with errno, EILSEQ if it has fewer. */
 bool gm_lines_open(struct gm_column *column, int file, uint64_t lines);
-/* Cuts off what is not a whole line, after a flush that failed; how many lines there are. */
+/* Removes an incomplete line, after a flush that failed; returns the number of lines. */
 uint64_t gm_lines_cut(struct gm_column *column);
 
-/* NumPy's .npz: a ZIP archive of .npy files of version 1.0, not compressed, with the 64-bit records of ZIP.
-   Arrays stand one behind the other in an open file; their numbers come at once, or later, into their places.
-   Memory is constant but for the table of contents. All functions but one are false with errno, and then all
-   that follow are. */
+/* NumPy's .npz: a ZIP archive of .npy files of version 1.0, not compressed, with the 64-bit records of
+   ZIP. Arrays follow each other in an open file; their numbers are written at once or later. Memory is
+   constant except for the table of contents. All functions but one return false with errno, and after a
+   failure all later calls do. */
 
 struct gm_npz;
 
@@ -80,7 +79,7 @@ enum gm_npz_type { GM_NPZ_REAL, GM_NPZ_WHOLE /* 64 bits */ };
 
 enum { GM_NPZ_AXES = 4 };
 
-/* Begins an archive at the start of `file`, which stays the caller's; NULL when memory is short. */
+/* Begins an archive at the start of `file`, which the caller closes. Returns NULL when out of memory. */
 struct gm_npz *gm_npz_open(int file);
 void gm_npz_close(struct gm_npz *npz);
 
@@ -91,114 +90,113 @@ bool gm_npz_array(struct gm_npz *npz, const char *name, enum gm_npz_type type, c
 /* A text, as an array without axes. */
 bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text);
 
-/* The place of an array whose numbers are the caller's to write, from *place of the file on. *crc: the checksum
-   (CRC-32) of what stands before them. Nothing is written. */
+/* Reserves an array whose numbers the caller writes from offset *place on. *crc: the checksum (CRC-32) of
+   the bytes before them. Writes nothing. */
 bool gm_npz_reserve(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
                     size_t axes, uint64_t *place, uint32_t *crc);
-/* Writes what stands before the numbers of array `index`, in the order of the archive; crc: the checksum that
-   includes them. */
+/* Writes the head of array `index`, in the order of the archive; crc: the checksum including the numbers. */
 bool gm_npz_settle(struct gm_npz *npz, size_t index, uint32_t crc);
-/* The same for an array of which only the first `length` along its first axis are there: what is missing stays
-   a gap behind it. */
+/* The same for an array with only its first `length` entries along its first axis; the rest stays a gap
+   after it. */
 bool gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length);
 
-/* Where the next array would begin: the bytes of the archive without its table of contents. */
+/* The offset of the next array: the bytes of the archive without its table of contents. */
 uint64_t gm_npz_size(const struct gm_npz *npz);
 
-/* Takes the arrays of another archive, whose bytes the caller put behind those of this one. */
+/* Takes the arrays of another archive, whose bytes the caller has put after its own. */
 bool gm_npz_include(struct gm_npz *npz, const struct gm_npz *other);
 
-/* Writes the table of contents, and cuts the file off behind it. */
+/* Writes the table of contents, and cuts the file off after it. */
 bool gm_npz_finish(struct gm_npz *npz);
 
-/* How long the first array of a file is along its first axis; 0: it does not begin with an array. */
+/* The length of a file's first array along its first axis; 0: it does not begin with an array. */
 uint64_t gm_npz_length(int file);
 
-/* What a file is made of while it is made: a folder FILE.part beside it, which one process holds at a time,
-   with a file a lane. */
+/* The parts of an incomplete file: a folder FILE.part beside it with one file per lane, locked by one
+   process. */
 
 struct gm_part;
 
-/* Makes the folder, or with go_on takes it as an earlier process left it. NULL with a sentence (GM_MESSAGE
-   bytes): it cannot be made, is not there to go on with, or another process holds it. */
+/* Makes the folder, or with go_on opens the one of an earlier process. Returns NULL with a sentence
+   (GM_MESSAGE bytes) if it cannot be made, is missing, or another process has locked it. */
 struct gm_part *gm_part_open(const char *path, bool go_on, char *message);
-/* Leaves the folder to be gone on with, or removes it. */
+/* Closes the folder, and removes it if `remove`; else a later process can resume it. */
 void gm_part_close(struct gm_part *part, bool remove);
 
-/* Gives a folder that was just made a number of its own, on the disk when this returns: by it a checkpoint knows
-   later that its rows are here, and not those of another run to the same file. False with errno. */
+/* Gives a new folder an identity, on the disk when this returns: with it a checkpoint recognises its rows,
+   and not those of another run to the same file. Returns false with errno. */
 bool gm_part_sign(struct gm_part *part);
-/* That number; 0: it has none. */
+/* The folder's identity; 0: it has none. */
 uint64_t gm_part_identity(const struct gm_part *part);
 
-/* A lane's file, for reading and writing; or an empty one that is begun to be it, which it is once it is taken: the one
-   before stays until then. -1 with errno. */
+/* A lane's file, for reading and writing; or, with `begun`, an empty file that replaces it in
+   gm_part_take. Returns -1 with errno. */
 int gm_part_file(const struct gm_part *part, size_t lane, bool begun);
 bool gm_part_take(const struct gm_part *part, size_t lane);
-/* Removes what was begun, or the lane's file. */
+/* Removes the lane's file or, with `begun`, its replacement. */
 void gm_part_drop(const struct gm_part *part, size_t lane, bool begun);
-/* Renames a lane's file: it is now the file that was to be made. False with errno. */
+/* Renames a lane's file to the path of the complete file. Returns false with errno. */
 bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path);
 
-/* How many bytes a file in the folder may have that has `own` bytes of the disk already: as the disk and the
-   limits of the process are now. */
+/* The largest size, in bytes, of a file in the folder that already has `own` bytes of the disk; by the
+   disk and the limits of the process at this moment. */
 uint64_t gm_part_capacity(const struct gm_part *part, uint64_t own);
 
-/* What a format does with the states of lanes: rows to the lanes' files, and these to the file. */
+/* A format's functions for the states of lanes: from rows to the lanes' files, and from these to the file. */
 
 enum { GM_COLUMNS = GM_QUANTITIES + 1 };
 
-/* A lane of the file: what there is of it, and its columns while it runs. */
+/* A lane of the file: its rows so far, and its columns while it runs. */
 struct gm_saved {
-    size_t index; /* of the lane */
+    size_t index;
     struct gm_quantity quantities[GM_QUANTITIES];
-    size_t sizes[GM_QUANTITIES]; /* how many numbers each has (gm_quantity_size) */
+    size_t sizes[GM_QUANTITIES]; /* numbers per row of each quantity (gm_quantity_size) */
     size_t count, members;
     uint64_t rows;
-    int file; /* in the part; -1: closed */
+    int file; /* the lane's file in the part; -1: closed */
     struct gm_column columns[GM_COLUMNS];
-    double *scratch;  /* room for the longest quantity that is derived; NULL once the lane has ended */
-    char *meta;       /* JSON: what was run; of a lane that has ended */
-    size_t meta_size; /* bytes that it will have, about */
-    uint64_t size;    /* bytes of its file that belong to it; of a lane that has ended */
-    uint64_t heads;   /* of .csv: lines before the rows */
-    /* of .npz */
-    bool plain; /* every row is the numbers of the state, one a column */
+    double *scratch;  /* room for the longest derived quantity; NULL once the lane has ended */
+    char *meta;       /* the run as JSON, once the lane has ended */
+    size_t meta_size; /* approximate size of meta, in bytes */
+    uint64_t size;    /* the lane's bytes of its file, once the lane has ended */
+    uint64_t heads;   /* lines before the rows of .csv */
+    /* the fields of .npz */
+    bool plain; /* every row is the numbers of the state, one per column */
     struct gm_npz *npz;
-    uint64_t capacity, starts[GM_COLUMNS]; /* rows that there is room for; where the columns begin */
+    uint64_t capacity, starts[GM_COLUMNS]; /* rows that have room; offsets of the columns */
 };
 
 struct gm_saving {
-    const char *path;   /* of the file */
-    const char *folder; /* the path without its ending: of the files beside it */
+    const char *path;
+    const char *folder; /* the path without its ending, for the files beside it */
     const struct gm_part *part;
-    struct gm_saved *lanes; /* `begun` of them are there */
+    struct gm_saved *lanes; /* the first `begun` have begun */
     size_t begun, count;
-    bool kept; /* there is a checkpoint: what it counts of the parts is to stay as it is */
+    bool kept; /* there is a checkpoint: rows that it counts must not change */
 };
 
 /* A format's functions are false with errno. */
 struct gm_data_format {
     const char *ending;
-    /* Opens the lane's file, with as many rows as it has already; `expected`: how many there will be, 0 where
-       that is not known. */
+    /* Opens the lane's file with its existing rows; `expected`: the expected number of rows, 0 if it is not
+       known. */
     bool (*begin)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected);
     bool (*row)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run);
-    /* Many rows at once, of a lane that is plain, which it counts itself (gm_save_rows). NULL: never. */
+    /* Adds and counts many rows of a plain lane (gm_save_rows). NULL: never. */
     bool (*rows)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                  const double *rows, size_t count);
-    /* After a write that failed, and a flush of all columns: lane->rows is how many there are. */
+    /* Sets lane->rows to the number of whole rows, after a failed write and a flush of all columns. */
     void (*cut)(const struct gm_saving *saving, struct gm_saved *lane);
-    /* The lane is over, and has its meta; what was put was flushed. */
+    /* Ends the lane, which has its meta; all columns have been flushed. */
     bool (*end)(const struct gm_saving *saving, struct gm_saved *lane);
-    /* Makes the file of the lanes, now and then while rows come, too. NULL: it is their files one behind the
-       other, and then what `finish`, if there is one, writes behind those of the first `lanes`. */
+    /* Makes the file of the lanes, also from time to time during the run. NULL: the file is the lanes' files
+       one after the other, and then the text of `finish`, if there is one, for the first `lanes`. */
     bool (*list)(const struct gm_saving *saving, FILE *file);
-    /* ... and gives back the room of the last rows of a lane that has ended; false: of all but the first. */
+    /* Frees the room of the last rows of a lane that has ended; false if only its first row is left. */
     bool (*drop)(const struct gm_saving *saving, struct gm_saved *lane);
     bool (*finish)(const struct gm_saving *saving, size_t lanes, int file);
-    /* A sentence why these two lanes cannot be in one file of this format, or NULL; NULL: all can, always. */
+    /* The reason why these two lanes cannot be in one file of this format, or NULL; NULL: all can, always. */
     const char *(*refuse)(const struct gm_run *one, const struct gm_run *other);
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was run, as JSON. */
+/* The description of a run, as JSON. */
 #include "app/data/save.h"
 
 #include <stdlib.h>

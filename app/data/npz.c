@@ -17,8 +17,8 @@
 enum { TYPE = 24, NPY_HEAD = 256 };
 
 struct entry {
-    char *name;           /* with its ending */
-    uint64_t place, size; /* of the header; of head and numbers */
+    char *name;           /* the name with its ending */
+    uint64_t place, size; /* offset of the header; size of head and numbers */
     uint32_t crc;
     char type[TYPE];
     size_t item, axes, head; /* bytes of a number, and of the head */
@@ -29,12 +29,12 @@ struct gm_npz {
     int file;
     struct entry *entries;
     size_t count, capacity;
-    uint64_t place; /* where the next entry begins */
+    uint64_t place; /* offset of the next entry */
     bool failed;
 };
 
 enum {
-    MOST_16 = 0xFFFF, /* in their places: look at the 64-bit record */
+    MOST_16 = 0xFFFF, /* a field with this value refers to the 64-bit record */
     LOCAL = 0x04034b50,
     CENTRAL = 0x02014b50,
     END = 0x06054b50,
@@ -61,7 +61,7 @@ static void put(struct bytes *bytes, uint64_t value, size_t size)
     }
 }
 
-/* Whether all went well up to now. */
+/* Returns true if no call has failed so far. */
 static bool note(struct gm_npz *npz, bool good)
 {
     npz->failed = npz->failed || !good;
@@ -79,7 +79,7 @@ static uint32_t low(uint64_t value, bool wide)
     return wide ? most_32 : (uint32_t)value;
 }
 
-/* What a header of an entry says first, local or central; the versions come before it. */
+/* Puts the common fields of a local or central header, which follow the versions. */
 static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide, size_t extra)
 {
     put(bytes, 0, 2); /* flags */
@@ -93,8 +93,8 @@ static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide,
     put(bytes, extra, 2);
 }
 
-/* Where the head of the .npy file begins; the header has the 64-bit record always, so that this does not
-   depend on how much is in the entry. */
+/* The offset of the head of the .npy file; the header always has the 64-bit record, so this does not
+   depend on the entry's size. */
 static uint64_t head_place(const struct entry *entry)
 {
     return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
@@ -165,7 +165,7 @@ void gm_npz_close(struct gm_npz *npz)
     free(npz);
 }
 
-/* Takes a malloc'ed name; NULL when memory is short. */
+/* Takes a malloc'ed name. Returns NULL when out of memory. */
 static struct entry *add_entry(struct gm_npz *npz, char *name)
 {
     if (npz->count == npz->capacity) {
@@ -219,7 +219,7 @@ uint64_t gm_npz_length(int file)
     return shape ? strtoull(shape + strlen(mark), NULL, 10) : 0;
 }
 
-/* How many bytes its numbers have. */
+/* The bytes of an entry's numbers. */
 static uint64_t numbers_of(const struct entry *entry)
 {
     uint64_t size = entry->item;

@@ -42,7 +42,7 @@ static void empty(const struct gm_part *part)
     unlinkat(part->folder, identity, 0);
 }
 
-/* Opens the folder and takes the lock; a folder that its last holder removed meanwhile is none. */
+/* Opens the folder and takes the lock; returns false if its last holder has removed it meanwhile. */
 static bool hold(struct gm_part *part, bool *held)
 {
     struct stat mine, there;

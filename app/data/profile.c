@@ -6,7 +6,8 @@
 
 #include "core/quantity.h"
 
-/* The quantities of the nodes, the place first; their number, 0 where the nodes are not on a line. */
+/* The quantities of the nodes, the coordinate first; returns their number, 0 if the nodes are not on a
+   line. */
 static size_t list(const struct gm_run *run, struct gm_quantity chosen[GM_QUANTITIES])
 {
     struct gm_quantity all[GM_QUANTITIES];

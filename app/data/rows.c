@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which steps have a row. */
+/* The choice of the steps that have a row. */
 #include "app/data/save.h"
 
 #include <math.h>
 
-/* Whether the rows are not so dense that every step has one. */
+/* Returns true if rows follow the time, and not every step has one. */
 static bool is_by_time(const struct gm_rows *rows, const struct gm_run *run)
 {
     return rows->every == 0 && !isnan(rows->interval) &&

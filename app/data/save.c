@@ -20,9 +20,9 @@ struct gm_save {
     const struct gm_data_format *format;
     struct gm_part *part;
     char *path, *folder;
-    double due;   /* of a file that grows: when it is made anew */
-    int cut;      /* errno of the write after which there are no more rows; 0: there was none */
-    size_t lanes; /* of those that have begun, how many the file has */
+    double due;   /* the time of the next writing of a growing file */
+    int cut;      /* errno of the write after which there are no more rows, or 0 */
+    size_t lanes; /* number of the started lanes that the file has */
 };
 
 static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
@@ -51,7 +51,8 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
     const char *reason = NULL;
     for (size_t i = 1; first && i < request->count && !reason; i++) {
         struct gm_lane *lane = gm_request_open_lane(request, i, message);
-        reason = lane ? format->refuse(first->run, lane->run) : NULL; /* one that cannot be says why later */
+        reason = lane ? format->refuse(first->run, lane->run)
+                      : NULL; /* a lane that cannot be opened gives its reason later */
         gm_lane_close(lane);
     }
     gm_lane_close(first);
@@ -108,7 +109,7 @@ static struct gm_saved *present(struct gm_save *save)
     return &save->saving.lanes[save->saving.begun - 1];
 }
 
-/* Its memory and its file, but, unless `whole`, for what the whole file is to be made of. */
+/* Frees a lane's memory and closes its file, but, unless `whole`, keeps the parts of the complete file. */
 static void release(struct gm_saved *lane, bool whole)
 {
     for (size_t i = 0; i < GM_COLUMNS; i++) {
@@ -175,7 +176,7 @@ static bool flush(struct gm_saved *lane)
     return good;
 }
 
-/* A write failed, mostly for want of room: a lane that has rows will end with those that could be written. */
+/* Ends a lane after a failed write, mostly for lack of room: its written rows stay, if there are any. */
 static bool give_up(struct gm_save *save, char *message)
 {
     struct gm_saved *lane = present(save);
@@ -251,8 +252,8 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
     return true;
 }
 
-/* Puts the lanes behind each other in `file`, the first of which is `there` already. Without room for all of
-   them, those that come first. */
+/* Appends the lanes to each other in `file`, which has the first one if `there`. Without room for all of
+   them, it has the first ones. */
 static bool join(struct gm_save *save, int file, bool there)
 {
     const struct gm_saving *saving = &save->saving;
@@ -296,7 +297,7 @@ static bool is_want_of_room(int why)
     return why == ENOSPC || why == EFBIG || why == EDQUOT;
 }
 
-/* Where there is no room for the list of all rows, the last of them make it. */
+/* Writes the list of all rows; without room for it, the last rows are dropped. */
 static bool publish_list(struct gm_save *save)
 {
     while (!gm_temporary_make(save->path, list, save)) {
@@ -310,7 +311,7 @@ static bool publish_list(struct gm_save *save)
     return true;
 }
 
-/* The file becomes the first lane's, or, where that stays to be gone on with, one of its own. */
+/* Renames the first lane's file to the file, or, if that must stay for a resumed run, writes a copy. */
 static bool publish(struct gm_save *save, bool keep)
 {
     if (save->format->list) {
@@ -328,7 +329,7 @@ static bool publish(struct gm_save *save, bool keep)
     return good && gm_part_publish(save->part, first, save->path);
 }
 
-/* What became of a file that has not all rows. */
+/* Refuses with the number of rows of an incomplete file. */
 static bool tell_cut(const struct gm_save *save, char *message)
 {
     const struct gm_saved *last = &save->saving.lanes[save->saving.begun - 1];

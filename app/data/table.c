@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States as CSV: a row a time, a column a number; the lanes one behind the other, under one head. */
+/* States as CSV: a row per time, a column per number; the lanes one after the other, under one head. */
 #include <string.h>
 
 #include "app/data/format.h"

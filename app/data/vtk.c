@@ -18,7 +18,7 @@
 #include "core/basics.h"
 #include "render/message.h"
 
-/* What a group of points is joined to. */
+/* The connection of a group's points. */
 enum shape { POINTS, LINE, TRIANGLES };
 
 /* All quantities that belong to one set of points. */
@@ -29,8 +29,8 @@ struct group {
     enum shape shape;
     size_t points, cells;
     const struct gm_quantity *axes[3]; /* NULL: 0 */
-    const struct gm_quantity *height;  /* of a line: what y is */
-    const struct gm_quantity *corners; /* of triangles */
+    const struct gm_quantity *height;  /* the y of a line */
+    const struct gm_quantity *corners; /* the corners of triangles */
     bool apart; /* each triangle has corners of its own, as on a torus, whose seam would be drawn across */
 };
 
@@ -38,7 +38,7 @@ enum section { FIELD, POINT, CELL, PLACES, TOPOLOGY, SECTIONS };
 enum { SOLID = 3 /* VTK's vectors have three components */, LONGEST = 32 };
 enum { VTK_POLY_VERTEX = 2, VTK_POLY_LINE = 4, VTK_TRIANGLE = 5 };
 
-/* An array of a file: what its head says, and who writes it. */
+/* An array of a file: the entries of its head, and its writer. */
 struct array {
     enum section section;
     const char *name, *type;
@@ -59,7 +59,7 @@ static const struct gm_quantity *axis_of(const struct gm_saved *lane, enum gm_su
     return NULL;
 }
 
-/* The first quantity on a support that is no place; NULL: there is none. */
+/* The first quantity on a support that is not a coordinate, or NULL. */
 static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_support support)
 {
     for (size_t i = 0; i < lane->count; i++) {
@@ -70,7 +70,7 @@ static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_s
     return NULL;
 }
 
-/* False if nothing of the lane has its place there. */
+/* Returns false if the lane has nothing on this support. */
 static bool group_of(const struct gm_saved *lane, const struct gm_run *run, enum gm_support support,
                      struct group *group)
 {
@@ -125,7 +125,8 @@ static bool write_apart(const struct group *group, const struct gm_quantity *qua
     return true;
 }
 
-/* Point by point, from quantities that may have to be derived one by one: x, y and z are collected first. */
+/* Writes coordinates point by point. Quantities may have to be derived one by one, so x, y and z are
+   collected first. */
 static void write_places(const struct group *group, FILE *file)
 {
     if (group->apart) {
@@ -206,10 +207,10 @@ static void write_values(const struct group *group, const struct array *array, F
     }
 }
 
-/* Where a quantity goes; SECTIONS: nowhere in this file. */
+/* The section of a quantity; SECTIONS: this file leaves it out. */
 static enum section section_of(const struct group *group, const struct gm_quantity *quantity)
 {
-    const bool line = group->shape == LINE && quantity->fixed; /* its grid is the points' x */
+    const bool line = group->shape == LINE && quantity->fixed; /* the line's grid is the points' x */
     if (quantity == group->corners || line || quantity == group->axes[0] || quantity == group->axes[1] ||
         quantity == group->axes[2]) {
         return SECTIONS;
@@ -289,7 +290,7 @@ static void write_head(const struct group *group, const struct array *arrays, si
     fputs("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
 }
 
-/* False with errno. */
+/* Returns false with errno. */
 static bool write_array(const struct group *group, const struct array *array, FILE *file)
 {
     const off_t before = ftello(file);
@@ -351,7 +352,7 @@ static char *path_of(const struct gm_saving *saving, const struct gm_saved *lane
     return gm_text("%s/%s%06" PRIu64 "%s.vtu", saving->folder, prefix, row, ending);
 }
 
-/* Which files a row has. */
+/* The files of a row. */
 static const struct {
     enum gm_support support;
     const char *ending;
@@ -360,10 +361,10 @@ static const struct {
 static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const char *slash = strrchr(saving->path, '/');
-    /* of the files' paths, which the list leaves out */
+    /* the length of the folder's path, which the list leaves out */
     const size_t front = slash ? (size_t)(slash + 1 - saving->path) : 0;
     bool good = true;
-    errno = ENOMEM; /* where no call to a file says otherwise */
+    errno = ENOMEM; /* the reason if no call for a file gives another one */
     int parts = 0;
     for (size_t i = 0; i < GM_COUNT(groups) && good; i++) {
         struct group group;
@@ -379,11 +380,11 @@ static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, 
         parts++;
         free(path);
     }
-    /* one line a row, which is there with its files */
+    /* one line per row, which exists with its files */
     return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
 }
 
-/* The groups of a lane with their arrays, and where those of the file of all rows are. */
+/* The groups of a lane with their arrays, and the offsets in the file of all rows. */
 struct places {
     size_t groups, counts[GM_COUNT(groups)];
     struct group group[GM_COUNT(groups)];
@@ -404,7 +405,7 @@ static void find_places(const struct gm_saved *lane, const struct gm_run *run, s
         for (size_t i = 0; i < all; i++) {
             if (arrays[i].write == write_time || arrays[i].write == write_offsets ||
                 arrays[i].write == write_types) {
-                continue; /* the list tells the time, and the topology's name the others */
+                continue; /* the list has the time, the topology's name the types */
             }
             arrays[count++] = arrays[i];
             *(arrays[i].fixed ? &places->head : &places->row) += bytes_of(&arrays[i]);
@@ -461,7 +462,7 @@ static bool put_item(struct gm_column *lines, const struct group *group, const s
 static bool put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
 {
     struct gm_column *lines = &lane->columns[0];
-    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* of arrays that change, and of others */
+    uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* offsets of changing and fixed arrays */
     bool good = gm_column_print(
         lines,
         "<Grid Name=\"row\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"%.17g\"/>", t);
@@ -522,13 +523,13 @@ static void shorten(const struct gm_saving *saving, const struct gm_saved *lane,
     find_places(lane, NULL, &places);
     char *path = rows_path_of(saving, lane);
     const bool cut = path && rows > 0 && truncate(path, (off_t)place_of_row(&places, rows)) == 0;
-    if (path && !cut && rows == 0) { /* what is longer than its rows is read all the same */
+    if (path && !cut && rows == 0) { /* a file longer than its rows can still be read */
         unlink(path);
     }
     free(path);
 }
 
-/* Of the rows from `from` on, up to one that may have been begun; with the last file its folder goes. */
+/* Removes the rows from `from` to `last`, which may be incomplete; the last file's folder goes too. */
 static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
                         uint64_t last)
 {
@@ -547,7 +548,7 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
     rmdir(saving->folder);
 }
 
-/* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */
+/* Writes the run's description as a comment; XML forbids "--" there, so the second is escaped as in JSON. */
 static bool put_meta(const char *meta, FILE *file)
 {
     fputs("<!-- ", file);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A published figure, made again and held against what its document says of it. */
+/* A published figure, reproduced and compared with the statements of its document. */
 #include "app/figures/figure.h"
 
 #include <math.h>
@@ -17,8 +17,7 @@
 
 enum { FEW_SCHEMES = 3 };
 
-/* The arguments with those of `quick` instead of their namesakes; where memory is short they stay as they
- * are. */
+/* Replaces arguments by those of `quick` with the same keys; when out of memory they do not change. */
 static void shorten(char *arguments, size_t size, const char *quick)
 {
     struct gm_arguments self = {0}, instead = {0};
@@ -63,7 +62,7 @@ void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, con
     }
 }
 
-/* Whether a lane has this value of a key; *known is false if there is no such key. */
+/* Returns true if a lane has this value of a key; *known is false if there is no such key. */
 static bool has_value(const struct gm_request *request, const struct gm_lane_spec *spec, const char *key,
                       const char *value, bool *known)
 {
@@ -83,7 +82,7 @@ static bool has_value(const struct gm_request *request, const struct gm_lane_spe
     return same;
 }
 
-/* Whether it has one of those of a word "scheme=rk4" or "dt=0.1,0.2". */
+/* Returns true if it has one of the values of a word "scheme=rk4" or "dt=0.1,0.2". */
 static bool has(const struct gm_request *request, const struct gm_lane_spec *spec, const char *word,
                 bool *known)
 {
@@ -200,7 +199,7 @@ static double scale_of(const struct gm_lane *lane, const struct gm_statement *st
                : scale->size;
 }
 
-/* Of a lane, the number over which an order is taken. */
+/* The abscissa of a lane for an order. */
 static double abscissa(const struct gm_lane *lane, const char *key)
 {
     const int observable = gm_scene_observable(lane->scene, key);
@@ -208,8 +207,8 @@ static double abscissa(const struct gm_lane *lane, const char *key)
                            : gm_parameter_get(gm_scene_parameter(lane->scene, key), lane->parameters);
 }
 
-/* From the first of the lanes to the last, positive where the measure falls on the way; lanes that failed
-   have no error to speak of. */
+/* The order from the first lane to the last, positive if the measure falls; failed lanes have no usable
+   error. */
 static double order(struct gm_lane *const *lanes, const size_t *chosen, size_t count,
                     const struct gm_statement *statement)
 {
@@ -228,7 +227,7 @@ static double order(struct gm_lane *const *lanes, const size_t *chosen, size_t c
            fabs(log(abscissa(first, statement->over) / abscissa(last, statement->over)));
 }
 
-/* What a statement measures of lane `index` of the chosen ones, or the order of all of them. */
+/* A statement's measure of lane `index` of the chosen ones, or the order of all of them. */
 static double number_of(struct gm_lane *const *lanes, const size_t *chosen, size_t index, size_t count,
                         const struct gm_statement *statement, bool *failed)
 {
@@ -239,8 +238,8 @@ static double number_of(struct gm_lane *const *lanes, const size_t *chosen, size
     return measure(lanes[chosen[index]], statement);
 }
 
-/* A run that ended before its time may have a number that is large enough, but never one that is small
-   enough: nobody knows what it would have become. */
+/* A failed run may have a number that is large enough, but never one that is small enough: its further
+   course is unknown. */
 static bool holds(const struct gm_statement *statement, double number, bool failed)
 {
     return number >= statement->low && number <= statement->high &&
@@ -272,8 +271,8 @@ static void open_values(const struct gm_request *request, size_t lane, const cha
     gm_arguments_close(&words);
 }
 
-/* "with strength=1": the values with which all lanes hold, texts[true], and not all do, texts[false]; "" where there
-   are none. */
+/* "with strength=1": the values for which all lanes hold, texts[true], and those for which a lane does
+   not, texts[false]; "" without such values. */
 static void put_values(const struct gm_request *request, const char *keys, const size_t *chosen,
                        const bool *good, size_t count, char texts[2][GM_FIGURE_LABEL])
 {
@@ -383,7 +382,7 @@ char *gm_figure_path(const struct gm_figure_output *output, const char *name, en
                    gm_format_name(format));
 }
 
-/* One picture; those of the page are PNG. */
+/* Prints one picture; pictures of the page are PNG. */
 static bool print_one(const struct gm_figure_job *job, const struct gm_request *request,
                       const struct gm_lane *const *lanes, const struct gm_figure_output *output,
                       enum gm_theme theme, enum gm_format format, char *message)
@@ -452,8 +451,8 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
         }
         gm_request_close(&request);
     }
-    /* the process that makes a figure is not the one that tells; and whoever was refused memory may have made
-       something else of it: a lane that could not be opened, arguments that were not read */
+    /* another process prints the message; a lack of memory may also have caused other failures: a lane
+       that could not be opened, arguments that were not read */
     if (gm_memory_was_short() && outcome->status != GM_EXIT_INTERRUPTED) {
         snprintf(outcome->message, sizeof outcome->message, "not enough memory");
         outcome->status = GM_EXIT_MEMORY;

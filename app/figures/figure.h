@@ -6,7 +6,8 @@
 #include "app/words/request.h"
 #include "scenes/common/published.h"
 
-/* One figure: run, painted in both themes, and, if it is a published one, held against what its document says of it. */
+/* One figure: run, painted in both themes, and, if it is published, compared with its document's
+   statements. */
 
 enum {
     GM_FIGURE_LANES = 32,
@@ -18,91 +19,92 @@ enum {
 
 enum gm_making { GM_WAITING, GM_RUNNING, GM_MADE, GM_NOT_MADE };
 
-/* What came out, as plain data without pointers: it is filled by another process. */
+/* The result, as plain data without pointers: another process fills it. */
 struct gm_outcome {
     enum gm_making progress;
     int status; /* an exit status; GM_EXIT_OK when made */
     char message[GM_MESSAGE];
-    double seconds; /* that it took */
+    double seconds; /* duration of making it */
     size_t lane_count;
     struct {
-        char label[GM_FIGURE_LABEL]; /* the scheme and what else sets the lane apart */
-        char failure[GM_MESSAGE];    /* "" where it came to its end */
+        char label[GM_FIGURE_LABEL]; /* the scheme and the other values that distinguish the lane */
+        char failure[GM_MESSAGE];    /* "" if it came to its end */
         double t;
         double observables[GM_FIGURE_OBSERVABLES];
     } lanes[GM_FIGURE_LANES];
     size_t verdict_count; /* the figure's statements */
     struct {
-        double low, high; /* of the numbers of its lanes */
-        double scale;     /* that multiplies the statement's bounds */
+        double low, high; /* range of the numbers of its lanes */
+        double scale;     /* factor of the statement's bounds */
         bool holds;
         bool open; /* it holds with some values that the document does not give, not with others */
-        char note[GM_FIGURE_NOTE]; /* those values; "" */
+        char note[GM_FIGURE_NOTE]; /* these values, or "" */
     } verdicts[GM_FIGURE_STATEMENTS];
 };
 
-/* Where the figures go. */
+/* The output of the figures. */
 struct gm_figure_output {
-    const char *folder;        /* that there is */
-    struct gm_appearance look; /* of their pictures; each is made in both themes */
+    const char *folder;        /* an existing folder */
+    struct gm_appearance look; /* the look of their pictures, without the theme: each is made in both */
     enum gm_format format;
-    bool quick; /* long runs are coarser: nothing is judged of them, and the page says so */
+    bool quick; /* long runs are coarser and not judged, and the page notes it */
 };
 
-/* A figure as asked for. */
+/* A requested figure. */
 struct gm_figure_job {
     const struct gm_scene *scene;
     const struct gm_figure *figure;
-    const struct gm_published *published; /* NULL if its document says nothing that can be measured */
-    char arguments[512];                  /* those that are run */
-    bool shortened;                       /* in work, by --quick: nothing is judged */
+    const struct gm_published *published; /* NULL if its document has no measurable statement */
+    char arguments[512];                  /* the arguments of the run */
+    bool shortened;                       /* --quick has reduced its work: it is not judged */
 };
 
-/* Whether it is of a system of somebody's own. */
+/* Returns true for a figure of a user-defined system. */
 static inline bool gm_figure_is_user(const struct gm_figure_job *job)
 {
     return job->scene->words;
 }
 
-/* What `geomint render` calls the scene. */
+/* The scene's word for `geomint render`. */
 static inline const char *gm_figure_word(const struct gm_figure_job *job)
 {
     return gm_figure_is_user(job) ? job->scene->words[0] : job->scene->name;
 }
 
-/* How many of the scene's observables are among the numbers of a lane. */
+/* The number of the scene's observables among the numbers of a lane. */
 static inline size_t gm_figure_observables(const struct gm_figure_job *job)
 {
     const size_t count = job->scene->observable_count;
     return count < GM_FIGURE_OBSERVABLES ? count : GM_FIGURE_OBSERVABLES;
 }
 
-/* Settles which arguments are run. */
+/* Chooses the arguments of the run. */
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
                     bool quick);
 
-/* The indices of the lanes with these values, "scheme=rk4 dt=0.1,0.2"; returns how many, GM_FIGURE_LANES at most. Where
-   a key or a value is none, *known becomes false. */
+/* The indices of the lanes with these values, "scheme=rk4 dt=0.1,0.2"; returns their number, at most
+   GM_FIGURE_LANES. An unknown key or value sets *known to false. */
 size_t gm_figure_lanes(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known);
 
-/* Runs it, judges it and writes its pictures, as FOLDER/NAME.png and FOLDER/NAME-dark.png, and those of
-   another format beside them, which the page may not show. An interruption is GM_EXIT_INTERRUPTED. */
+/* Runs it, judges it and writes its pictures, as FOLDER/NAME.png and FOLDER/NAME-dark.png, and also in
+   another format, which the page may not show. The status after an interruption is GM_EXIT_INTERRUPTED. */
 void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                     struct gm_outcome *outcome);
 
-/* Whether observable `index` of the scene is a number in any lane: what has none is told nowhere. */
+/* Returns true if observable `index` of the scene is a number in any lane; only such observables are
+   printed. */
 bool gm_outcome_has(const struct gm_outcome *outcome, size_t index);
 
 /* FOLDER/NAME.png or FOLDER/NAME-dark.png; malloc'ed. */
 char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
                      enum gm_format format);
 
-/* Who makes a statement, as JSON names it. */
+/* The source of a statement, as in JSON. */
 enum gm_source { GM_OF_DOCUMENT, GM_OF_OURS, GM_OF_VARIANT, GM_SOURCES };
 enum gm_source gm_statement_source(const struct gm_figure_job *job, size_t index);
 const char *gm_source_name(enum gm_source source);
 
-/* How many figures were made, and what became of their statements. */
+/* The number of figures made, and the verdicts on their statements. */
 struct gm_figure_sum {
     size_t made;
     struct gm_tally {
@@ -112,16 +114,17 @@ struct gm_figure_sum {
 struct gm_figure_sum gm_figures_sum(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes,
                                     size_t count);
 
-/* Of statement `index`: "holds", "does not hold", "open", or "not judged" of a run that was shortened. */
+/* The verdict on statement `index`: "holds", "does not hold", "open", or "not judged" after a shortened
+   run. */
 const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index);
 
-/* What a statement expects ("at most 1e-12"; "at most 0.21, 5 % of the breather's height") and what was found
-   ("0.105", "0.09 to 0.11"; "no number" where there is none). */
+/* The expectation of a statement ("at most 1e-12"; "at most 0.21, 5 % of the breather's height") and the
+   measured range ("0.105", "0.09 to 0.11", or that there is not one). */
 void gm_statement_expectation(const struct gm_statement *statement, double scale, char *text, size_t size);
 void gm_verdict_number(double low, double high, char *text, size_t size);
 
-/* Writes FOLDER/figures.html: one file with everything in it, pictures too, that needs neither net nor
-   script. Figures that are not made are listed as such. By way of a temporary name. False with a sentence. */
+/* Writes FOLDER/figures.html: one file with everything in it, pictures too, without network or script. It
+   lists figures that are not made as such. A temporary file is renamed. Returns false with a sentence. */
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message);
 

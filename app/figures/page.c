@@ -94,14 +94,14 @@ __attribute__((format(printf, 2, 3))) static void put(FILE *page, const char *fo
     fputs(format, page);
 }
 
-/* As a sentence: with a capital letter in front. */
+/* Writes a sentence: the first letter is a capital. */
 static void put_sentence(FILE *page, const char *text)
 {
     putc(toupper((unsigned char)text[0]), page);
     put_text(page, text + 1);
 }
 
-/* A file's bytes in base64. False if it cannot be read. */
+/* A file's bytes in base64. Returns false if it cannot be read. */
 static bool put_base64(FILE *page, const char *path)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
@@ -138,7 +138,7 @@ static bool put_picture(FILE *page, const struct gm_figure_output *output, const
     return good;
 }
 
-/* "open" is not judged either: the document leaves out what decides it. */
+/* "open" is not judged either: the document leaves out the deciding values. */
 static void put_verdict(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome,
                         size_t index)
 {
@@ -270,7 +270,7 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
     return good;
 }
 
-/* What systems of somebody's own stand under. */
+/* The heading of user-defined systems. */
 static const struct gm_document own_systems = {.prefix = "own", .citation = "Systems of your own"};
 
 static bool is_of(const struct gm_document *document, const struct gm_figure_job *job)
@@ -282,7 +282,7 @@ static bool is_of(const struct gm_document *document, const struct gm_figure_job
     return strncmp(job->figure->name, document->prefix, length) == 0 && job->figure->name[length] == '-';
 }
 
-/* What is seen first of each figure: how many of its statements hold. */
+/* The first view of each figure: the number of its statements that hold. */
 static void put_contents(FILE *page, const struct gm_document *document, const struct gm_figure_job *jobs,
                          const struct gm_outcome *outcomes, size_t count)
 {

@@ -17,9 +17,9 @@ enum { MOST_WITH_TANGENTS = 8 }; /* components */
 
 struct kept {
     const struct gm_lane *lane;
-    const struct gm_problem *problem; /* of one member */
+    const struct gm_problem *problem; /* the problem of one member */
     const struct gm_observable *row;
-    /* What is certified of `problem`, which carries tangents along; NULL: all. */
+    /* the part of `problem` without tangents that is certified; NULL: all */
     const struct gm_problem *motion;
 };
 
@@ -45,7 +45,7 @@ static double value_of_kept(const void *data, const double *y, const double *mem
     return kept->row->evaluate(&view);
 }
 
-/* Of the exact solution that the lane's scene tells. */
+/* The error against the exact solution of the lane's scene. */
 static double error_of_lane(const void *data, double t, const double *y)
 {
     const struct kept *kept = data;
@@ -57,7 +57,8 @@ static double error_of_lane(const void *data, double t, const double *y)
     return kept->row->evaluate(&view);
 }
 
-/* The same field with half the step on a grid twice as fine; NULL: there is none, or memory is short. */
+/* The same field with half the step size on a grid twice as fine; NULL if there is no such grid, or when
+   out of memory. */
 static struct gm_lane *open_finer(const struct gm_lane *lane)
 {
     const struct gm_parameter *points = gm_scene_parameter(lane->scene, "points");
@@ -84,7 +85,7 @@ struct grid {
     struct gm_certified_system system;
 };
 
-/* Opens the finer grids of a field and tells of the exact solution on all of them; `first` is the lane's own. */
+/* Opens the finer grids of a field and sets the exact solution on all of them; `first` is the lane's grid. */
 static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
 {
     const struct gm_scene *scene = lane->scene;
@@ -161,7 +162,7 @@ static bool certify_lane(const struct gm_lane *lane, struct gm_certificate *cert
     free(start);
     free(data);
     free(kept);
-    /* measurements that had no memory would be told as others */
+    /* measurements without memory would give wrong results */
     return gm_memory_refusals() == refusals || gm_refuse(message, "not enough memory");
 }
 
@@ -175,7 +176,7 @@ static bool ask(const char *scheme, const char *system, int count, const char *c
     for (int i = 0; good && i < count; i++) {
         good = gm_arguments_add(&typed, words[i]);
     }
-    /* on a mesh of as few nodes as all claims are measured on, where nothing is said of it */
+    /* a mesh has the number of nodes on which all claims are measured, by default */
     const struct gm_scheme *row = gm_scheme_find(scheme);
     if (good && row && row->family->kind == &gm_kind_mesh && !gm_arguments_have(&typed, "points=")) {
         good = gm_arguments_add(&typed, "points=3");

@@ -4,8 +4,9 @@
 
 #include "core/certify.h"
 
-/* Certifies a scheme on a scene or a system with `count` of key=value, from the start of the first member. What the
-   certificate names lives as long as the program. False with a sentence (GM_MESSAGE bytes) and an exit status. */
+/* Certifies a scheme on a scene or a system with `count` of key=value, from the start of the first member.
+   The certificate's names live as long as the program. Returns false with a sentence (GM_MESSAGE bytes)
+   and an exit status. */
 bool gm_certify_words(const char *scheme, const char *system, int count, const char *const words[],
                       struct gm_certificate *certificate, int *status, char *message);
 

@@ -4,7 +4,7 @@
 
 #include "scenes/common/graph.h"
 
-/* What the pictures of grids share. */
+/* The common functions of the pictures of grids. */
 
 /* A panel with axes. */
 struct gm_panel *gm_chart_panel(struct gm_picture *picture, enum gm_place place, const char *title,
@@ -13,7 +13,7 @@ struct gm_panel *gm_chart_panel(struct gm_picture *picture, enum gm_place place,
 /* The colour of line number `index`. */
 struct gm_style gm_chart_style(size_t index);
 
-/* A line with its points and its name among the panel's keys; nothing where it has no points. */
+/* A line with its points, and its name among the panel's keys; without points it draws nothing. */
 void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                    const double *points, size_t count, const char *name);
 

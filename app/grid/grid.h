@@ -8,9 +8,9 @@
 #include "app/words/request.h"
 #include "core/ode/backward/modified_energy.h"
 
-/* A grid of runs: a scene, its words, axes of steps, values and schemes, and what is asked of each run. Four
-   presets say what that is: which accuracy costs how much, which step is stable, which Hamiltonian a scheme
-   keeps, and what a sweep tabulates. */
+/* A grid of runs: a scene, its words, axes of step sizes, values and schemes, and a measurement for each
+   run. Four presets give the measurement: the cost of an accuracy, the stable steps, the modified
+   Hamiltonians that schemes conserve, and the table of a sweep. */
 
 enum gm_study_kind {
     GM_STUDY_NONE,
@@ -22,10 +22,10 @@ enum gm_study_kind {
 };
 
 enum gm_cell_verdict {
-    GM_BOUNDED, /* or accurate, where that was asked */
-    GM_LOST,    /* what should be conserved fell below half of its start */
-    GM_GAINED,  /* ... rose above twice its start */
-    GM_WRONG,   /* bounded, and not accurate, where that was asked */
+    GM_BOUNDED, /* or accurate, if that was asked */
+    GM_LOST,    /* the conserved quantity fell below half of its start */
+    GM_GAINED,  /* the conserved quantity rose above twice its start */
+    GM_WRONG,   /* bounded but not accurate, if accuracy was asked */
     GM_FAILED,  /* ended with a status */
 };
 
@@ -33,26 +33,26 @@ enum { GM_POWERS = GM_MODIFIED_POWER + 1 };
 
 /* A run. */
 struct gm_grid_cell {
-    const struct gm_lane_spec *spec; /* the lane that it is, but for scheme, value and step */
-    double value;                    /* of the grid's parameter */
-    double step;                     /* as the ladder has it: dt, in the plan's unit, or a value of `ratio` */
-    double resolution;               /* the value, or its reciprocal where smaller is finer */
-    bool tried;                      /* what follows is known */
+    const struct gm_lane_spec *spec; /* the run's lane in the request; scheme, value and step size differ */
+    double value;                    /* the value of the grid's parameter */
+    double step;                     /* the ladder's step: dt, in the plan's unit, or a value of `ratio` */
+    double resolution;               /* the value, or its reciprocal if smaller is finer */
+    bool tried;                      /* the following fields are set */
     enum gm_status status;
-    double dt, t; /* the step, and the time reached */
+    double dt, t; /* the step size, and the time reached, in model time */
     int64_t steps;
-    double seconds; /* processor time, best of several; INFINITY: no run came to its end */
+    double seconds; /* CPU time, the best of several runs; INFINITY: no run came to its end */
     double evaluations, solves;
-    double error; /* NAN: not known, or the run failed */
-    double ratio; /* of what should be conserved to its start; NAN: not known */
+    double error; /* NAN: unknown, or the run failed */
+    double ratio; /* the conserved quantity divided by its start; NAN: unknown */
     enum gm_cell_verdict verdict;
-    /* Cut off after dt^k: the largest |H~(y_n) - H~(y_0)| of all looks at the run, and of the terms the
-       largest |dt^k H_k|, both divided by what the energy error is divided by. */
+    /* With the truncation after dt^k: the largest |H~(y_n) - H~(y_0)| at the sampled steps, and the
+       largest |dt^k H_k| of the terms, both divided by the divisor of the energy error. */
     double errors[GM_POWERS], terms[GM_POWERS];
     int best; /* the k with the smallest error */
-    /* If terms go on as k! (dt / gamma)^k, as the last two of those known do: they are smallest at k = gamma
-       / dt, and what is left drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt). Hairer, Lubich &
-       Wanner (2006), IX.8. NAN where fewer than two are known. */
+    /* If terms continue as the last two known ones, k! (dt / gamma)^k, they are smallest at k = gamma /
+       dt, and the rest drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt). Hairer, Lubich & Wanner
+       (2006), IX.8. NAN if fewer than two are known. */
     double gamma;
 };
 
@@ -63,14 +63,15 @@ struct gm_grid_line {
     const struct gm_scheme *scheme;
     struct gm_grid_cell *cells;
     size_t count;
-    char reason[GM_MESSAGE]; /* why there are no numbers; "": there are some, or the statuses say why not */
+    char reason[GM_MESSAGE]; /* the reason for missing numbers; "": see the statuses */
     bool ended;              /* no lane can be opened */
-    /* Where the resolution varies: the cells that no other beats in error and cost, by rising cost; else NULL. */
+    /* The cells, by rising cost, for which no other has a smaller error and cost; NULL unless the
+       resolution varies. */
     struct gm_grid_cell *front[GM_COST_COUNT];
     size_t front_count[GM_COST_COUNT];
-    struct gm_grid_cell *credited; /* scratch for them */
-    /* Of modified energies: the slopes at the two smallest steps whose errors are above round-off, or NAN; and
-       whether a power has a term that does not vanish. */
+    struct gm_grid_cell *credited; /* scratch for the fronts */
+    /* The slopes of modified energies at the two smallest steps with errors above round-off, or NAN; and
+       true for powers with a term that does not vanish. */
     double orders[GM_POWERS];
     bool shown[GM_POWERS];
 };
@@ -84,39 +85,38 @@ struct gm_grid_axis {
 struct gm_study_row;
 
 struct gm_grid {
-    struct gm_arena *arena;    /* of all that the others point to */
-    struct gm_request request; /* its first lane has the parameters that all share */
+    struct gm_arena *arena;    /* owns the memory of the others */
+    struct gm_request request; /* its first lane has the common parameters */
     const struct gm_study_row *row;
-    const struct gm_arguments *typed; /* while it is opened: a scene and its key=value */
-    const char *requested;            /* ... and the measure or judge, NULL: what the scene says */
+    const struct gm_arguments *typed; /* a scene and its key=value, while the grid is opened */
+    const char *requested;            /* the requested measure or judge; NULL: the scene's */
     struct gm_grid_line *lines;
-    size_t count;                         /* of lines, */
-    size_t begun;                         /* of which so many are shown: they are measured or under way */
-    const struct gm_parameter *parameter; /* what varies beside step and scheme; NULL: nothing does */
+    size_t count;
+    size_t begun;                         /* number of lines that are shown: measured or being measured */
+    const struct gm_parameter *parameter; /* the parameter that varies beside step and scheme, or NULL */
     struct gm_grid_axis steps, values;
-    const struct gm_listener *listener; /* while it is measured */
-    size_t jobs;                        /* so many runs at once; 0: one a core */
+    const struct gm_listener *listener; /* the listener of a running measurement */
+    size_t jobs;                        /* number of parallel runs; 0: one per core */
 
     /* stability */
     const struct gm_stability *plan;
-    double accuracy; /* above which the scene's error is not accurate; INFINITY: bounded is asked alone */
+    double accuracy; /* the largest error that is accurate; INFINITY: only boundedness is judged */
 
     /* work-precision */
     char settings[160];  /* the words that set parameters which all runs share: "viscosity=0.05" */
-    bool best;           /* built-in schemes are added that promise most */
+    bool best;           /* the most promising built-in schemes are added */
     const char *measure; /* "solution_error" or an observable's key */
     bool observed;       /* it is the observable, not the distance of the states */
     const char *measure_title;
-    char reference[96]; /* what the error is measured against, in words */
+    char reference[96]; /* the reference of the error, in words */
     const struct gm_scheme
-        *trusted; /* of a run that is the reference, and its step; NULL: the solution is exact */
+        *trusted; /* the scheme of the reference run, which has this step; NULL: the solution is exact */
     double reference_step;
-    struct gm_lane
-        *finer;       /* the run that errors are distances from, where the scene measures these; else NULL */
-    double *solution; /* the state that errors are differences from; NULL: none */
-    bool smaller_is_finer;            /* of the parameter, as of the distance of nodes */
-    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: it has steps */
-    const double *errors;             /* 3, falling: at which schemes are compared */
+    struct gm_lane *finer; /* the reference run, if the scene measures distances from it; else NULL */
+    double *solution;      /* the reference state for differences, or NULL */
+    bool smaller_is_finer; /* true for a parameter such as the distance of nodes */
+    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: steps */
+    const double *errors;             /* 3 falling errors, at which schemes are compared */
 
     /* sweep */
     struct gm_sweep sweep;
@@ -124,24 +124,25 @@ struct gm_grid {
     struct gm_sweep_chart *chart;
 };
 
-/* What is special of a kind. */
+/* The properties and functions of a kind. */
 struct gm_study_row {
-    const char *name; /* of its command */
-    int refusal;      /* the exit status where nothing can be measured */
+    const char *name; /* the name of its command */
+    int refusal;      /* the exit status if nothing can be measured */
     void (*draw)(const struct gm_grid *grid, struct gm_picture *picture);
-    /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL
-       where it shows none, and for a kind that has no runs of its own. In any thread, while it measures. */
+    /* The words of the run that panel number `panel` shows at (x, y), the scene first; malloc'ed. NULL if
+       it shows none, and for a kind without runs. Can be called in any thread, also during the
+       measurement. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
 
-    /* ---- of a kind that has no cells, NULL for the others; `open` leaves the body of the grid's arena, with a
-       sentence, where it cannot ---- */
+    /* ---- kinds without cells, NULL for the others; on a failure `open` leaves the body of the grid's
+       arena, with a sentence ---- */
     void (*open)(struct gm_grid *grid);
     bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
     bool (*write)(const struct gm_grid *grid, const char *path);
 
-    /* ---- of a kind with cells, while it is opened, in the body of the grid's arena ---- */
-    const char *which; /* what is asked where there is no scene */
-    size_t schemes;    /* so many of the scene's preferred ones are taken where none is named */
+    /* ---- kinds with cells, when they are opened, in the body of the grid's arena ---- */
+    const char *which; /* the question, for a message without a scene */
+    size_t schemes;    /* number of the scene's preferred schemes if none is given */
     /* The words unless overridden. */
     const char *(*usual)(struct gm_grid *grid, const struct gm_scene *scene);
     /* Changes the words before they are read; NULL: nothing. */
@@ -150,38 +151,39 @@ struct gm_study_row {
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
     /* ---- of gm_cells_measure; `prepare` in a body ---- */
-    bool
-        alone; /* runs are timed: one after the other, and a lane that cannot be opened ends its line alone */
-    /* Finds what runs are compared with; NULL: nothing. */
+    bool alone; /* timed runs, one after the other; a lane that cannot be opened ends only its line */
+    /* Makes the reference of the runs; NULL: none. */
     void (*prepare)(struct gm_grid *grid);
-    /* Whether a cell is of no use, after those before it; NULL: all are of use. */
+    /* Returns true if a cell is of no use after those before it; NULL: all are of use. */
     bool (*is_needless)(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell);
-    /* Makes the run of an open lane and fills its cell, in any thread; a message is why it has no numbers. */
+    /* Makes the run of an open lane and fills its cell, in any thread; a message is the reason for missing
+       numbers. */
     void (*run)(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid_cell *cell, char *message);
-    /* Finds what a line says, after each of its cells; NULL: nothing. */
+    /* Computes the results of a line, after each of its cells; NULL: none. */
     void (*conclude)(const struct gm_grid *grid, struct gm_grid_line *line);
 
     /* ---- of gm_cells_write and gm_grid_put_cells ---- */
     bool ordered; /* the scheme's order is a column */
-    int rows;     /* of a cell in CSV; `number` is that of one */
+    int rows;     /* rows per cell in CSV; `number` is one of them */
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
                      int number);
 };
 extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: GM_STUDY_NONE */
 
-/* The kind of that name; GM_STUDY_NONE if there is none. */
+/* The kind with that name, or GM_STUDY_NONE. */
 enum gm_study_kind gm_study_find(const char *name);
 
-/* Reads the words: a scene and its key=value; `measure` is the key of an observable or, of stability, what a
-   step is judged by; NULL: what the scene says. False with a sentence (GM_MESSAGE bytes); of the grid only
-   request.refusal says something then. */
+/* Reads the words: a scene and its key=value. `measure`: the key of an observable or, for stability, the
+   judge of a step; NULL: the scene's. Returns false with a sentence (GM_MESSAGE bytes); only
+   request.refusal is then set. */
 bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm_arguments *arguments,
                   const char *measure, char *message);
-/* Makes the runs; stopped, the others stay untried. False with a sentence. */
+/* Makes the runs; after a stop the others stay untried. Returns false with a sentence. */
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 void gm_grid_close(void *grid);
 
-/* For gm_chart_write: `grid` is a struct gm_grid. Fills an empty picture; writes the cells as CSV, false with errno. */
+/* Functions for gm_chart_write; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV,
+   false with errno. */
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
 bool gm_grid_write(const void *grid, const char *path);
 
@@ -189,23 +191,23 @@ bool gm_grid_write(const void *grid, const char *path);
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
                        struct gm_row *row);
 
-/* What the cells of a grid say together. */
+/* The results of a grid's cells together. */
 
 /* ---- stability ---- */
 
-/* What is asked: "bounded" or "accurate"; and in a sentence, "accurate to 0.01 (position_error)". */
+/* The question: "bounded" or "accurate"; and in a sentence, "accurate to 0.01 (position_error)". */
 const char *gm_stability_judge(const struct gm_grid *grid);
 const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t size);
 
-/* That word, "lost", ... or the status' name; and a letter for the map. */
+/* The verdict, "lost", ... or the status' name; and a letter for the map. */
 const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell);
 char gm_cell_letter(const struct gm_grid_cell *cell);
 
-/* The letters in use, but that of what is asked: "W wrong, M mesh-crossing". Returns text. */
+/* The letters in use, except that of the question: "W wrong, M mesh-crossing". Returns text. */
 const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size);
 
-/* The largest step, in the plan's unit, up to which a scheme is as asked for all values; 0: none. NAN
-   where cells that were not tried leave it open. */
+/* The largest step, in the plan's unit, up to which a scheme passes for all values; 0 if it never does.
+   NAN if untried cells leave it open. */
 double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line);
 
 /* ---- work-precision ---- */
@@ -217,15 +219,15 @@ double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost);
 size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm_cost cost,
                          struct gm_grid_cell *best);
 
-/* The cells that a line is drawn and priced by. */
+/* The cells that make up a line's curve and costs. */
 const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
 
-/* The second cost that schemes are compared by, beside the run time; and what an error costs so, as it is printed. */
+/* The second cost for comparing schemes, after the run time; and this cost of an error, as it is printed. */
 enum gm_cost gm_work_second_cost(const struct gm_grid *grid);
 double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error);
 
-/* What a scheme pays for this error, interpolated between two cells of its front; NAN if it does not reach
-   it. */
+/* The cost of a scheme at this error, interpolated between two cells of its front; NAN if it does not
+   reach it. */
 double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost cost);
 
 /* The line that is cheapest at this error; NULL if none reaches it. */

@@ -4,7 +4,7 @@
 
 #include "app/grid/grid.h"
 
-/* What the kinds of grids share, and their functions. */
+/* The common functions of the kinds of grids, and the kinds. */
 
 /* ---- layout ---- */
 
@@ -13,32 +13,34 @@ struct gm_timing *gm_grid_timing(const struct gm_grid *grid);
 
 /* Adds a value that is not there yet. */
 void gm_axis_add(struct gm_grid_axis *axis, double value);
-/* The line of a scheme; NULL: there is none. */
+/* The line of a scheme, or NULL. */
 struct gm_grid_line *gm_grid_find(const struct gm_grid *grid, const struct gm_scheme *scheme);
-/* Adds a line with places for so many cells. */
+/* Adds a line with room for `most` cells. */
 struct gm_grid_line *gm_grid_add(struct gm_grid *grid, const struct gm_scheme *scheme, size_t most);
 
 /* ---- runs ---- */
 
-/* A lane at its start in these parameters, which it takes: malloc'ed, NULL where memory is short. NULL with a sentence. */
+/* A lane at its start, which takes the malloc'ed parameters, or NULL when out of memory. Returns NULL with
+   a sentence. */
 struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_spec *spec,
                               struct gm_timing *parameters, const struct gm_scheme *scheme, char *message);
 
-/* A lane that closes with the grid; where it is NULL the body of the grid's arena is left, with this message. */
+/* Closes a lane with the grid, and returns it; NULL leaves the body of the grid's arena with this message. */
 struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message);
 
-/* The lane of a cell at its start, in parameters of its own; settles the cell's dt. NULL with a sentence. */
+/* The lane of a cell at its start, with its own parameters; sets the cell's dt. Returns NULL with a
+   sentence. */
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
                                   struct gm_grid_cell *cell, char *message);
 
-/* Whether a lane is on its way to so many steps, or its end, and nobody stops it. */
+/* Returns true if a lane has reached neither `steps` steps nor its end, and no stop is requested. */
 bool gm_grid_goes_on(const struct gm_grid *grid, const struct gm_lane *lane, int64_t steps);
 
-/* Makes steps up to so many in all, or to the end of a scheme that chooses them, in bursts that answer an
-   interruption; gives up after `most` seconds of the processor. Returns the seconds that it took. */
+/* Advances to `steps` steps in all, or to the end of an adaptive scheme, in bursts that answer an
+   interruption; gives up after `most` seconds of CPU time. Returns the seconds used. */
 double gm_grid_advance(const struct gm_grid *grid, struct gm_lane *lane, int64_t steps, double most);
 
-/* Notes how a run ended, and what it cost but for the time. */
+/* Notes the end of a run, and its costs except the time. */
 void gm_grid_take_end(const struct gm_lane *lane, struct gm_grid_cell *cell);
 
 size_t gm_grid_cells(const struct gm_grid *grid);

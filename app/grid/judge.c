@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Verdicts on steps; fronts and what an error costs on them; slopes. */
+/* Verdicts on steps; fronts and the cost of an error on them; slopes. */
 #include "app/grid/grid.h"
 
 #include <math.h>
@@ -127,7 +127,7 @@ size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm
 {
     size_t kept = 0;
     double least = INFINITY;
-    const double better = 0.97; /* by less than this, errors are the same */
+    const double better = 0.97; /* errors count as equal unless they differ by more */
     for (;;) {
         /* the cheapest of those that are more accurate than all before */
         const struct gm_grid_cell *next = NULL;
@@ -171,7 +171,7 @@ double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost
             continue;
         }
         const struct gm_grid_cell *before = here - 1;
-        /* the coarsest step is good enough, or the one before says nothing */
+        /* the coarsest step is good enough, or the one before gives no information */
         if (k == 0 || !isfinite(before->error) || before->error <= here->error) {
             return gm_work_cost(here, cost);
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Who listens to long work: a line on standard error, or nobody. */
+/* The listener of long work: a line on standard error, or nothing. */
 #include "app/grid/sweep.h"
 
 #include <stdio.h>

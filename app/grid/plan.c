@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the words of a command line to lines and cells, and cells as rows of CSV and as JSON: what all kinds share. */
+/* The common part of all kinds: from the words of a command line to lines and cells, and cells as rows of
+   CSV and as JSON. */
 #include <stdio.h>
 
 #include "app/grid/hooks.h"

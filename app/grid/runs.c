@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The runs of a grid, cell by cell on all cores; where they are timed, one after the other. */
+/* The runs of a grid, cell by cell on all cores; timed runs one after the other. */
 #include "app/grid/hooks.h"
 
 #include <stdio.h>
@@ -117,7 +117,7 @@ size_t gm_grid_cells(const struct gm_grid *grid)
     return cells;
 }
 
-/* Tries a cell: stopped on the way, it stays untried. */
+/* Tries a cell; if it is stopped during the run it stays untried. */
 static void try_cell(void *self, size_t index, size_t slot)
 {
     struct measuring *measuring = self;
@@ -174,7 +174,7 @@ static bool is_stopped(void *self)
     return gm_listener_stops(((const struct measuring *)self)->grid->listener);
 }
 
-/* Whether there is anything to show; a sentence if not. */
+/* Returns true if there are numbers to show; else false with a sentence. */
 static bool has_numbers(const struct gm_grid *grid, char *message)
 {
     bool any = false;

@@ -10,131 +10,132 @@
 #include "app/words/request.h"
 #include "app/words/words.h"
 
-/* Long work tells how far it is, and asks whether to go on. */
+/* A listener of long work gets its progress, and may stop it. */
 struct gm_listener {
     bool (*stopped)(void *self); /* NULL: never */
-    /* `what` is under way, `done` of `all` parts are finished and may be looked at; NULL: nobody listens */
+    /* `what` is running, `done` of `all` parts are finished and readable; NULL: no report */
     void (*report)(void *self, const char *what, size_t done, size_t all);
     void *self;
 };
 
-/* Whether to stop: asked for by the listener, or by a signal. `listener` may be NULL. */
+/* Returns true if the listener or a signal requests a stop. `listener` may be NULL. */
 bool gm_listener_stops(const struct gm_listener *listener);
 void gm_listener_hears(const struct gm_listener *listener, const char *what, size_t done, size_t all);
 
-/* For commands: a line on standard error if that is a terminal, which gm_terminal_listener_clear removes. */
+/* The listener of commands: a line on standard error if that is a terminal; gm_terminal_listener_clear
+   removes it. */
 extern const struct gm_listener gm_terminal_listener;
 void gm_terminal_listener_clear(void);
 
 /* A sweep: a run for every combination of the values of its keys, and a row of a table for every run. Runs
-   are numbered from 0, the first list changes slowest, and made from their number alone: nothing is stored of
-   them. In the table they stand in this order, so that a row's key is its place, and its cells up to
-   `status`, in full precision, have to be those of the run with this number. */
+   are numbered from 0, the first list changes slowest, and made from their number alone, without
+   storage. The table has this order: a row's position is its key, and its cells up to `status`, in full
+   precision, must be those of the run with this number. */
 
 struct gm_sweep {
     const struct gm_scene *scene;
     struct gm_words words;
-    char *arguments;      /* "SCENE key=value ...", which reads as the same sweep */
-    char *head;           /* the names of the columns, as a line */
-    char *measure;        /* the observables as a list, where they were chosen; else NULL */
-    size_t count;         /* runs */
-    size_t shard, shards; /* of the share that is made: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
-    bool unreadable;      /* why it is not open: because of a file */
-    struct gm_chosen chosen; /* observables, which have a column each */
+    char *arguments;         /* "SCENE key=value ...", which gives the same sweep */
+    char *head;              /* the names of the columns, as a line */
+    char *measure;           /* the list of observables, if it was given; else NULL */
+    size_t count;            /* runs */
+    size_t shard, shards;    /* the shard to make: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
+    bool unreadable;         /* it could not be opened because of a file */
+    struct gm_chosen chosen; /* observables, one column each */
 };
 
-/* Reads a scene and its key=value, and a list of observables, or NULL for all. False with a sentence
-   (GM_MESSAGE bytes). To be closed in both cases. */
+/* Reads a scene and its key=value, and a list of observables, or NULL for all. Returns false with a
+   sentence (GM_MESSAGE bytes). The caller closes it in both cases. */
 bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
                    char *message);
 void gm_sweep_close(void *sweep);
 
-/* How many runs the share has, and the number of its k-th. */
+/* The number of runs of the shard, and the number of its k-th run. */
 size_t gm_sweep_share(const struct gm_sweep *sweep);
 size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k);
 
-/* How many letters a line begins with as the row of a run does; 0: it begins otherwise, or memory is short. */
+/* The length of a line's front, if it is that of the run's row; 0: it differs, or out of memory. */
 size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line);
 
-/* How `geomint run` would be asked for the run. malloc'ed, NULL when memory is short. */
+/* The arguments of `geomint run` for this run. malloc'ed. Returns NULL when out of memory. */
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 
-/* A run's row, malloc'ed; NULL where it was interrupted or memory is short. */
+/* A run's row, malloc'ed; NULL if it was interrupted, or when out of memory. */
 struct gm_sweep_row {
     char *text;
-    bool ok; /* its status is `ok` */
-    char sentence
-        [GM_MESSAGE]; /* the warning of one that is ok, why one with the status `refused` cannot be asked
-                                  for, else "" */
+    bool ok;
+    char sentence[GM_MESSAGE]; /* the warning for status ok, the reason for status `refused`, else "" */
 };
 
 /* Makes a run. In any thread. */
 void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row);
 
-/* The sum over all runs of the share of a number that `of` finds for a request, judged by some of them. */
+/* The sum of a number over all runs of the shard. `of` finds it for a request; only some runs are asked. */
 double gm_sweep_total(const struct gm_sweep *sweep,
                       double (*of)(const struct gm_request *request, size_t index));
 
-/* The words that a row's status may be, and `warning`, of one that is ok with a warning: as a list. */
+/* The list of a row's possible statuses, and `warning`, for a row with status ok and a warning. */
 extern const char gm_sweep_statuses[];
 
 /* ---- the table ---- */
 
 struct gm_sweep_table;
 
-/* Opens the table for rows at its end: FILE.csv, of a share FILE.I-of-N.csv, or where `path` is NULL standard
-   output. What a killed program left of a last row is cut off. With `retry`, rows of this status are made
-   anew. NULL with a sentence: it is of another sweep, or another process writes it; it is untouched then. */
+/* Opens the table to append rows: FILE.csv, for a shard FILE.I-of-N.csv, or standard output if `path` is
+   NULL. An incomplete last row of a killed program is cut off. With `retry`, rows with this status are
+   recomputed. Returns NULL with a sentence, and leaves the table untouched, if it is another sweep's or
+   another process writes it. */
 struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const char *path, const char *retry,
                                            char *message);
 const char *gm_sweep_table_path(const struct gm_sweep_table *table);
 
 struct gm_sweep_sum {
-    size_t made, failed;      /* rows now, and those of them whose status is not ok */
-    bool unheard;             /* standard output is a pipe that nobody reads */
-    char refusal[GM_MESSAGE]; /* of the first run that was refused; "" */
-    size_t warned;            /* rows now that are ok, with a warning */
+    size_t made, failed;      /* new rows, and those among them whose status is not ok */
+    bool unheard;             /* standard output is a pipe without a reader */
+    char refusal[GM_MESSAGE]; /* the message of the first refused run, or "" */
+    size_t warned;            /* new rows with status ok and a warning */
     size_t first_warned;      /* the run that is the first of them, and its warning */
     char warning[GM_MESSAGE];
 };
 
 struct gm_sweep_chart;
 
-/* Makes the runs that the table has no row of, `jobs` at once (0: one a core), and appends their rows, which a chart
-   takes, too, where it is not NULL. False with a sentence if a row could not be written; those before it are there. */
+/* Makes the runs without a row, `jobs` at once (0: one per core), and appends their rows, also to the
+   chart unless it is NULL. Returns false with a sentence if a row could not be written; the rows before it
+   are complete. */
 bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sweep_chart *chart,
                          const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message);
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
 
-/* "FILE.csv" of a table; of a share "FILE.I-of-N.csv". malloc'ed, NULL when memory is short. */
+/* "FILE.csv" of a table; "FILE.I-of-N.csv" of a shard. malloc'ed. Returns NULL when out of memory. */
 char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
 
 /* ---- shares ---- */
 
-/* Notes beside a table which sweep its shares belong to, FILE.csv.sweep, so that they can be joined. False
-   with a sentence if it says another one already. */
+/* Writes the sweep of a table's shards to FILE.csv.sweep, so that they can be joined. Returns false with a
+   sentence if the file has another sweep. */
 bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message);
-/* Opens the sweep that FILE.csv.sweep tells of. */
+/* Opens the sweep of the note FILE.csv.sweep. */
 bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message);
-/* Joins the shares' rows in the order of the runs to FILE.csv; for each run without a row `missing` is told
-   how it is asked for. False with a sentence. */
+/* Joins the shards' rows in the order of the runs to FILE.csv; calls `missing` with the words of each run
+   without a row. Returns false with a sentence. */
 bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
                    void (*missing)(size_t run, const char *words), size_t *missing_count, char *message);
 
 /* ---- the picture ---- */
 
-/* What a picture needs of a table: bounded, however many rows. One key with several numbers makes a graph, two a map.
-   NULL with a sentence where there is another number of them. */
+/* The data of a table's picture: bounded, for any number of rows. One key with several numbers makes a
+   graph, two a map. Returns NULL with a sentence for another number of them. */
 struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message);
 bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
-/* Takes the row of a run, or those of a table; false with a sentence where that cannot be read. */
+/* Takes the row of a run, or the rows of a table; false with a sentence if that cannot be read. */
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row);
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message);
 void gm_sweep_chart_close(void *chart);
 void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
 
-/* The run that a map shows at (x, y), in the units of its axes; `map` is its number among the panels. False
-   where that is no map. */
+/* The run that a map shows at (x, y), in the units of its axes; `map` is the panel's number. Returns false
+   if the panel does not show a map. */
 bool gm_sweep_pick(const struct gm_sweep_chart *chart, size_t map, double x, double y, size_t *run);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The folder of compiled loops: whose it is, what is whole, what has to go. */
+/* The folder of compiled code: its owner, its checks, and its removal of old entries. */
 #include "app/native/cache.h"
 
 #include <dirent.h>
@@ -16,7 +16,7 @@
 enum { MOST_ENTRIES = 256, LARGEST = 1 << 24, MOST_BYTES = 1 << 26 };
 static const char ending[] = ".so";
 
-/* Behind the library; loaders do not mind. */
+/* The end of the file, after the library; loaders ignore it. */
 struct seal {
     char magic[8];
     uint64_t a, b;
@@ -61,8 +61,8 @@ static void path_of(const char *folder, const struct gm_cache_key *key, char pat
     snprintf(path, GM_CACHE_PATH, "%.3900s/%s%s", folder, key->text, ending);
 }
 
-/* The digest of a file's bytes but its last `without`, and these; false where it is no regular file of
-   ours. */
+/* The digest of a file's bytes except the last `without`, which go to `last`; false if the file is not
+   regular, or another user's. */
 static bool digest_file(int file, size_t without, struct gm_digest *digest, struct seal *last)
 {
     struct stat about;
@@ -96,13 +96,13 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     struct gm_digest digest;
     struct seal seal;
     path_of(folder, key, path);
-    /* without waiting for whoever might write to a pipe of that name */
+    /* a pipe of that name must not block */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) {
         return -1;
     }
     const bool read = digest_file(file, sizeof seal, &digest, &seal);
-    gm_digest_add(&digest, key->text, sizeof key->text); /* one that was moved here is none */
+    gm_digest_add(&digest, key->text, sizeof key->text); /* a library that was moved here has another key */
     const bool whole =
         read && memcmp(seal.magic, magic, sizeof magic) == 0 && seal.a == digest.a && seal.b == digest.b;
     if (!whole) {
@@ -139,7 +139,7 @@ bool gm_cache_keep(const char *folder, const char *library, const struct gm_cach
     }
     size_t count = 0, kept = good ? 1 : 0, bytes = 0;
     struct gm_cache_entry *entries = NULL;
-    gm_cache_list(folder, &entries, &count); /* where it cannot be read, nothing is dropped */
+    gm_cache_list(folder, &entries, &count); /* an unreadable folder drops nothing */
     for (size_t i = 0; i < count; i++) {
         bytes += entries[i].size;
         if (strcmp(entries[i].key.text, key->text) == 0) {
@@ -161,8 +161,8 @@ static bool is_entry(const char *name)
            strspn(name, "0123456789abcdef") == GM_KEY_TEXT - 1 && strcmp(name + GM_KEY_TEXT - 1, ending) == 0;
 }
 
-/* Calls `each` for whatever has the name of an entry, or for the regular files that have none. False where the
-   folder, which need not be there, cannot be read. */
+/* Calls `each` for everything with the name of an entry, or for the other regular files. Returns false if
+   the folder, which may be missing, cannot be read. */
 static bool each_file(const char *folder, bool entries,
                       void (*each)(void *data, const char *path, const char *name, const struct stat *about),
                       void *data)
@@ -250,7 +250,7 @@ struct removed {
     char *sentence;
 };
 
-/* A folder that is not empty is somebody's: it is told, and left. */
+/* A folder that is not empty belongs to the user: it is reported and stays. */
 static void remove_entry(void *data, const char *path, const char *name, const struct stat *about)
 {
     (void)name;
@@ -258,7 +258,7 @@ static void remove_entry(void *data, const char *path, const char *name, const s
     struct removed *removed = data;
     if (remove(path) == 0) {
         removed->count++;
-    } else if (removed->all && errno != ENOENT) { /* which somebody else removed */
+    } else if (removed->all && errno != ENOENT) { /* ENOENT: another process has removed it */
         removed->all = gm_refuse(removed->sentence, "%.400s could not be removed: %s", path, strerror(errno));
     }
 }

@@ -10,74 +10,74 @@
 
 #include "core/ode/kernel/digest.h"
 
-/* The folder of loops that were compiled: $XDG_CACHE_HOME/geomint, or ~/.cache/geomint. Nobody but its owner
-   may look into it, else it is not used. An entry is a shared library that ends with its checksum, named by
-   its key; it is written aside and then renamed, so that whoever looks sees a whole one or none. */
+/* The folder of compiled code: $XDG_CACHE_HOME/geomint, or ~/.cache/geomint. It is used only if other
+   users cannot read it. An entry is a shared library that ends with its checksum, named by its key; it is
+   written under another name and then renamed, so that a reader sees a whole one or none. */
 
 enum { GM_KEY_TEXT = 33, GM_CACHE_PATH = 4096 };
 
-/* What an entry was made of, as 32 hexadecimal digits. */
+/* The digest of an entry's sources, as 32 hexadecimal digits. */
 struct gm_cache_key {
     char text[GM_KEY_TEXT];
 };
 struct gm_cache_key gm_digest_key(const struct gm_digest *digest);
 
-/* The folder, which is made if it is not there. False with a sentence (GM_MESSAGE bytes). */
+/* The folder, which is made if it is missing. Returns false with a sentence (GM_MESSAGE bytes). */
 bool gm_cache_folder(char path[GM_CACHE_PATH], char *sentence);
 
-/* The entry, open for reading, where there is a whole one, to be closed; -1: there is none. One that is not
-   whole is removed. What was looked at is what is open, whoever exchanges the file meanwhile. */
+/* The entry, open for reading, if it is whole, else -1; the caller closes it. A damaged entry is removed.
+   The checked file is the open one, even if another process exchanges it. */
 int gm_cache_find(const char *folder, const struct gm_cache_key *key);
-/* Of an entry that was found: it goes. */
+/* Removes an entry that was found. */
 void gm_cache_drop(const char *folder, const struct gm_cache_key *key);
-/* Makes an entry of a library in the folder, which is renamed; the oldest go where there are too many. False:
-   it could not be written, the sentence says why. */
+/* Makes an entry from a library in the folder, by renaming it; the oldest are removed if there are too
+   many. Returns false with a sentence if it could not be written. */
 bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key, char *sentence);
-/* What is no entry in the folder and older than an hour: left by a program that was killed. */
+/* Removes files in the folder that are not entries and older than an hour: a killed program has left them. */
 void gm_cache_sweep(const char *folder);
 
 struct gm_cache_entry {
     struct gm_cache_key key;
     size_t size;
-    time_t used; /* when it was made or asked for last */
+    time_t used; /* the time of its making or last use */
 };
-/* The entries, the one used last first; malloc'ed, NULL where there are none. False, with errno, where the
+/* The entries, the last used one first; malloc'ed, NULL without entries. Returns false with errno if the
    folder cannot be read. */
 bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *count);
-/* Removes all, *count of them. False, with a sentence: something stays, as a folder in the place of an entry that is
-   not empty. */
+/* Removes all entries, *count of them. Returns false with a sentence if something stays, such as a folder
+   with an entry's name that is not empty. */
 bool gm_cache_clear(const char *folder, size_t *count, char *sentence);
 
-/* The system's C compiler, as a process beside this one: no shell, fixed arguments. It may take ten seconds of a
-   processor, or those of GEOMINT_COMPILER_SECONDS, and hangs where it takes nothing of one for as long by the clock. */
+/* The system's C compiler, as a child process: no shell, fixed arguments. It may take ten seconds of CPU
+   time, or those of GEOMINT_COMPILER_SECONDS, and hangs if it takes no CPU time for as long by the clock. */
 
-/* A program of that name in the absolute folders of PATH; false: there is none. */
+/* The program with that name in the absolute folders of PATH; false if there is no such program. */
 bool gm_program_find(const char *name, char path[GM_CACHE_PATH], struct stat *about);
 
-/* The first of cc, gcc and clang in the absolute folders of PATH; what tells it from another one or another
-   version of it is added to a digest. False: there is none. */
+/* The first of cc, gcc and clang in the absolute folders of PATH; data that identify it and its version
+   are added to a digest. Returns false if there is no compiler. */
 bool gm_compiler_find(char path[GM_CACHE_PATH], struct gm_digest *digest);
 
 /* One compilation. */
 struct gm_compilation {
-    pid_t process;       /* 0: none runs */
-    double begin, seen;  /* by the clock: since when, and when it was last looked whether it hangs */
-    unsigned long ticks; /* of a processor that it had taken then */
-    int complaints;      /* a file in memory, which a full disk does not lose */
+    pid_t process;       /* 0: not running */
+    double begin, seen;  /* clock times, in seconds, of the start and of the last check for a hang */
+    unsigned long ticks; /* CPU time at that check, in ticks */
+    int complaints;      /* a file in memory, safe from a full disk */
 };
 enum gm_compiled { GM_COMPILED, GM_COMPILES, GM_COMPILES_NOT };
 
-/* Starts it with these arguments, which begin with the program and end with NULL, in this folder. False with a
-   sentence. */
+/* Starts the compiler in this folder with these arguments, which begin with the program and end with NULL.
+   Returns false with a sentence. */
 bool gm_compilation_start(struct gm_compilation *compilation, const char *folder,
                           const char *const *arguments, char *sentence);
-/* How it goes; where it has failed, a sentence. */
+/* The state of the compilation; after a failure with a sentence. */
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence);
-/* Ends it where it runs. */
+/* Ends the compilation if it runs. */
 void gm_compilation_stop(struct gm_compilation *compilation);
 
-/* The folder that holds core/ode with the sources of loops: that of GEOMINT_KERNEL, or beside the installed program, or
-   where it was installed to. Returns path. */
+/* The folder with core/ode and the sources of loops: GEOMINT_KERNEL's, or next to the installed program,
+   or the installed one. Returns path. */
 const char *gm_kernel_folder(char *path, size_t size);
 
 #endif

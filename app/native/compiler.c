@@ -25,7 +25,8 @@
 
 enum { MOST_BYTES = 1 << 24, MOST_COMPLAINTS = 1 << 20, COULD_NOT_START = 127, LONGEST = 12 };
 
-/* Of a processor in all, and by the clock in which none is used; LONGEST times as many by the clock in all. */
+/* The limit of CPU time, and of clock time without it, in seconds; the limit of all clock time is LONGEST
+   times that. */
 static double most_seconds(void)
 {
     const char *own = getenv("GEOMINT_COMPILER_SECONDS");
@@ -83,7 +84,7 @@ static void limit(int resource, rlim_t most, rlim_t utmost)
     setrlimit(resource, &limits);
 }
 
-/* In the child, where nothing may be asked that allocates. */
+/* Runs in the child, which must not allocate memory. */
 __attribute__((noreturn)) static void become(const char *const *arguments, char *const *environment,
                                              int folder, int log, rlim_t seconds)
 {
@@ -96,10 +97,10 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
     signal(SIGXCPU, SIG_DFL);
-    limit(RLIMIT_CPU, seconds, seconds + 1); /* first with a signal that tells why */
+    limit(RLIMIT_CPU, seconds, seconds + 1); /* the first limit's signal gives the reason */
     limit(RLIMIT_FSIZE, MOST_BYTES, MOST_BYTES);
     limit(RLIMIT_CORE, 0, 0);
-    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* what libraries have opened */
+    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* files that libraries have opened */
     if (nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
         dup2(log, STDERR_FILENO) >= 0 && fchdir(folder) == 0) {
         execve(arguments[0], (char *const *)arguments, environment);
@@ -107,7 +108,8 @@ __attribute__((noreturn)) static void become(const char *const *arguments, char 
     _exit(COULD_NOT_START);
 }
 
-/* A file by a number that is no standard stream's, which the child replaces: where those are closed it may have one. */
+/* Moves a file above the numbers of standard streams, which the child replaces: if those are closed it may
+   have one. */
 static int above_streams(int file)
 {
     if (file < 0 || file > STDERR_FILENO) {
@@ -145,14 +147,14 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
         }
         return gm_refuse(sentence, "the compiler could not be started: %s", strerror(error));
     }
-    setpgid(child, child); /* whoever of the two is first */
+    setpgid(child, child); /* the faster of the two sets it */
     *compilation = (struct gm_compilation){
         .process = child, .complaints = complaints, .begin = gm_clock_seconds(), .seen = gm_clock_seconds()};
     return true;
 }
 
-/* Of a line of /proc/PID/stat: its group, and the processor's time that it and what it has waited for have taken, in
-   ticks. False: it is none. */
+/* Reads the group and the CPU time, in ticks, of a process and its ended children from a line of
+   /proc/PID/stat. Returns false for any other line. */
 static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
 {
     enum { GROUP = 2, FIRST_TIME = 11, LAST_TIME = 14 };
@@ -162,7 +164,7 @@ static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
     if (!at || at[1] != ' ' || !at[2]) {
         return false;
     }
-    at += 3; /* behind the letter of its state, which is number 0 */
+    at += 3; /* after the letter of the state, which is number 0 */
     for (int k = 1; k <= LAST_TIME; k++, at = end) {
         const long number = strtol(at, &end, 10);
         if (end == at) {
@@ -174,7 +176,7 @@ static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
     return true;
 }
 
-/* What all processes of a group have taken of a processor, in ticks: 0 where nothing tells. */
+/* The CPU time of all processes of a group, in ticks; 0 if it is unavailable. */
 static unsigned long ticks_of(pid_t group)
 {
     unsigned long all = 0, ticks;
@@ -207,8 +209,8 @@ static void first_line(const struct gm_compilation *compilation, char *line, siz
     gm_text_tame(line);
 }
 
-/* Whether it is to be ended, with a sentence. One that has to wait for a processor, since the machine has much else to
-   do, is not. The limit that the system keeps counts each process by itself: here all that it has started count. */
+/* Returns true, with a sentence, if the compilation must be ended. Waiting for a processor on a busy
+   machine is allowed. The system's limit counts each process alone; here all child processes count. */
 static bool is_overdue(struct gm_compilation *compilation, char *sentence)
 {
     const double now = gm_clock_seconds(), most = most_seconds();
@@ -264,8 +266,8 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return GM_COMPILED;
     }
-    /* by its limit's signal, or by one that ended what it had started; the clock that limits a process counts whole
-       ticks, those of a busy machine to its disfavour, so that it is not quite the one that tells what it took */
+    /* ended by its limit's signal, or by a process that ended its children; the limit's clock counts whole
+       ticks, too many on a busy machine, so that it differs from the measured time */
     const bool limited = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
     if (ended > 0 && (limited || seconds_of(&used) >= 0.9 * most_seconds())) {
         gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
@@ -278,7 +280,7 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
 void gm_compilation_stop(struct gm_compilation *compilation)
 {
     if (compilation->process > 0) {
-        /* it is asked first, since compilers then remove what they have written aside */
+        /* it is asked to end first, since compilers then remove their temporary files */
         enum { LOOKS = 100 };
         siginfo_t ended = {0};
         kill(-compilation->process, SIGTERM);
@@ -295,7 +297,7 @@ void gm_compilation_stop(struct gm_compilation *compilation)
     }
 }
 
-/* The program or the library that this is part of. */
+/* The program or the library that contains this function. */
 static bool find_self(char self[4096])
 {
     static const char part = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Native loops: made, found, tried, taken. */
+/* Native loops: compiled, cached, checked, taken. */
 #include "app/native/engine.h"
 
 #include <dlfcn.h>
@@ -22,9 +22,9 @@
 #include "core/ode/user/problem.h"
 #include "render/message.h"
 
-/* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. (The search for
-   what is computed twice would take a fifth of the time and find nothing.) The functions of formulas are those of the
-   library, in each case; what is one instruction is one. */
+/* The flags of the build for built-in problems: no operation is fused or exchanged. (The search for common
+   subexpressions would take a fifth of the time and find nothing.) Functions of formulas are always the
+   library's, except single instructions. */
 static const char *const flags[] = {
     "-std=c17",
     "-O3",
@@ -65,11 +65,11 @@ static const char *const family_flags[GM_OVER_COUNT] = {
     [GM_OVER_SPLITTING] = "-DGM_LOOP_SPLITTING",
 };
 
-/* Of small single states halves of q and p would be paired in registers and taken apart again: a step of Verlet takes .83
-   of the time without (Kepler, Henon-Heiles), none takes longer. */
+/* With small single states halves of q and p would be paired in registers and separated again: without that
+   a step of Verlet takes .83 of the time (Kepler, Henon-Heiles), and none takes longer. */
 static const char unpaired[] = "-fno-tree-slp-vectorize";
 
-/* What is compiled of the loops: those of a family, for single runs or for ensembles. */
+/* The compiled part of the loops: a family's, for single runs or for ensembles. */
 struct part {
     int family;
     bool alone;
@@ -81,14 +81,14 @@ enum state { NEW, COMPILING, READY, REFUSED };
 /* The loops of one kernel's text. */
 struct build {
     struct build *next;
-    struct gm_digest source; /* of text and part */
+    struct gm_digest source; /* the digest of text and part */
     struct part part;
     enum state state;
     const struct gm_loops *loops;
     struct gm_compilation compilation;
     struct gm_cache_key key;
-    char text_name[80], library_name[80]; /* while it compiles */
-    char sentence[GM_MESSAGE];            /* where it is refused */
+    char text_name[80], library_name[80]; /* names of temporary files, while it compiles */
+    char sentence[GM_MESSAGE];            /* the reason if it is refused */
     bool said;
 };
 
@@ -99,7 +99,7 @@ static enum gm_engine chosen = GM_ENGINE_INTERPRETED;
 static char kernel_folder[GM_CACHE_PATH];
 static void (*tell)(const char *sentence);
 static bool (*interrupted)(void);
-static atomic_bool stopping; /* the program ends, and what compiles with it */
+static atomic_bool stopping; /* the program ends, and its compilations with it */
 static double spent_in_all;
 
 bool gm_engine_named(const char *word, enum gm_engine *engine)
@@ -121,7 +121,7 @@ void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*teller)
     tell = teller;
     interrupted = asked;
     static bool stops;
-    /* the compiler works in a folder of its own */
+    /* the compiler works in a separate folder */
     if (strlen(kernels) >= sizeof kernel_folder || !realpath(kernels, kernel_folder)) {
         kernel_folder[0] = '\0';
     }
@@ -135,7 +135,7 @@ static bool is_written(const struct gm_lane *lane)
     return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
 }
 
-/* Whether it has taken loops, those of its scheme's family where that has some. */
+/* Returns true if the lane has compiled code, with its scheme's family if that has loops. */
 static bool is_native(const struct gm_lane *lane)
 {
     const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);
@@ -148,9 +148,9 @@ const char *gm_engine_of(const struct gm_lane *lane)
     return !is_written(lane) ? NULL : is_native(lane) ? "native" : "interpreted";
 }
 
-/* Wide registers gain nothing where one of them holds all of a single state: what moves its halves, q and p,
-   about within it takes longer (Kepler by rk4 1.15 times as long as by the baseline's, by yoshida4 1.11). A step
-   of rk4 on three bodies takes .8 of the time by them. */
+/* Wide registers gain nothing if one of them holds all of a single state: moving its halves, q and p,
+   within it takes longer (Kepler with rk4 1.15 times the baseline's time, with yoshida4 1.11). A step of
+   rk4 on three bodies takes .8 of its time with them. */
 static struct part part_of(const struct gm_lane *lane)
 {
     enum { FILLS_ONE = 4 };
@@ -174,7 +174,7 @@ static void refuse(struct build *build)
     build->state = REFUSED;
 }
 
-/* Loads the entry of the build's key, where there is one. */
+/* Loads the entry of the build's key, if it exists. */
 static void load(struct build *build, const char *folder)
 {
     char path[64];
@@ -182,8 +182,8 @@ static void load(struct build *build, const char *folder)
     if (file < 0) {
         return;
     }
-    /* What was looked at, not what has its name by now. It stays open as long as it is loaded: the loader
-       knows libraries by their names, and another one shall not have this. */
+    /* The path is the checked file's, even if another one has its name now. The file stays open as long as
+       it is loaded: the loader identifies libraries by their names. */
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     const char *error = library ? NULL : dlerror();
@@ -195,8 +195,8 @@ static void load(struct build *build, const char *folder)
     gm_refuse(build->sentence, "what was compiled could not be loaded: %.300s",
               error ? error : "it holds no loops");
     refuse(build);
-    /* it is made anew by the next start; where nothing can be loaded, as from a folder that is mounted noexec, that
-       would be for nothing */
+    /* the next start compiles it again; that is useless if nothing can be loaded, as from a folder mounted
+       noexec */
     if (!error || !strstr(error, "failed to map segment")) {
         gm_cache_drop(folder, &build->key);
     }
@@ -275,7 +275,8 @@ static void add_word(struct gm_digest *digest, const char *word)
     gm_digest_add(digest, word ? word : "", word ? strlen(word) + 1 : 1);
 }
 
-/* What the loops depend on: the text, this build of the program, the compiler, its flags, the processor. */
+/* The key of the compiled code: the text, this build of the program, the compiler, its flags, the
+   processor. */
 static bool find_key(struct build *build, struct part part, char compiler[GM_CACHE_PATH])
 {
     struct gm_digest digest = build->source;
@@ -316,7 +317,7 @@ static void begin(struct build *build, const char *text, struct part part)
     }
 }
 
-/* How a compilation goes. */
+/* Checks a running compilation. */
 static void look(struct build *build)
 {
     char folder[GM_CACHE_PATH], library[GM_CACHE_PATH];
@@ -339,8 +340,8 @@ static void look(struct build *build)
     remove_aside(folder, build);
 }
 
-/* The build of a lane's problem and scheme, which is begun; NULL: memory is short. Its problem notes it: the
-   text is written once, not whenever somebody looks how it goes. */
+/* The build of a lane's problem and scheme, started if it is new; NULL when out of memory. The problem
+   stores it, so that the text is written only once. */
 static struct build *build_of(const struct gm_lane *lane)
 {
     const char *lacks = NULL;
@@ -398,8 +399,8 @@ static bool try_steps(struct gm_run *run, const void *before, void *after)
     return true;
 }
 
-/* Whether both engines make the same steps from where the lane is: of the counts, and every bit of what the
-   run remembers. The lane is left where it is; where they do, it has taken the loops. */
+/* Returns true if both engines make the same steps from the lane's state: in all counts, and in every bit
+   of the run's state. The lane's state does not change; if they agree, it has taken the compiled code. */
 static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
 {
     struct gm_run *run = lane->run;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a command that measures puts its diagram and its table. */
+/* The files of a measuring command: its diagram and its table. */
 #include "app/output/printer.h"
 
 #include <errno.h>
@@ -54,7 +54,7 @@ static bool paint(struct gm_chart *chart, const void *data,
     return good;
 }
 
-/* Settles where both files are. False where a name is too long. */
+/* Sets the paths of both files. Returns false if a name is too long. */
 static bool name_files(struct gm_chart *chart)
 {
     const char *folder = chart->folder ? chart->folder : ".";
@@ -71,7 +71,7 @@ static bool name_files(struct gm_chart *chart)
     return picture < (int)sizeof chart->picture && csv < (int)sizeof chart->csv;
 }
 
-/* Whether two files begin with the same line, a table's head. */
+/* Returns true if two files begin with the same line, a table's head. */
 static bool have_one_head(const char *one, const char *other)
 {
     struct gm_csv_lines tables[] = {{.stream = fopen(one, "r")}, {.stream = fopen(other, "r")}};
@@ -82,8 +82,8 @@ static bool have_one_head(const char *one, const char *other)
     return same;
 }
 
-/* The numbers' name follows from the picture's: nobody has asked for it, so a table that was there before the
-   picture, and has other columns, is somebody's and stays. */
+/* Returns true if a table was there before the picture, and has other columns. The table's name follows
+   from the picture's and was not given by the user, so such a table stays. */
 static bool is_anothers(const struct gm_chart *chart, const char *table)
 {
     return access(chart->csv, F_OK) == 0 && access(chart->picture, F_OK) != 0 &&

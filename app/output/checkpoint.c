@@ -16,14 +16,14 @@
 #include "render/message.h"
 #include "scenes/common/lane_pack.h"
 
-/* The file: this head, the identity, and the records of the lanes in order, each behind its size in bytes; of those
-   that have not begun the size is 0. A record is struct gm_paused, then the packed lane. Its numbers are this
-   machine's, as the lanes' bytes are this program's. */
+/* The file: this head, the identity, and the records of the lanes in order, each after its size in bytes,
+   0 for a lane that has not begun. A record is struct gm_paused, then the packed lane. Its numbers have
+   this machine's format, the lanes' bytes this program's. */
 struct head {
     char magic[16];
     uint64_t identity_size, body_size;
     int64_t position;  /* the frame of a render */
-    uint32_t checksum; /* of the identity, the body and this head, where it is 0 itself */
+    uint32_t checksum; /* over the identity, the body and this head with checksum 0 */
     uint32_t lanes;
 };
 
@@ -32,8 +32,7 @@ static const char magic[16] = "geomint state 2";
 struct record {
     unsigned char *bytes; /* NULL: the lane has not begun */
     uint64_t size;
-    unsigned char
-        *block; /* the bytes of what was noted; NULL: they are those of the file, or there are none */
+    unsigned char *block; /* the memory of a noted record; NULL: it is the file's, or there is no record */
 };
 
 struct gm_pause {
@@ -42,7 +41,7 @@ struct gm_pause {
     const char *from, *identity;
     int64_t position;
     size_t numbers, count;
-    struct record *records; /* one a lane */
+    struct record *records; /* one per lane */
 };
 
 static struct gm_pause *open_lanes(const char *identity, size_t count, size_t numbers)
@@ -72,7 +71,7 @@ static size_t head_size(const struct gm_pause *pause)
     return 3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(int64_t) + pause->numbers * sizeof(double);
 }
 
-/* One walk writes and reads what stands before the packed lane. */
+/* One function writes and reads the fields before the packed lane. */
 static unsigned char *pass(unsigned char *at, void *data, size_t size, bool write)
 {
     memcpy(write ? at : data, write ? data : at, size);
@@ -107,8 +106,8 @@ bool gm_pause_note(struct gm_pause *pause, size_t index, const struct gm_lane *l
     return true;
 }
 
-/* Puts a lane just opened into the state of its record, which must be one that this lane can have at the time t.
-   False: the lane is no good any more. */
+/* Puts a lane at its start into the state of its record, which must be possible for this lane at the time
+   t. If it returns false the lane cannot be used any more. */
 static bool unpack(const struct gm_pause *pause, size_t index, struct gm_lane *lane, double t,
                    struct gm_paused *paused)
 {
@@ -157,7 +156,7 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
     for (size_t i = 0; i < pause->count; i++) {
         const struct record *record = &pause->records[i];
         checksum = libdeflate_crc32(checksum, &record->size, sizeof record->size);
-        if (record->size > 0) { /* of NULL it would begin anew */
+        if (record->size > 0) { /* NULL would restart the checksum */
             checksum = libdeflate_crc32(checksum, record->bytes, record->size);
         }
         head->body_size += sizeof record->size + record->size;
@@ -167,7 +166,7 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
            gm_temporary_refuse(message, path, strerror(errno));
 }
 
-/* The body as records; false if it is not made of them. */
+/* Splits the body into records; returns false if it does not consist of them. */
 static bool take_apart(struct gm_pause *pause, unsigned char *at, size_t left)
 {
     for (size_t i = 0; i < pause->count; i++) {
@@ -187,7 +186,7 @@ static bool take_apart(struct gm_pause *pause, unsigned char *at, size_t left)
     return left == 0;
 }
 
-/* Why the file is not the one that is meant; NULL: it is, and its records are read. */
+/* The reason why the file does not fit, or NULL, if its records were read. */
 static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
 {
     struct head head;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Folders for output, made where they are not there. */
+/* Folders for output, made if they are missing. */
 #include "app/output/folder.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 
 #include "render/message.h"
 
-/* What is there is asked first: one may not be allowed to make what one may enter. */
+/* Checks for an existing folder first: a user may be allowed to enter a folder, but not to make it. */
 static bool make_one(const char *path)
 {
     struct stat found;

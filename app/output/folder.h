@@ -5,11 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Makes a folder, and those that it lies in, where they are not there already; NULL: the present one. False
-   with a sentence (GM_MESSAGE bytes). */
+/* Makes a folder and its parents, if they are missing; NULL: the current one. Returns false with a
+   sentence (GM_MESSAGE bytes). */
 bool gm_folder_make(const char *path, char *message);
 
-/* The same for the folder that a file is to be written to. */
+/* The same for the folder of a file that will be written. */
 bool gm_folder_make_for(const char *file, char *message);
 
 /* NAME-0001.png, or the first number that is free here, for the ending ".png". */

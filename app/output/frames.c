@@ -81,7 +81,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
         schedule->last = first + (count - 1) * interval;
     } else if (paced) {
         const double fps = isnan(pace->fps) ? 30 : pace->fps;
-        /* ten seconds, unless told otherwise */
+        /* ten seconds by default */
         const double rate = isnan(pace->rate) ? (end - first) / 10 : pace->rate;
         count = rate > 0 ? fmax(1, round((end - first) * fps / rate)) + 1 : 2;
     } else {
@@ -147,7 +147,7 @@ char *gm_frames_path(const struct gm_frames *frames, long frame)
     return gm_text("%s/%s-%06ld.png", frames->folder, frames->name, frame);
 }
 
-/* Looks at one file of the folder: a frame, or what a killed run left of one. */
+/* Checks one file of the folder: a frame, or a killed run's incomplete one. */
 static bool look_at(struct gm_frames *frames, int folder, const char *file)
 {
     const size_t length = strlen(frames->name);
@@ -176,7 +176,7 @@ static bool look_at(struct gm_frames *frames, int folder, const char *file)
     return good;
 }
 
-/* What the folder holds is looked at, not every frame that there could be. */
+/* Reads the folder instead of trying every possible frame. */
 static bool look(struct gm_frames *frames)
 {
     frames->there = calloc((size_t)frames->schedule->count, sizeof *frames->there);

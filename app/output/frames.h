@@ -7,114 +7,116 @@
 #include "app/output/provenance.h"
 #include "app/words/request.h"
 
-/* What is asked for of a render's frames. */
+/* The options of a render's frames. */
 struct gm_pace {
     bool movie;
-    long frames;        /* so many; 0: not given */
-    int64_t every;      /* one every so many steps; 0: not given */
-    double fps, rate;   /* frames, and model time, a second of the movie; NAN: not given */
-    double from, at;    /* model time of the first, or of the only one; NAN: not given */
+    long frames;        /* number of frames; 0: not given */
+    int64_t every;      /* steps per frame; 0: not given */
+    double fps, rate;   /* frames and model time per second of the movie; NAN: not given */
+    double from, at;    /* model time of the first frame, or of the only one; NAN: not given */
     long shard, shards; /* 0, 0: not given */
 };
 
-/* When the frames of a render are, in model time, and which of them are one shard's. */
+/* The frames of a render in model time, and those of one shard. */
 struct gm_schedule {
     long count;
     double first, last; /* model times, evenly divided */
     bool still;         /* one picture, not a sequence */
-    long shard, shards; /* blocks of frames go to the shards in turn; 1 of 1: all are ours */
-    long ours;          /* how many frames that is */
+    long shard, shards; /* blocks of frames alternate between the shards; 1 of 1: all are ours */
+    long ours;          /* number of our frames */
 };
 
-/* False with a sentence (GM_MESSAGE bytes) if that contradicts itself or the request. */
+/* Returns false with a sentence (GM_MESSAGE bytes) if the options contradict each other or the request. */
 bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
                       const struct gm_pace *pace, char *message);
 
 double gm_schedule_time(const struct gm_schedule *schedule, long frame);
 
 bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame);
-/* The last of ours; -1 if none is. */
+/* The last of our frames, or -1. */
 long gm_schedule_last(const struct gm_schedule *schedule);
 
-/* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Each tells which frame of
-   which render it is, and of which build of the program; one that is whole and tells just that need not be
-   made again. */
+/* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Their metadata names the frame, the render and
+   the build of the program; a complete picture with the expected metadata is kept. */
 struct gm_frames {
     const struct gm_schedule *schedule;
     char *folder, *name;
-    char *pattern;  /* for gm_sink_open_png */
-    char *identity; /* of the render: its lanes, its size, the frames' times, the program */
-    bool *there;    /* per frame: whole, and of this identity */
-    long found;     /* how many of ours are there */
+    char *pattern;  /* the pattern for gm_sink_open_png */
+    char *identity; /* the lanes, the size, the frames' times and the program */
+    bool *there;    /* per frame: complete, and of this identity */
+    long found;     /* number of our existing frames */
 };
 
-/* Makes the folder if it is missing and looks for frames. False with a sentence (GM_MESSAGE bytes). */
+/* Makes the folder if it is missing and looks for frames. Returns false with a sentence (GM_MESSAGE
+   bytes). */
 bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule, const char *folder,
                     const char *name, const struct gm_provenance *provenance, char *message);
 void gm_frames_close(struct gm_frames *frames);
 
-/* What frame `frame` tells of itself under GM_KEY_FRAME, and where it lies; malloc'ed, NULL when memory is
-   short. */
+/* The metadata of frame `frame` under GM_KEY_FRAME, and its path; malloc'ed. Return NULL when out of
+   memory. */
 char *gm_frames_text(const struct gm_frames *frames, long frame);
 char *gm_frames_path(const struct gm_frames *frames, long frame);
 
-/* The first frame of ours that is missing, or the last; -1 if there is none. */
+/* The first of our missing frames, or the last; -1: none is missing. */
 long gm_frames_missing(const struct gm_frames *frames, bool last);
 
-/* Removes the frames, and the folder if nothing else is in it. */
+/* Removes the frames, and then the folder if it is empty. */
 void gm_frames_remove(const struct gm_frames *frames);
 
-/* Checkpoints: how far lanes have come, in a file that a killed or ended program continues from. */
+/* Checkpoints: the states of lanes in a file, from which a killed or ended run is resumed. */
 
-/* Whether these lanes can be continued from a checkpoint, bit for bit. */
+/* Returns true if these lanes can be resumed from a checkpoint, bit for bit. */
 bool gm_checkpoint_fits(const struct gm_request *request);
 
-/* ---- of a command that runs lanes one after the other ---- */
+/* ---- checkpoints of a command that runs lanes one after the other ---- */
 
-/* What is kept of a lane beside its state. */
+/* The data of a lane that a checkpoint stores with its state. */
 struct gm_paused {
-    double seconds;    /* processor time of its steps */
-    uint64_t rows;     /* of its states that were saved, an end out of turn not among them */
-    uint64_t saved;    /* the number of what they were saved to, as the caller counts such; 0: nothing */
-    int64_t last_row;  /* the step of the last row; -1: there is none */
-    double spacing[2]; /* of these rows: steps, model time; 0 or NAN: not by these */
-    double *numbers;   /* of the caller, as many as gm_pause_open was told */
+    double seconds;    /* CPU time of the lane's steps */
+    uint64_t rows;     /* number of saved states, without an additional last one */
+    uint64_t saved;    /* the identity of the saved file, given by the caller; 0: none */
+    int64_t last_row;  /* the step of the last row; -1: no rows */
+    double spacing[2]; /* steps and model time between these rows; 0 or NAN: undefined */
+    double *numbers;   /* the caller's numbers; gm_pause_open was given their number */
 };
 
 struct gm_pause;
 
-/* Begins with nothing or, where `from` is not NULL, with what that file holds, which has to be of these
-   lanes: the same but for until and steps. NULL with a sentence (GM_MESSAGE bytes). */
+/* Begins empty or, unless `from` is NULL, with the contents of that file, which must belong to these
+   lanes; only until and steps may differ. Returns NULL with a sentence (GM_MESSAGE bytes). */
 struct gm_pause *gm_pause_open(const struct gm_request *request, size_t numbers, const char *from,
                                char *message);
 void gm_pause_close(struct gm_pause *pause);
 
-/* Puts lane `index`, just opened, where it was; a lane that had not begun stays as it is. False with a
-   sentence: it cannot be, or was further than it is to come now. */
+/* Restores lane `index`, just opened; a lane that had not begun stays as it is. Returns false with a
+   sentence if that is impossible, or if the lane was beyond its new end. */
 bool gm_pause_restore(struct gm_pause *pause, size_t index, struct gm_lane *lane, struct gm_paused *paused,
                       char *message);
 
-/* Whether states of a lane were saved before; of NULL: no. */
+/* Returns true if states of a lane were saved before; false for NULL. */
 bool gm_pause_has_rows(const struct gm_pause *pause);
 
-/* Takes note of the lane's present state. False when memory is short. */
+/* Notes the lane's current state. Returns false when out of memory. */
 bool gm_pause_note(struct gm_pause *pause, size_t index, const struct gm_lane *lane,
                    const struct gm_paused *paused);
 
-/* Replaces the file by all that was noted, at once, or leaves it as it was. False with a sentence. */
+/* Replaces the file by all noted states, at once, or leaves it as it was. Returns false with a sentence. */
 bool gm_pause_write(const struct gm_pause *pause, const char *path, char *message);
 
-/* ---- of a render behind one of its frames, in the frames' folder while the render goes on ---- */
+/* ---- the checkpoint of a render after one of its frames, in the frames' folder during the render ---- */
 
-/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; malloc'ed, NULL when memory is short. */
+/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; malloc'ed. Returns NULL when out of
+   memory. */
 char *gm_checkpoint_path(const struct gm_frames *frames);
 
 /* Replaces the file as gm_pause_write does. */
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,
                          const struct gm_lane *const *lanes, size_t count, char *message);
 
-/* Puts lanes just opened into the state of the file and sets *frame; false if there is no file, or it is
-   damaged or of another render or program, or if memory was short (core/memory.h). With *spoilt the lanes have to be opened anew. */
+/* Puts lanes just opened into the state of the file and sets *frame. Returns false if there is no file, if
+   it is damaged or another render's or program's, or when out of memory (core/memory.h). With *spoilt the
+   lanes must be opened again. */
 bool gm_checkpoint_read(const char *path, const struct gm_frames *frames, long *frame,
                         struct gm_lane *const *lanes, size_t count, bool *spoilt);
 

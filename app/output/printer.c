@@ -21,7 +21,7 @@
 #include "render/vector/vector.h"
 
 struct gm_printer {
-    struct gm_canvas *canvas; /* of PNG */
+    struct gm_canvas *canvas; /* the canvas of a PNG */
     unsigned char *rgb;
     const char *backend;
 };
@@ -113,7 +113,7 @@ bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct g
         const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
             path, look, picture, texts, count, &print->fields, message);
         if (!drawn && errno == ENOMEM) {
-            gm_memory_refused(); /* Cairo, perhaps, which tells nobody else */
+            gm_memory_refused(); /* possibly Cairo's, which does not report it otherwise */
         }
         return drawn || (gm_memory_was_short() ? no_memory(look, message) : false);
     }

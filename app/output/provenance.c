@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a picture tells of itself: the command, the changes in flight, the steps, the failures. */
+/* The metadata of a picture: the command, the changes during the run, the steps, the failures. */
 #include "app/output/provenance.h"
 
 #include <inttypes.h>
@@ -22,7 +22,7 @@ static bool take(struct gm_provenance *provenance, const char *key, char *text)
     return true;
 }
 
-/* A text that `put` writes; malloc'ed, NULL when memory is short. */
+/* A text that `put` writes; malloc'ed. Returns NULL when out of memory. */
 static char *text_of(void (*put)(FILE *stream, const void *data), const void *data)
 {
     char *text = NULL;
@@ -76,13 +76,13 @@ static const char *theme_name(const struct gm_appearance *look)
     return look->theme == GM_THEME_DARK ? "dark" : "light";
 }
 
-/* Whether the look has another scale of letters and lines than that of most. */
+/* Returns true if the look has a scale of letters and lines other than 1. */
 static bool is_scaled(const struct gm_appearance *look)
 {
     return look->scale > 0 && look->scale != 1;
 }
 
-/* What of the look is not as it mostly is. */
+/* Adds the parts of the look that differ from the default. */
 static bool take_look(struct gm_provenance *provenance, const struct gm_appearance *look)
 {
     return (!is_scaled(look) || take(provenance, GM_KEY_SCALE, gm_text("%.17g", look->scale))) &&

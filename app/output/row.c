@@ -30,7 +30,7 @@ static void put_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-/* What is no number is null. */
+/* A number that is not finite is null. */
 static void put_number(FILE *stream, double value)
 {
     if (isfinite(value)) {

@@ -24,7 +24,7 @@ __attribute__((format(printf, 3, 0))) static void put_line(FILE *stream, const c
     if (stream == stderr && strstr(text, "not enough memory")) {
         atomic_store(&complained_of_memory, true);
     }
-    char *rest = text; /* a place in a text is shown on lines of its own */
+    char *rest = text; /* the place in a text is shown on separate lines */
     for (char *line; (line = strsep(&rest, "\n")); front = "") {
         fprintf(stream, "%s%s\n", front, gm_text_tame(line));
     }
@@ -74,7 +74,7 @@ int gm_finish(int status)
 
 enum { NARROWEST = 20, ROOM = 24, LEAST_INDENT = 4 };
 
-/* The width in columns: COLUMNS, else that of the terminal; 0 where it is none, and lines may be of any
+/* The width in columns: COLUMNS, else the terminal's; 0 if the output is not a terminal, for lines of any
    length. */
 static int columns_of_output(void)
 {
@@ -99,8 +99,8 @@ static int letters_of(const char *text, size_t bytes)
     return letters;
 }
 
-/* The bytes of the first word; where that has no room in a line those up to the last comma that has, else up
-   to the first. */
+/* The bytes of the first word; if it does not fit into a line, up to the last comma that fits, else up to
+   the first. */
 static size_t first_part(const char *text, int available)
 {
     const size_t word = strcspn(text, " ");

@@ -8,7 +8,7 @@
 
 /* Schemes and certificates as JSON: an object without a line's end. */
 
-/* The claims that a system is asked about, whether claimed or not. */
+/* The claims that are relevant for a system, claimed or not. */
 enum {
     GM_CERTIFIED_ON_SYSTEMS = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_ENERGY |
                               GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR | GM_KEEPS_VOLUME

@@ -64,19 +64,19 @@ struct gm_past gm_past_copy(const struct gm_past *past)
     return copy;
 }
 
-/* Bytes from a moment's start to its snapshot: the parameters, whose size may be any (a system's texts), and
-   what the snapshot's own alignment needs. */
+/* Bytes from a moment's start to its snapshot: the parameters, of any size (a system's texts), and the
+   padding for the snapshot's alignment. */
 static size_t snapshot_at(const struct gm_lane *lane)
 {
     const size_t unit = _Alignof(max_align_t);
     return (lane->scene->size + unit - 1) / unit * unit;
 }
 
-/* Writes the lane into the moment; its memory stays NULL when there is none. */
+/* Writes the lane into the moment; its memory stays NULL when out of memory. */
 static void save(const struct gm_lane *lane, double gone, struct gm_moment *moment)
 {
     size_t size = snapshot_at(lane) + gm_lane_snapshot_size(lane);
-    if (moment->size != size) { /* schemes differ in what they keep */
+    if (moment->size != size) { /* the size depends on the scheme */
         free(moment->memory);
         moment->memory = malloc(size);
         moment->size = moment->memory ? size : 0;

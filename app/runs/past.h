@@ -4,12 +4,12 @@
 
 #include "scenes/common/lane.h"
 
-/* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the whole
-   past stays within reach: what lies between two snapshots is stepped again. */
+/* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the
+   whole past stays available: the steps between two snapshots are repeated. */
 
 struct gm_moment {
     int64_t steps;
-    double gone; /* model time that the lane has gone through, forwards and backwards */
+    double gone; /* model time that the lane has passed, forwards and backwards */
     size_t size;
     void *memory; /* the lane's parameters, then its snapshot */
 };
@@ -17,30 +17,30 @@ struct gm_moment {
 struct gm_past {
     struct gm_moment *moments;
     size_t count;
-    size_t bound;  /* on count */
+    size_t bound;  /* the largest count */
     int64_t every; /* steps between snapshots */
 };
 
-/* An empty past is {.every = 1}. This sets how many snapshots it may hold. */
+/* Sets the largest number of snapshots. An empty past is {.every = 1}. */
 void gm_past_limit(struct gm_past *past, size_t bound);
 void gm_past_close(struct gm_past *past);
-/* A copy for a fork of the lane; an empty one if memory is short. */
+/* A copy for a fork of the lane; an empty one when out of memory. */
 struct gm_past gm_past_copy(const struct gm_past *past);
 
-/* Keeps the lane as it is now, `gone` after its start, if it is far enough from the last snapshot; with
-   `always` in any case, and in place of one at the same step. Forgets snapshots of later steps: the lane has
-   gone back, and on from there. */
+/* Saves the lane's current state, `gone` after its start, if it is far enough from the last snapshot; with
+   `always` in any case, and instead of one at the same step. Drops snapshots of later steps: the lane has
+   stepped back and continued from there. */
 void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone, bool always);
 
-/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it; NULL if
-   there is none. Later ones are kept. */
+/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it, or
+   NULL. Later ones stay. */
 const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps);
 const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
 
 /* Sets a parameter in all snapshots: one that is the same at all times (struct gm_parameter, looks). */
 void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text);
 
-/* Forgets what is later than `steps`. */
+/* Drops snapshots later than `steps`. */
 void gm_past_forget(struct gm_past *past, int64_t steps);
 
 #endif

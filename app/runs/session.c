@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A session: what lanes that are driven live have in common. It is one file because everything in it keeps
-   the same few things in step: the lanes, their snapshots, and the log that redoes them. */
+/* A session: the common part of lanes that are driven live. It is one file because everything in it keeps
+   the same data consistent: the lanes, their snapshots, and the log that reproduces them. */
 #include "app/runs/session.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "scenes/common/lane_pack.h"
 #include "scenes/common/symbol.h"
 
-/* Says a sentence; false. */
+/* Writes a sentence and returns false. */
 static bool short_of_memory(char *message)
 {
     return gm_refuse(message, "There is not enough memory.");
@@ -41,7 +41,7 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
     return false;
 }
 
-/* ---- where the lanes are in model time ---- */
+/* ---- the lanes in model time ---- */
 
 static bool goes(const struct gm_lane *lane)
 {
@@ -53,15 +53,15 @@ double gm_session_direction(const struct gm_session *session)
     return session->lanes[0]->run->dt < 0 ? -1 : 1;
 }
 
-/* Where a lane's next step ends, a little earlier than it is computed to be, so that lanes with the same step
-   stay together whatever their round-off; times the direction, so that later is more. */
+/* The end of a lane's next step, in the direction of time; a little before the computed one, so that lanes
+   with the same step size stay together in spite of round-off. */
 static double next_time(const struct gm_session *session, size_t i)
 {
     const struct gm_run *run = session->lanes[i]->run;
     return gm_session_direction(session) * (run->t + run->dt * (1 - 1e-9));
 }
 
-/* Lanes that stand still have no say, unless all do. */
+/* Lanes that have stopped do not count, unless all have. */
 double gm_session_time(const struct gm_session *session)
 {
     const double direction = gm_session_direction(session);
@@ -137,7 +137,7 @@ double gm_session_from_start(const struct gm_session *session, size_t i)
     return largest;
 }
 
-/* ---- what is kept of the past: snapshots, and the log of changes ---- */
+/* ---- the stored past: snapshots, and the log of changes ---- */
 
 /* Snapshots of all lanes together take at most this. */
 enum { PAST_BUDGET = 64 << 20 };
@@ -152,7 +152,7 @@ static void share_budget(struct gm_session *session)
     }
 }
 
-/* Keeps a snapshot of a lane, where one is due or `always`. */
+/* Saves a snapshot of a lane, if one is due or with `always`. */
 static void note_lane(struct gm_session *session, size_t i, bool always)
 {
     gm_past_note(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
@@ -178,7 +178,7 @@ static void cut_log(struct gm_session *session, size_t lane, int64_t step)
     gm_changes_drop(&session->log, is_later, &(struct gm_change){.lane = lane, .step = step});
 }
 
-/* The lanes go on from the moment that is looked at: what came later is gone. */
+/* The lanes continue from the moment that is shown; later changes and snapshots are dropped. */
 static void settle(struct gm_session *session)
 {
     if (!session->visiting) {
@@ -200,7 +200,7 @@ struct fresh {
     void *start;
 };
 
-/* NULL lane with a sentence */
+/* a NULL lane comes with a sentence */
 static struct fresh open_lane(const struct gm_scene *scene, const void *parameters,
                               const struct gm_settings *settings, const struct gm_scheme *scheme,
                               char *message)
@@ -259,7 +259,7 @@ static void clear_lane(struct gm_session *session, size_t i)
     cut_log(session, i, -1);
 }
 
-/* Panels and colours for the lanes, in order: what the lanes' arguments give when they are read again. */
+/* Panels and colours for the lanes, in order, as the lanes' arguments give when they are read again. */
 static void show_in_order(struct gm_session *session)
 {
     forget_arguments(session);
@@ -273,8 +273,7 @@ static void show_in_order(struct gm_session *session)
 
 /* ---- a session's beginning and end ---- */
 
-/* Room for every lane that may come is there from the beginning, so that only the parameters are
-   allocated. */
+/* Opens the log with room for every lane, so that later only parameters are allocated. */
 static bool log_open(struct gm_session *session, const struct gm_request *request)
 {
     session->log = (struct gm_request){.scene = session->scene};
@@ -355,7 +354,7 @@ bool gm_session_restart(struct gm_session *session, char *message)
     return ok;
 }
 
-/* ---- changes, in flight or for the next start ---- */
+/* ---- changes, during the run or for the next start ---- */
 
 /* Sets a parameter that takes effect with the next restart. */
 static bool want(struct gm_session *session, size_t i, const struct gm_parameter *row, bool of_scheme,
@@ -377,7 +376,7 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
            session->scene->settle(wanted->parameters, &row->key, 1, message);
 }
 
-/* Makes a change on a lane now, and keeps its course right where that turns its time. */
+/* Makes a change on a lane now, and corrects its course if that reverses its time. */
 static bool apply_change(struct gm_session *session, size_t i, const char *text, char *message)
 {
     const struct gm_lane *lane = session->lanes[i];
@@ -411,7 +410,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     if (!apply_change(session, i, text, message)) {
         return false;
     }
-    /* of several changes of one key at one step only the last one counts */
+    /* the last change of a key at a step replaces earlier ones */
     const int64_t step = session->lanes[i]->run->steps;
     gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
     if (!gm_change_add(&session->log, i, step, text)) {
@@ -430,7 +429,7 @@ static void look(struct gm_session *session, size_t i, const struct gm_parameter
     forget_arguments(session);
 }
 
-/* A name that tells lanes apart by what has just been changed. */
+/* Renames lanes so that the parameter just changed distinguishes them. */
 static void rename_by_parameter(struct gm_session *session, size_t i, const char *key, const char *text)
 {
     char before[64], after[GM_MESSAGE];
@@ -488,13 +487,14 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
     if (!good) {
         return false;
     }
-    session->log.lanes[lane].shown = session->lanes[lane]->named; /* another one where nothing is made yet */
+    session->log.lanes[lane].shown =
+        session->lanes[lane]->named; /* a change before the first step renames it */
     return true;
 }
 
 /* ---- on ---- */
 
-/* So many records a call: enough for the graphs, which keep the least and greatest of many steps. */
+/* Records per call: enough for the graphs, which have the least and greatest of many steps. */
 enum { RECORDS = 64 };
 
 bool gm_session_advance(struct gm_session *session, double t)
@@ -524,7 +524,7 @@ bool gm_session_advance(struct gm_session *session, double t)
 
 /* ---- back ---- */
 
-/* Steps a lane up to `steps`, making the logged changes on the way. */
+/* Advances a lane to `steps` steps and makes the logged changes. */
 static void replay(struct gm_session *session, size_t i, int64_t steps)
 {
     char message[GM_MESSAGE];
@@ -547,7 +547,7 @@ static void replay(struct gm_session *session, size_t i, int64_t steps)
     }
 }
 
-/* The lane was taken to a moment. */
+/* Notes that the lane was taken to a moment. */
 static void follow(struct gm_session *session, size_t i, const struct gm_moment *moment)
 {
     session->courses[i] = (struct gm_course){.gone = moment->gone, .from = session->lanes[i]->run->t};
@@ -654,13 +654,14 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
     settle(session);
     double ahead = gm_session_gone(session) - fabs(gm_session_time(session) - fresh.lane->t0);
     place_lane(session, session->count, fresh, &(const struct gm_shown){0});
-    session->courses[session->count].gone = fmax(ahead, 0); /* where time was turned, all have gone further */
+    session->courses[session->count].gone =
+        fmax(ahead, 0); /* after time was reversed, all have gone further */
     count_lane(session);
     note_lanes(session);
     return true;
 }
 
-/* The log of lane `like` once more, as that of the last lane. */
+/* Copies the log of lane `like` for the last lane. */
 static bool copy_log(struct gm_session *session, size_t like)
 {
     struct gm_lane_spec *spec = &session->log.lanes[session->count];

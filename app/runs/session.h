@@ -8,50 +8,50 @@
 #include "core/parameter.h"
 #include "scenes/common/lane.h"
 
-/* What is explored: lanes of one scene that go through model time together, what was changed in flight, and
-   the snapshots to step back to. No threads, no clock, no terminal. */
+/* An exploration: lanes of one scene that advance together in model time, the changes made during the run,
+   and snapshots to step back to. It has no threads, clock or terminal. */
 
 enum { GM_MOST_LANES = 24 };
 
-/* How far a lane has gone through model time, whichever way: gone + |t - from|. */
+/* The model time that a lane has passed in both directions: gone + |t - from|. */
 struct gm_course {
     double gone, from;
 };
 
 struct gm_session {
     const struct gm_scene *scene;
-    size_t count; /* of lanes, at least 1 */
+    size_t count; /* number of lanes, at least 1 */
     struct gm_lane *lanes[GM_MOST_LANES];
     struct gm_past pasts[GM_MOST_LANES];
     struct gm_course courses[GM_MOST_LANES];
-    /* Parameters that wait for gm_session_restart; NULL where nothing was changed. Until then a lane keeps
-       its own: its problem was made for them. */
+    /* The parameters for gm_session_restart; NULL without changes. Until then a lane has those with which
+       its problem was made. */
     struct gm_lane_spec wanted[GM_MOST_LANES];
     struct gm_request log; /* the lanes' starts, and the changes since */
     bool overlaid;         /* all lanes in one panel */
-    bool visiting;         /* an earlier moment is looked at; later ones are kept until a lane goes on */
+    bool visiting;         /* an earlier moment is shown; later ones stay until a lane advances */
     bool turned;           /* time has run backwards since the start */
 };
 
-/* Opens the lanes of a request, which is copied. False with a sentence (GM_MESSAGE bytes). */
+/* Opens the lanes of a request, which is copied. Returns false with a sentence (GM_MESSAGE bytes). */
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message);
 void gm_session_close(struct gm_session *session);
 
-/* All lanes at their start again, with the schemes they have now and the parameters as last set. If those
-   contradict, false with a sentence; the lanes then go on as they were. */
+/* Restarts all lanes with their current schemes and the parameters as last set. Returns false with a
+   sentence if those contradict each other; the lanes are then unchanged. */
 bool gm_session_restart(struct gm_session *session, char *message);
 
 /* ---- time ---- */
 
-/* 1 where time runs forwards, -1 where it runs backwards. */
+/* 1 if time runs forwards, -1 if it runs backwards. */
 double gm_session_direction(const struct gm_session *session);
 /* The time of the lane that is furthest in that direction, and the nearest time at which a lane that still
    goes makes its next step (infinite, in that direction, if none does). */
 double gm_session_time(const struct gm_session *session);
 double gm_session_next(const struct gm_session *session);
 
-/* Lets the lane that is furthest behind make steps that end no further than t: one, or a share of many. False
-   if no lane has such a step to make. */
+/* Advances the lane that is furthest behind by steps that end no later than t: one step, or a part of
+   many. Returns false if no lane has such a step to make. */
 bool gm_session_advance(struct gm_session *session, double t);
 
 /* One step back for the lanes that are ahead; false with a sentence. */
@@ -62,28 +62,27 @@ bool gm_session_turn(struct gm_session *session, char *message);
 /* The largest component of the difference of a lane's state from its start. */
 double gm_session_from_start(const struct gm_session *session, size_t lane);
 
-/* How much model time the lanes have gone through, and how much the snapshots reach over. */
+/* The model time that the lanes have passed, and the part of it for which there are snapshots. */
 double gm_session_gone(const struct gm_session *session);
 double gm_session_reach(const struct gm_session *session);
-/* Where the first snapshot after `gone` is; `gone` itself if there is none. */
+/* The model time of the first snapshot after `gone`; `gone` if there is no such snapshot. */
 double gm_session_after(const struct gm_session *session, double gone);
-/* Takes the lanes to the snapshots at or before `gone`; later ones stay within reach until a lane goes on.
-   False with a sentence if there are none. */
+/* Takes the lanes to the snapshots at or before `gone`; later ones stay available until a lane advances.
+   Returns false with a sentence if there are no snapshots. */
 bool gm_session_visit(struct gm_session *session, double gone, char *message);
 
 /* ---- changes ---- */
 
-/* Sets a parameter of the scene or of the schemes. Every lane takes it, but where lanes differ in it, only
-   `lane`. A live one acts at once; otherwise *restart is set, and the change takes effect with
-   gm_session_restart. */
+/* Sets a parameter of the scene or of the schemes, in every lane, or only in `lane` if lanes differ in it.
+   A live one acts at once; otherwise *restart is set, and the change takes effect with gm_session_restart. */
 bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
                     const char *text, bool *restart, char *message);
-/* Whether the lanes differ in a parameter. */
+/* Returns true if the lanes differ in a parameter. */
 bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row, bool of_scheme);
 /* The struct that holds a lane's parameters of the scene or of the schemes, as last set. */
 const void *gm_session_owner(const struct gm_session *session, size_t lane, bool of_scheme);
 
-/* Another scheme for a lane, from its present state on. */
+/* Changes the scheme of a lane at its current state. */
 bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_scheme *scheme,
                        char *message);
 
@@ -91,15 +90,15 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
 
 /* A further lane with the parameters of `like`, at its start. */
 bool gm_session_add(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
-/* A further lane with the state and the past of `like`, which goes on with another scheme. */
+/* Adds a lane with the state and the past of `like`, and another scheme. */
 bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message);
 bool gm_session_remove(struct gm_session *session, size_t lane, char *message);
 /* All lanes in one panel, or a panel for each. */
 bool gm_session_overlay(struct gm_session *session, char *message);
 
-/* The first scheme, in the scene's order, that fits and that no lane has; NULL if there is none. */
+/* The first scheme, in the scene's order, that fits and that no lane has, or NULL. */
 const struct gm_scheme *gm_session_unused(const struct gm_session *session);
-/* The schemes that fit, those the scene prefers first; returns how many, at most GM_FITTING_SCHEMES. */
+/* The fitting schemes, the scene's preferred ones first; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
 
 /* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while
@@ -116,14 +115,14 @@ enum {
 enum { GM_COMMAND_PICTURE, GM_COMMAND_EXPLORER, GM_COMMANDS };
 
 struct gm_spark {
-    double low[GM_SPARK], high[GM_SPARK]; /* low > high where there is nothing */
+    double low[GM_SPARK], high[GM_SPARK]; /* low > high: no values */
 };
 
 struct gm_shot_lane {
     struct gm_shown shown; /* named as at its start */
     const struct gm_scheme *scheme, *first_scheme;
     enum gm_status status;
-    long lost; /* the observable that tells of it, gm_lane_lost; -1: nothing, or the lane has failed */
+    long lost; /* the observable that shows a lost quantity (gm_lane_lost); -1: none, or the lane failed */
     double t;
     double from_start; /* largest difference from the start's components */
     double values[GM_SHOT_OBSERVABLES];
@@ -133,7 +132,7 @@ struct gm_shot_lane {
 struct gm_shot_parameter {
     const struct gm_parameter *row;
     bool of_scheme;
-    bool differs;    /* from lane to lane; the value is the selected one's */
+    bool differs;    /* lanes differ; the value is the selected one's */
     double position; /* 0 to 1 in its range, or -1 */
     char value[GM_TEXT_SIZE];
 };
@@ -148,47 +147,49 @@ struct gm_shot {
     struct gm_shot_parameter parameters[GM_SHOT_PARAMETERS];
     size_t scheme_count;
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit, */
-    const struct gm_scheme *same[GM_SHOT_SCHEMES];    /* and others whose steps are the same here; or NULL */
+    const struct gm_scheme
+        *same[GM_SHOT_SCHEMES]; /* the other schemes whose steps are the same here, or NULL */
     double t, speed;
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
-    double ahead;       /* where to run ahead is of use */
-    double gone, reach; /* model time gone through, and up to the last snapshot */
+    double ahead;       /* time to which running ahead is useful */
+    double gone, reach; /* model time passed, and the last snapshot's */
     bool backwards;     /* time runs */
     bool turned;        /* or has run */
     bool overlaid;      /* all lanes are in one panel */
-    bool in_space;      /* the picture can be gone around */
+    bool in_space;      /* the picture can be seen from all sides */
     bool drawn;         /* the picture is a new one */
     bool running_ahead; /* nothing is drawn meanwhile */
-    double progress;    /* of that, 0 to 1 */
+    double progress;    /* progress of running ahead, 0 to 1 */
     bool paused;
     bool behind; /* the steps cost more than the speed allows */
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
     double recorded;              /* seconds of the movie so far; below 0: none is made */
-    char *commands[GM_COMMANDS];  /* that redo a view; NULL: memory was short */
+    char *commands[GM_COMMANDS];  /* commands that reproduce a view; NULL: out of memory */
     unsigned long command_number; /* changes with every one */
 };
 
 bool gm_shot_open(struct gm_shot *shot);
 void gm_shot_close(struct gm_shot *shot);
 
-/* Fills in what comes from the session; looks only. The picture is drawn, or left as it was. */
+/* Copies the session's data without a change to it. The picture is drawn, or stays. */
 void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw);
 
-/* Whether a lane has the scheme. */
+/* Returns true if a lane has the scheme. */
 bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme);
 
-/* How a parameter is moved by keys: along round values, of equal distance or of equal ratio. */
+/* Steps of a parameter by keys: round values, at equal distances or ratios. */
 
-/* Where the value stands in its range, 0 to 1; -1 if it has no range to be shown. */
+/* The position of the value in its range, 0 to 1; -1 if it has no range to show. */
 double gm_slider_position(const struct gm_parameter *row, const void *owner);
 
-/* The value at a place from 0 to 1 in the range, rounded, as it would be typed. False if it has no range. */
+/* The value at a place from 0 to 1 in the range, rounded, as it would be typed. Returns false without a
+   range. */
 bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_TEXT_SIZE]);
 
-/* The next value up (direction > 0) or down, as it would be typed; a fine one is about ten times nearer.
-   False if there is none. */
+/* The next value up (direction > 0) or down, as it would be typed; a fine step is about ten times smaller.
+   Returns false if there is no next value. */
 bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, bool fine,
                     char text[GM_TEXT_SIZE]);
 

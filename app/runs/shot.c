@@ -85,7 +85,7 @@ static bool has_effect(const struct gm_parameter *row)
     return row->offset != offsetof(struct gm_timing, until);
 }
 
-/* The end that the scene suggests, or twice as far where that is past. */
+/* The scene's default end, or, after it, twice the time that has passed. */
 static double suggested_end(const struct gm_session *session)
 {
     const struct gm_lane *lane = session->lanes[0];

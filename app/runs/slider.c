@@ -7,14 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The value; of a step that runs backwards its size. */
+/* The value; for a negative step its size. */
 static double size_of(const struct gm_parameter *row, const void *owner)
 {
     double value = gm_parameter_get(row, owner);
     return value < 0 && row->lowest >= 0 ? -value : value;
 }
 
-/* The size of a linear parameter's usual values: that of its default. */
+/* The typical size of a linear parameter: its default's. */
 static double usual_size(const struct gm_parameter *row)
 {
     double standard = 0;
@@ -22,8 +22,8 @@ static double usual_size(const struct gm_parameter *row)
     return isfinite(standard) && standard != 0 ? fabs(standard) : fmin(1, (row->highest - row->lowest) / 4);
 }
 
-/* A linear range that is so many times as wide as the usual values is bent as arsinh is: even near 0, by
-   ratios far from it, and its ends are not further than that. */
+/* A linear range more than WIDE times the typical size is bent like arsinh: linear near 0, logarithmic far
+   from it. FAR times that size limits its ends. */
 enum { WIDE = 50, FAR = 1000000 };
 
 static bool is_bent(const struct gm_parameter *row)
@@ -31,7 +31,7 @@ static bool is_bent(const struct gm_parameter *row)
     return !row->logarithmic && row->highest - row->lowest > WIDE * usual_size(row);
 }
 
-/* The ends of a slider; false where there is none. */
+/* Sets the ends of a slider; returns false if the parameter has none. */
 static bool slider_range(const struct gm_parameter *row, double *low, double *high)
 {
     *low = row->lowest;
@@ -78,7 +78,7 @@ enum { ROUND_COUNT = GM_COUNT(rounds) };
 static double next_by_ratio(double value, int direction)
 {
     double decade = floor(log10(value) + 1e-9), scale = pow(10, decade), mantissa = value / scale;
-    double near = 1e-6; /* what differs less is the same value, read back from its text */
+    double near = 1e-6; /* values that differ by less are the same, read back from text */
     for (int i = 0; direction > 0 && i < ROUND_COUNT; i++) {
         if (rounds[i] > mantissa * (1 + near)) {
             return rounds[i] * scale;
@@ -92,8 +92,8 @@ static double next_by_ratio(double value, int direction)
     return direction > 0 ? 12 * scale : 0.8 * scale;
 }
 
-/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far wider
-   than what is of use, so it is a tenth of the value or of its default, whichever is larger. */
+/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far too
+   wide, so it is a tenth of the value or of its default, whichever is larger. */
 static double linear_step(const struct gm_parameter *row, double value)
 {
     double raw = fmin(fmax(usual_size(row), fabs(value)) / 10, (row->highest - row->lowest) / 20);
@@ -112,7 +112,7 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
     static const char *const answers[] = {"no", "yes", NULL};
     const char *const *choices = row->type == GM_BOOLEAN ? answers : row->choices;
     char present[GM_TEXT_SIZE];
-    int count = 0, at = -1; /* a word that is none of the usual ones stands before them */
+    int count = 0, at = -1; /* an unusual word precedes the choices */
     gm_parameter_format(row, owner, present, sizeof present);
     for (; choices && choices[count]; count++) {
         at = strcmp(choices[count], present) == 0 ? count : at;
@@ -177,7 +177,7 @@ bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_
     if (row->type == GM_INTEGER) {
         value = round(value);
     } else if (position > 0 && position < 1) {
-        /* two digits of the value, or of the range where that is all a slider can tell */
+        /* two digits of the value, or of the range if a slider shows no more */
         double size = row->logarithmic ? value
                       : is_bent(row)   ? fmax(fabs(value), usual_size(row))
                                        : high - low;

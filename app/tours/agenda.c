@@ -13,7 +13,7 @@ struct gm_agenda gm_agenda_of(const struct gm_tour *tour, size_t step, size_t fr
     return (struct gm_agenda){.tour = tour, .step = step, .at_step = from};
 }
 
-/* The next change, in this step or in one that it builds on; NULL if there is none left. */
+/* The next change, in this step or in one on which it builds, or NULL. */
 static const struct gm_tour_change *next_change(struct gm_agenda *agenda)
 {
     for (; agenda->at_step <= agenda->step; agenda->at_step++, agenda->at_change = 0) {
@@ -39,7 +39,7 @@ static bool has_reached(const struct gm_session *session, double t)
 {
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_run *run = session->lanes[i]->run;
-        /* as far as a session goes for t, round-off considered */
+        /* the limit of a session's advance to t, with round-off */
         if (run->status == GM_OK && run->t + run->dt * (1 - 1e-9) <= t) {
             return false;
         }

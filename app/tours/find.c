@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where tours are, and which one is meant. */
+/* The places of tours, and the tour that a word means. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

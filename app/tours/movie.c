@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour as a movie or as pictures: what the explorer shows, with the texts below. */
+/* A tour as a movie or as pictures: the explorer's display, with the texts below. */
 #include "app/tours/tour.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 
 enum { PARAGRAPHS = 4 };
 
-/* How fast one reads, and how long a step's end stands. */
+/* Reading speed, and durations of a step's last picture, in seconds. */
 static const double words_a_second = 2.7, settle_seconds = 1.5, end_seconds = 2;
 
 struct show {
@@ -30,10 +30,10 @@ struct show {
     bool open; /* the session is */
     struct gm_canvas *canvas;
     struct gm_picture *picture;
-    struct gm_sink *sink;       /* of a movie; NULL: pictures */
-    unsigned char *rgb;         /* the picture that stands */
-    bool answered;              /* the step's question is, if it has one */
-    const struct gm_grid *grid; /* of a study, that is drawn instead of the scene; NULL: none */
+    struct gm_sink *sink;       /* the movie; NULL: pictures */
+    unsigned char *rgb;         /* the picture on display */
+    bool answered;              /* the step's question, if it has one, is answered */
+    const struct gm_grid *grid; /* the study that is drawn instead of the scene, or NULL */
     bool failed;
     char message[GM_MESSAGE];
 };
@@ -96,7 +96,8 @@ static bool paint(struct show *show)
            fail(show, "not enough memory to paint");
 }
 
-/* What stands, for so many frames more. False after a failure: the sink tells of it when it is closed. */
+/* Shows the current picture for `count` frames. Returns false after a failure, which the sink reports when
+   it is closed. */
 static bool put(struct show *show, long count)
 {
     for (long i = 0; show->sink && i < count && !gm_interrupted; i++) {
@@ -180,7 +181,7 @@ static bool run(struct show *show)
     return true;
 }
 
-/* The diagram as it grows: so many frames for every point that all of them take the step's time. */
+/* Draws the growing diagram: each point has the same number of frames, for the step's time in all. */
 static void grow(void *self, const char *what, size_t done, size_t all)
 {
     struct show *show = self;

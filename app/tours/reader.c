@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour from its file (docs/tours.md): lines to entries, a word and its text; entries to steps; and
-   everything that a step shows is tried out, so that a mistake is told of with its line before a class sees
-   it. */
+/* A tour from its file (docs/tours.md): lines to entries, a word and its text; entries to steps.
+   Everything that a step shows is tried out, so that a mistake is reported with its line before a class
+   sees it. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -32,14 +32,14 @@ struct entry {
 };
 
 struct reader {
-    const char *name; /* of the file, in sentences */
+    const char *name; /* the file's name in sentences */
     const char *text;
     size_t size;
-    struct gm_arena *arena; /* of the tour */
+    struct gm_arena *arena;
     struct gm_tour *tour;
     struct entry *entries;
     size_t count;
-    unsigned long refusals; /* of memory, before it was read */
+    unsigned long refusals; /* refused requests for memory before reading */
 };
 
 /* ---- lines ---- */
@@ -75,7 +75,7 @@ static char *behind_blanks(char *text)
     return text;
 }
 
-/* Letters that a terminal would take for orders, and bytes that are no letters. */
+/* Returns true if a text has no letters that a terminal would obey, and no bytes outside letters. */
 static bool is_readable(const char *text)
 {
     for (uint32_t code; (code = gm_text_next(&text)) != 0;) {
@@ -86,7 +86,7 @@ static bool is_readable(const char *text)
     return true;
 }
 
-/* A line that begins with a blank goes on with the text above. */
+/* A line that begins with a blank continues the text above. */
 static void continue_entry(const struct reader *reader, long line, const char *text)
 {
     if (reader->count == 0) {
@@ -178,7 +178,7 @@ static struct gm_arguments *split(const struct reader *reader, const char *text)
 
 static const double usual_seconds = 8;
 
-/* Reads the words of step->show, of a line. */
+/* Reads the words of step->show, given in this line. */
 static void parse_show(const struct reader *reader, long line, struct gm_tour_step *step)
 {
     char message[GM_MESSAGE];
@@ -193,7 +193,7 @@ static void read_show(const struct reader *reader, const struct entry *entry, co
                       struct gm_tour_step *step)
 {
     parse_show(reader, entry->line, step);
-    /* a scene that is told where to stop draws its time axes so far */
+    /* a scene with an end draws its time axes up to there */
     if (until && !strstr(step->show, " until=") && !strstr(step->show, " steps=")) {
         step->show = gm_arena_print(reader->arena, "%s until=%s", step->show, until->text);
         parse_show(reader, until->line, step);
@@ -264,7 +264,7 @@ static int by_time(const void *a, const void *b)
     return (x->t > y->t) - (x->t < y->t);
 }
 
-/* Texts and numbers of one step; what it shows comes after them. */
+/* Takes texts and numbers of one step; its show comes after them. */
 static void take_entry(const struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
 {
     char **const places[WORDS] = {
@@ -362,7 +362,7 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
 static void read_head(const struct reader *reader, size_t count)
 {
     struct gm_tour *tour = reader->tour;
-    tour->place = MOST_BYTES; /* those without a place come last */
+    tour->place = MOST_BYTES; /* tours without a place come last */
     for (size_t i = 0; i < count; i++) {
         const struct entry *entry = &reader->entries[i];
         double place = NAN;
@@ -412,8 +412,8 @@ static void read_entries(const struct reader *reader)
     }
 }
 
-/* A word that names a file of a system or a room which lies beside the tour: its path; else the word as it is,
-   with paths of schemes from there. malloc'ed. */
+/* The path of a system's or room's file beside the tour that a word names; else the word, with paths of
+   schemes relative to the tour. malloc'ed. */
 static char *placed(const char *tour, const char *word)
 {
     const char *slash = strrchr(tour, '/'), *dot = strrchr(word, '.');
@@ -447,7 +447,7 @@ static void place_files(const struct reader *reader)
             words->words[k] = word;
         }
         char *text = gm_arena_keep(reader->arena, gm_arguments_join("", words), free);
-        entry->text = text + 1; /* behind the blank in front */
+        entry->text = text + 1; /* the text after the first blank */
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
+/* Changes during a run, and a request as text, which a PNG stores so that it can be reproduced. */
 #include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -65,7 +65,7 @@ char *gm_request_format(const struct gm_request *request)
     if (!stream) {
         return NULL;
     }
-    /* what the scene's own lanes name is always written: else it would be theirs */
+    /* keys of the scene's default lanes are always written: otherwise the default would be used */
     struct gm_arguments arguments = {0};
     if (request->scene->lanes && !gm_arguments_split(&arguments, request->scene->lanes)) {
         gm_arguments_close(&arguments);
@@ -165,7 +165,7 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
     return true;
 }
 
-/* What a change is: a scheme's name, a step, or (neither) a live parameter, which is stored. */
+/* The meaning of a change: a scheme's name, a step size, or (neither) a live parameter, which is stored. */
 struct meaning {
     const struct gm_scheme *scheme;
     double dt;
@@ -188,7 +188,7 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
         return meaning->scheme || (!message[0] && gm_refuse(message, "there is no scheme \"%.40s\"", value));
     }
     if (strcmp(key, "dt") == 0) {
-        /* its sign may turn, which no range in the table allows */
+        /* the sign may change, which no range in the table allows */
         if (!gm_number_parse(value, &meaning->dt) || !isfinite(meaning->dt) || meaning->dt == 0) {
             return gm_refuse(message, "dt=%.60s is not a step", value);
         }
@@ -215,7 +215,7 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
     struct meaning meaning;
     bool good = understand(request->scene, parameters, change->text, &meaning, message);
     const double usual = ((const struct gm_timing *)parameters)->dt;
-    if (good && !isnan(meaning.dt) && fabs(meaning.dt) != fabs(usual)) { /* its sign may turn */
+    if (good && !isnan(meaning.dt) && fabs(meaning.dt) != fabs(usual)) { /* the sign may change */
         char size[64];
         good = gm_value_read(gm_scene_parameter(request->scene, "dt"), NULL,
                              gm_number_format(fabs(meaning.dt), size, sizeof size), message);

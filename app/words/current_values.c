@@ -14,8 +14,8 @@ static bool is_changed(const struct gm_parameter *row, const void *parameters)
     return strcmp(gm_parameter_format(row, parameters, value, sizeof value), row->standard) != 0;
 }
 
-/* The elements of the list that a row is of: whether one has another value than in the text; and, where there is a
-   stream, all of them, "x[1] = 2, x[2] = 3", or "2, 3" of one whose text names them. */
+/* Puts the elements of a row's list, "x[1] = 2, x[2] = 3", or "2, 3" if the text has no indices; without a
+   stream nothing. Returns true if a value differs from the text. */
 static bool put_list(FILE *stream, const char *name, size_t length, bool named, const struct gm_scene *scene,
                      const void *parameters)
 {
@@ -37,8 +37,8 @@ static bool put_list(FILE *stream, const char *name, size_t length, bool named, 
     return changed;
 }
 
-/* Puts "NAME = formula" pairs, with the value in place of the formula where it is another one than usual. Returns where
-   they end. */
+/* Puts "NAME = formula" pairs, with the value instead of the formula if it is not the default. Returns
+   their end. */
 static size_t put_values(FILE *stream, const char *text, struct gm_span pairs, const struct gm_scene *scene,
                          const void *parameters)
 {
@@ -88,7 +88,7 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         rows[i] = gm_scene_parameter(scene, lines[i]);
         put[i] = rows[i] && is_changed(rows[i], parameters);
     }
-    bool has_dt = !rows[DT]; /* that of a word, or by the formula, has no line */
+    bool has_dt = !rows[DT]; /* a step size from a word or the formula has no line */
     if (stream && !strstr(scene->text, "geomint:")) {
         fputs("geomint: 1\n", stream);
     }
@@ -102,7 +102,7 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         if (i == LANES) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
-        } else if (i < LANES && put[i]) { /* its range stays */
+        } else if (i < LANES && put[i]) { /* the range stays */
             fwrite(scene->text + from, 1, value.begin - from, stream);
             fputs(gm_parameter_format(rows[i], parameters, number, sizeof number), stream);
             from = value.end;

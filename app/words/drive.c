@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes driven from outside any scene: steps in bursts, changes in flight; and how they ended, in words. */
+/* Lanes driven from outside any scene: steps in bursts, changes during a run, and sentences on its end. */
 #include "app/words/drive.h"
 
 #include <math.h>
@@ -11,9 +11,9 @@
 #include "core/schemes.h"
 #include "render/clock.h"
 
-/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble or long formulas:
-   the first step tells what one takes, and that says how many. In single steps an ensemble that does not fit in the
-   cache would go to memory and back for each. */
+/* A burst of steps is short enough to answer an interruption at once, even for a large ensemble or long
+   formulas; the time of the first step gives its length. Single steps of an ensemble larger than the cache
+   would transfer it to and from memory each time. */
 static int64_t burst_of(double each)
 {
     static const double at_once = 0.02; /* seconds */
@@ -65,11 +65,11 @@ int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
     return end < step ? end : step;
 }
 
-/* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
-   asking takes longer than a short step. One too short to be measured counts as so long for that. */
+/* The clock is read after every long step, but only once per `unasked` seconds of short ones: reading it
+   takes longer than a short step. A step too short to be measured counts as `shortest` seconds. */
 static const double unasked = 20e-6, shortest = 20e-9;
 
-/* What asking twice takes by itself, the least of a few times: more than a short step. */
+/* The time of two readings of the clock, the least of a few attempts: more than a short step's. */
 static double asking(void)
 {
     static _Thread_local double least = 0;
@@ -94,7 +94,7 @@ double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *
     return took;
 }
 
-/* In single steps, with a row after each. */
+/* Advances in single steps, with a row after each. */
 static void trace_to(struct gm_drive *drive, int64_t stop)
 {
     struct gm_lane *lane = drive->lane;
@@ -120,7 +120,7 @@ static void advance(struct gm_drive *drive, int64_t stop, bool record)
     } else if (drive->trace) {
         trace_to(drive, stop);
     } else {
-        /* what it follows on the way costs less than looking at the clock */
+        /* the observers cost less than a reading of the clock */
         gm_lane_to(lane, stop, until_of(drive));
     }
     const int64_t made = lane->run->steps - before;
@@ -165,7 +165,7 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
         }
-        /* makes steps to and fro: what recording knows of the last one is gone */
+        /* the search makes trial steps, after which the last recorded one is lost */
         look_for_engine(drive, step);
     }
     return true;
@@ -173,10 +173,10 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
 
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message)
 {
-    const struct gm_lane *lane = drive->lane; /* its run is another one after a change of scheme */
+    const struct gm_lane *lane = drive->lane; /* a change of scheme replaces the lane's run */
     const int64_t end = drive->request->lanes[drive->index].steps;
     int64_t before = -1;
-    /* until no more turn out to be due: a scheme may choose its steps, and a change have shortened them */
+    /* repeats until no step is due: step size control, or a change, may have shortened the steps */
     while (lane->run->steps > before) {
         const int64_t due = gm_run_steps_by(lane->run, t);
         before = lane->run->steps;
@@ -187,7 +187,7 @@ bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message
     return true;
 }
 
-/* What the scene knows of a step that failed, `how`; false if it knows nothing. */
+/* Writes the scene's description of a failed step, `how`; returns false if it has none. */
 static bool tell_part(const struct gm_lane *lane, const char *how, char *text, size_t size)
 {
     char part[GM_MESSAGE / 2] = "";
@@ -201,7 +201,7 @@ static bool tell_part(const struct gm_lane *lane, const char *how, char *text, s
     return part[0] != '\0';
 }
 
-/* What was in the way of the implicit equations of a step, and the way out. */
+/* Writes the reason for unsolved implicit equations of a step, and a remedy. */
 static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
 {
     static const char *const obstacles[] = {
@@ -253,17 +253,17 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     }
 }
 
-/* By how much a run that is not failed ends after the end that was asked for (before it: negative); 0 for
-   round-off. */
+/* The time from the requested end to the end of a run that is not failed; negative before it; 0 for round-
+   off. */
 static double overshoot(const struct gm_drive *drive)
 {
     const struct gm_run *run = drive->lane->run;
-    const double until = drive->request->lanes[drive->index].until; /* NAN: not asked for */
+    const double until = drive->request->lanes[drive->index].until; /* NAN: not requested */
     const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
     return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }
 
-/* By more than half of the way to it. */
+/* Returns true if the overshoot is more than half of the requested time. */
 static bool is_far_beyond(const struct gm_drive *drive)
 {
     const double over = overshoot(drive);

@@ -4,61 +4,62 @@
 
 #include "app/words/request.h"
 
-/* Drives lanes from outside any scene: steps, changes in flight, processor time. */
+/* Drives lanes from outside any scene: steps, changes during a run, CPU time. */
 
 struct gm_drive {
     struct gm_lane *lane;
-    const struct gm_request *request; /* for its changes */
-    size_t index;                     /* of the lane */
+    const struct gm_request *request; /* the request that has the changes */
+    size_t index;                     /* index of the lane in the request */
     size_t next_change;
-    double seconds;     /* processor time of its steps */
-    double each;        /* ... of one, when it was last measured */
-    int64_t unmeasured; /* so many more steps are taken for as long */
-    double looked;      /* of the seconds, when another engine was last looked for */
-    /* Where the steps that are not recorded leave their rows, t and the state's n m numbers, and moves on; or
-       NULL. gm_drive_to makes no more steps, whether fixed or of the scheme's own choice, than up to its
-       `step`: there has to be room for a row of each. */
+    double seconds;     /* CPU time of the steps, in seconds */
+    double each;        /* CPU time of one step, in seconds, when it was last measured */
+    int64_t unmeasured; /* number of further steps to which `each` applies */
+    double looked;      /* value of `seconds` at the last search for an engine */
+    /* Rows of the steps that are not recorded, t and the state's n m numbers each; advances with them; or
+       NULL. gm_drive_to makes no step beyond its `step`, of fixed size or adaptive, so that number of rows
+       must have room. */
     double *trace;
-    /* Where a scheme that chooses its steps ends; NULL: at the lane's until, which pictures also take for the
-       length of the run. */
+    /* The end of an adaptive run, in model time; NULL: the lane's until, which pictures also use as the
+       run's length. */
     const double *stop;
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
-   Stops early on a numerical failure, an interruption, or where a scheme that chooses its steps has come to
-   the lane's end. False with a sentence if a change cannot be made. */
+   Stops early on a numerical failure, an interruption, or at the lane's end if the scheme is adaptive.
+   Returns false with a sentence if a change cannot be made. */
 bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *message);
 
-/* Whether the lane is still on its way to `step` steps in all, or its end (gm_run_goes_on). */
+/* Returns true if the lane has reached neither `step` steps in all nor its end (gm_run_goes_on). */
 bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step);
 
-/* The step of its end, `step` or the lane's own, if nothing comes between; of a scheme that chooses its steps
-   more than it may make. */
+/* The last step if nothing interferes: `step`, or the lane's end if it is earlier; for an adaptive scheme
+   an upper bound. */
 int64_t gm_drive_end(const struct gm_drive *drive, int64_t step);
 
-/* Advances to where the lane is looked at for the time t (gm_run_steps_by), but not beyond its own end. */
+/* Advances to the lane's last step for the time t (gm_run_steps_by), at most to the lane's end. */
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 
-/* Writes one sentence on how a failed lane stands; empty for GM_OK. */
+/* Writes one sentence on the failure of a lane; empty for GM_OK. */
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
 
-/* Writes one sentence on how a run ended: gm_failure_sentence, or where a scheme that chooses its steps came
-   to its end, which is after the until asked for; empty if there is nothing to say. */
+/* Writes one sentence on the end of a run: gm_failure_sentence, or, for an adaptive scheme, an end after
+   the requested until; empty if there is nothing to report. */
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes that a run at its end is not at the until asked for, which is no whole number of steps or, where the
-   scheme chooses them, lies far behind; empty if it is. */
+/* Writes that a run did not end at the requested until: it is not a whole number of steps, or an adaptive
+   scheme ends far beyond it. Empty if it did. */
 void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes what is wrong with a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
+/* Writes the warning on a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
    is nothing. */
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 
-/* Makes as many steps of a lane towards an end (gm_lane_to) as take about a fiftieth of a second, so that whoever makes
-   many can answer an interruption. `*each`, at first 0, is the time of one. Returns the processor time. */
+/* Makes steps of a lane towards an end (gm_lane_to) for about a fiftieth of a second, so that the caller
+   can answer an interruption. `*each`, at first 0, is the time of one, in seconds. Returns the CPU time,
+   in seconds. */
 double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *each);
 
-/* What a lane of a request will take by the clock, judged by its first steps; 0: it cannot be opened. */
+/* The estimated time of a lane of a request, in seconds, from its first steps; 0: it cannot be opened. */
 double gm_drive_seconds(const struct gm_request *request, size_t index);
 
 #endif

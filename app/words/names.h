@@ -7,7 +7,7 @@
 #include "scenes/common/lane.h"
 #include "scenes/common/scene.h"
 
-/* Which schemes can be asked for with a scene. */
+/* The largest number of schemes that fit a scene. */
 
 enum { GM_FITTING_SCHEMES = 256 };
 
@@ -16,27 +16,26 @@ enum { GM_FITTING_SCHEMES = 256 };
 void gm_fitting_add(const struct gm_scheme *scheme, const struct gm_problem *problem,
                     const struct gm_scheme **schemes, size_t *count);
 
-/* The schemes that fit a scene at its defaults; returns how many, at most GM_FITTING_SCHEMES. */
+/* The schemes that fit a scene at its defaults; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes);
 /* Writes for each of these schemes the one whose steps are the same there at its defaults, or NULL. */
 void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const *schemes, size_t count,
                      const struct gm_scheme **same);
 
-/* The same, and behind them those that the scene's own text takes on another kind of grid. */
+/* The same, followed by schemes for the scene's text on another kind of grid. */
 size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme **schemes);
 
-/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
+/* Returns true if at least one of these schemes has this parameter, a row of gm_settings_parameters. */
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
 
-/* Observables that were asked for, by their numbers (gm_scene_observable_at), in the order in which they
-   were. */
+/* Requested observables, by their numbers (gm_scene_observable_at), in the requested order. */
 struct gm_chosen {
     size_t *numbers;
     size_t count;
 };
 
-/* Those of these keys, "KEY,KEY"; NULL: all that a scene tells unasked. False with a sentence. To be closed
-   in both cases. */
+/* Opens the observables with these keys, "KEY,KEY"; NULL: the scene's default ones. Returns false with a
+   sentence. The caller closes it in both cases. */
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
 void gm_chosen_close(struct gm_chosen *chosen);
 
@@ -45,8 +44,9 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
 
 /* Names of scenes, systems and rooms. */
 
-/* Proposes for a word that is no name the nearest name of a scene, a system or a room, in `near`. False: none is near;
-   the message then says which folder of the environment could not be opened, "" where all can. */
+/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word. Returns
+   false if none is near; the message then names a folder of the environment that could not be opened, ""
+   if all could. */
 enum { GM_NEAR = 64 };
 bool gm_system_near(const char *word, char near[GM_NEAR], char *message);
 

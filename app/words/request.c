@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From words to a scene and its lanes, with a sentence for what cannot be. */
+/* From words to a scene and its lanes, with a sentence for a fault. */
 #include "app/words/request.h"
 
 #include <math.h>
@@ -114,7 +114,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
     return false;
 }
 
-/* Adds "Δt = 0.1" for a key and its value, or a scheme's title, to what a name says already. */
+/* Appends "Δt = 0.1" for a key and its value, or a scheme's title, to a name. */
 static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
                      size_t size)
 {
@@ -174,7 +174,7 @@ static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec 
     }
     shown->dash = colours ? shown->panel : shown->colour;
     if (strcmp(shown->panel_name, spec->scheme->title) == 0) {
-        shown->panel_name[0] = '\0'; /* which is what "" stands for */
+        shown->panel_name[0] = '\0'; /* "" means the scheme's title */
     }
 }
 
@@ -207,7 +207,7 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
     return true;
 }
 
-/* A parameter that a scheme brings is told to a scheme that has it. */
+/* Checks that a parameter of schemes is given only to schemes that have it. */
 static bool check_settings(const struct gm_request *request, const struct gm_words *words, char *message)
 {
     const struct gm_scene *scene = request->scene;
@@ -247,7 +247,7 @@ const char *gm_request_idle(const struct gm_request *request, const char *key)
     return why;
 }
 
-/* A key that has no effect in any lane is not taken: whoever types it expects one. */
+/* Refuses a key without effect in any lane: the user expects one. */
 static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < words->count; i++) {
@@ -279,7 +279,7 @@ static size_t first_scheme(const struct gm_words *words, size_t lane)
     return lane;
 }
 
-/* Whether an earlier lane has the same problem. */
+/* Returns true if an earlier lane has the same problem. */
 static bool is_repeated(const struct gm_request *request, size_t lane)
 {
     for (size_t i = 0; i < lane; i++) {
@@ -291,7 +291,7 @@ static bool is_repeated(const struct gm_request *request, size_t lane)
     return false;
 }
 
-/* Of the schemes of a name those that fit; a problem is set up once for all its lanes. */
+/* Finds the fitting one of the schemes with a name; a problem is set up once for all its lanes. */
 static bool find_schemes(struct gm_request *request, char *message)
 {
     const struct gm_scene *scene = request->scene;
@@ -331,7 +331,7 @@ static bool find_schemes(struct gm_request *request, char *message)
                                known ? "" : " names those that do");
 }
 
-/* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
+/* Evaluations per model time over the first steps; NAN with a sentence if it cannot be measured. */
 static double rate_of(const struct gm_request *request, size_t index, char *message)
 {
     enum { STEPS = 32 };
@@ -353,16 +353,16 @@ static double rate_of(const struct gm_request *request, size_t index, char *mess
     return rate > 0 && isfinite(rate) ? rate : NAN;
 }
 
-/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured over
-   some steps from its start, and names the step where the lane is named. False with a sentence if a scheme
-   counts no evaluations or the step leaves its range. */
+/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured
+   over some steps from its start, and adds the step size to the lane's name. Returns false with a sentence
+   if a scheme counts no evaluations or the step leaves its range. */
 static bool equal_cost(struct gm_request *request, size_t index, size_t like, char *message)
 {
     struct gm_lane_spec *spec = &request->lanes[index];
     struct gm_timing *timing = spec->parameters;
     const struct gm_parameter *row = gm_scene_parameter(request->scene, "dt");
     const double wanted = rate_of(request, like, message);
-    /* an implicit scheme's evaluations a step depend on the step */
+    /* the evaluations per step of an implicit scheme depend on the step size */
     enum { ROUNDS = 4 };
     for (int round = 0; round < ROUNDS && index != like; round++) {
         const double rate = rate_of(request, index, message);
@@ -381,7 +381,7 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     char text[sizeof shown->panel_name];
     const int length =
         snprintf(text, sizeof text, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
-    if (length > 0 && (size_t)length < size) { /* else the name alone says more than half of both */
+    if (length > 0 && (size_t)length < size) { /* the name alone is better than a cut text */
         memcpy(name, text, (size_t)length + 1);
     }
     return !isnan(wanted);
@@ -420,7 +420,7 @@ static bool apply_words(struct gm_request *request, const struct gm_words *words
     return true;
 }
 
-/* equal=cost: the steps of all lanes so that each pays what the first scheme pays. */
+/* equal=cost: chooses the step size of each lane so that its cost is the first scheme's. */
 static bool equalise(struct gm_request *request, const struct gm_words *words, char *message)
 {
     if (gm_words_find(words, "steps")) {
@@ -435,7 +435,7 @@ static bool equalise(struct gm_request *request, const struct gm_words *words, c
     return true;
 }
 
-/* Both steps= and until= were typed; the step that both mean, where each is one number. */
+/* Refuses steps= with until=, with the common step size if each is one number. */
 static bool refuse_two_ends(const struct gm_scene *scene, const struct gm_words *words, char *message)
 {
     char text[2][GM_TEXT_SIZE], both[128] = "";
@@ -527,7 +527,7 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     if (!request->scene) {
         return false;
     }
-    /* a scene is shown by its own lanes, but for what is typed */
+    /* a scene shows its default lanes, except for typed words */
     struct gm_arguments arguments = {0};
     const struct gm_arguments given = {.words = (char **)typed, .count = count};
     const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;
@@ -554,7 +554,8 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
         request->arguments = gm_words_join(request->scene, &words);
         good = request->arguments || gm_refuse(message, "not enough memory");
     }
-    if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
+    if (gm_memory_refusals() !=
+        refusals) { /* a lack of memory may appear as a fault of a mesh or of its file */
         good = gm_refuse(message, "not enough memory");
         request->refusal = GM_EXIT_FILE;
     }
@@ -563,7 +564,7 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     char key[sizeof request->refused + 1];
     snprintf(key, sizeof key, "%s=", request->refused);
     if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
-        char sentence[GM_MESSAGE]; /* what nobody typed stands in a file */
+        char sentence[GM_MESSAGE]; /* a word that was not typed is from a file */
         snprintf(sentence, sizeof sentence, "%s", message);
         gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
     }

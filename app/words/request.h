@@ -6,65 +6,64 @@
 #include "render/message.h"
 #include "scenes/common/lane.h"
 
-/* What the user asked for: a scene and its lanes, read from `SCENE key=value ...`. */
+/* The user's request: a scene and its lanes, read from `SCENE key=value ...`. */
 
 struct gm_lane_spec {
     struct gm_shown shown;
     void *parameters; /* the scene's own struct */
     struct gm_settings settings;
     const struct gm_scheme *scheme;
-    int64_t steps; /* from start to until */
-    double until;  /* as asked for; NAN where steps= says it */
-    double end;    /* the time of the last step; of a scheme that chooses its steps, what that is to reach */
+    int64_t steps; /* number of steps from start to until */
+    double until;  /* the requested end, in model time; NAN if steps= gives it */
+    double end;    /* the time of the last step; for an adaptive scheme the end to reach */
 };
 
-/* A change made in flight: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
+/* A change during a run: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
 struct gm_change {
     size_t lane;
     int64_t step;
-    char *text; /* of the request; a scheme that was brought along is the word that makes it again */
+    char *text; /* the request's memory; a user-defined scheme is the word that reproduces it */
 };
 
-/* So many steps a lane may make, and changes lie at so many at most. */
+/* The largest number of steps of a lane, and of a change. */
 #define GM_MOST_STEPS INT64_C(1000000000000000)
 
 struct gm_request {
     const struct gm_scene *scene;
     struct gm_lane_spec *lanes;
     size_t count;
-    struct gm_change *changes; /* in order of step */
+    struct gm_change *changes; /* sorted by step */
     size_t change_count;
     bool overlay;     /* all lanes in one panel */
-    int refusal;      /* the exit status of a request that was refused; 0: that of wrong usage */
+    int refusal;      /* the exit status of a request that was refused; 0: wrong usage */
     char refused[48]; /* the key that was refused, or "" */
-    char *arguments;  /* what it was read from, schemes named; NULL: gm_request_format finds out */
+    char *arguments;  /* the words it was read from, with the schemes' names; NULL: derived if needed */
 };
 
-/* How many of a scene's preferred schemes a command takes where none is named. */
+/* The number of a scene's preferred schemes that a command uses if no scheme is given. */
 enum { GM_RUN_SCHEMES = 1, GM_RENDER_SCHEMES = 3 };
 
-/* The scene that the first of these words names, or that is made of them: a system. NULL with a sentence and
-   an exit status. */
+/* The scene of these words: the first one names it, or all of them define a system. Returns NULL with a
+   sentence and an exit status. */
 const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message);
 
-/* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes",
-   "overlay=yes" (the scene first).
-   `schemes` is how many of the scene's preferred schemes to take where none is named. False with one
-   sentence in message (GM_MESSAGE bytes); the request is then empty, but for `refusal` and `refused`. */
+/* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes", "overlay=yes" (the scene
+   first). `schemes`: the number of preferred schemes if none is given. Returns false with one sentence in
+   message (GM_MESSAGE bytes); the request is then empty, except `refusal` and `refused`. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message);
 /* The same for a scene that is known, and named by the first word. */
 bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
                           char *const words[], size_t schemes, char *message);
-/* The same of the arguments of a request that was made once, as text: a key may have no effect any more. */
+/* The same for the stored arguments of an earlier request, in which a key may have no effect any more. */
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
 void gm_request_close(void *request);
 
-/* Whether the runs of a comparison end together, as they do not where steps= is typed beside several steps; a
-   sentence if not. */
+/* Returns true if the runs of a comparison end together; else a sentence, as for steps= with several step
+   sizes. */
 bool gm_request_ends_together(const struct gm_request *request, char *message);
 
-/* Why a key has no effect in any lane; NULL: it has one. */
+/* The reason why a key has no effect in any lane, or NULL. */
 const char *gm_request_idle(const struct gm_request *request, const char *key);
 
 /* The exit status for a request that gm_request_parse refused. */
@@ -78,28 +77,28 @@ char *gm_request_format(const struct gm_request *request);
 char *gm_changes_format(const struct gm_request *request);
 bool gm_changes_parse(struct gm_request *request, const char *text);
 
-/* A colour for lane number `lane`, and a panel of its own or one for all; what names say stays. */
+/* Sets the colour of lane number `lane`, and its panel, or the one for all lanes; names stay. */
 void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay);
 
-/* Appends one; false when memory is short. */
+/* Appends one change; returns false when out of memory. */
 bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text);
-/* Closes those for which `drops` says so; NULL: all. */
+/* Removes the changes for which `drops` returns true; NULL: all. */
 void gm_changes_drop(struct gm_request *request,
                      bool (*drops)(const struct gm_change *change, const void *data), const void *data);
 
 /* Reads a value as gm_parameter_set does, without an owner to judge it alone; false with a sentence. */
 bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message);
 
-/* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
+/* A copy of a scene's parameters; malloc'ed. Returns NULL when out of memory. */
 void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);
 
-/* The steps of a lane; 0 where its scheme chooses them. */
+/* The number of steps of a lane; 0 for an adaptive scheme. */
 double gm_request_steps(const struct gm_request *request, size_t index);
 
 /* Opens lane `index` at its start; NULL with a sentence. */
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
 
-/* Whether a change can be made before its lane ends; false with a sentence. */
+/* Returns true if a change can be made before its lane ends; false with a sentence. */
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message);
 
 /* Makes the change "key=value" on a lane now (a live parameter or the scheme); false with a sentence. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Schemes that are brought along: read from files and words, and told from each other by what they say. */
+/* User-defined schemes: read from files and words, and identified by their text. */
 #include "app/words/scheme.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ static bool is_path(const char *name)
     return gm_word_ends(name, gm_file_endings[GM_FILE_SCHEME]);
 }
 
-/* Whether what stands for a scheme's name means one's own: a path that ends with .scheme, or a word such as
+/* Returns true if a name means a user-defined scheme: a path that ends with .scheme, or a word such as
    composition(verlet; g, 1 - 2*g, g). */
 static bool is_user(const char *name)
 {
@@ -42,7 +42,8 @@ struct reading {
 
 static const struct gm_scheme *bring(void *data, const char *name, char *sentence);
 
-/* Reads the text of a file, or of a name that is a word. False with a message. The text is to be freed. */
+/* Reads the text of a file, or of a name that is a word. Returns false with a message. The caller frees
+   the text. */
 static bool open_source(struct reading *reading, const char *name, const struct gm_file *file)
 {
     size_t length = strlen(name);
@@ -55,7 +56,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
             return false;
         }
         const char *slash = strrchr(file->path, '/'), *base = slash ? slash + 1 : file->path;
-        /* a title, without what ends one where the scheme is one word, and no half letter */
+        /* a title without the file's ending and without an incomplete letter */
         size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
         letters = letters < sizeof reading->title ? letters : sizeof reading->title - 1;
         while (letters > 0 && ((unsigned char)base[letters] & 0xC0) == 0x80) {
@@ -76,7 +77,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
     return true;
 }
 
-/* Reports what is wrong, and where: in a file its line and column, in a word the column. */
+/* Reports a fault and its place: line and column in a file, only the column for a word. */
 static void report(const struct reading *reading)
 {
     const struct gm_user_scheme_source *source = &reading->source;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that are made of systems and rooms, of files and of formulas. */
+/* The scenes of systems and rooms, from files and from formulas. */
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 
@@ -24,7 +24,7 @@
 
 const char gm_system_typed[] = "system";
 
-/* The whole of a file; of a system's that is too large nothing but its length, since its reader refuses it. */
+/* Reads a whole file, but only the length of a system's that is too large: the reader refuses it. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
     struct stat about;
@@ -63,10 +63,10 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 
 /* ---- scenes ---- */
 
-/* A scene that was made, and what of; or a text that a word means. They live as long as the program. */
+/* A scene with its words and text, or a text that a word means. They live as long as the program. */
 struct gm_made_system {
     struct gm_made_system *next;
-    char *key; /* the words and the text; of a text the word */
+    char *key; /* the words and the text; for a text the word */
     char *text;
     struct gm_arguments words;
     char *name;
@@ -107,7 +107,7 @@ bool gm_system_recall(const char *word, const char *text)
     return true;
 }
 
-/* Whether a word means a room, where a system of that name comes first. */
+/* Returns true if a word means a room; a system of that name has precedence. */
 static bool is_room(const char *word)
 {
     return gm_file_is(GM_FILE_ROOM, word) && !gm_file_is(GM_FILE_SYSTEM, word);
@@ -119,7 +119,7 @@ bool gm_system_is(const char *word)
            gm_file_is(GM_FILE_ROOM, word) || gm_file_is(GM_FILE_SYSTEM, word);
 }
 
-/* The file's name, without what no file's name should have. */
+/* The file's name, without characters unusual in names. */
 static char *name_of(const char *word, const char *ending)
 {
     const char *slash = strrchr(word, '/');
@@ -141,17 +141,17 @@ struct making {
     struct gm_typed_file written;
     struct gm_file file;
     bool room;
-    struct gm_user_system first, system; /* as it is read, and with the values that it is built on */
+    struct gm_user_system first, system; /* the system as read, and with the values on which it is built */
     struct gm_system_value *values;
     size_t value_count;
     bool moves;     /* a field, with schemes that move its mesh */
-    double largest; /* of the numbers that lists and sums are as long as; 0: there is none */
+    double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
     char *message;
 };
 
-/* Reports what is wrong with the text, with its exit status. Returns false. */
+/* Reports a fault of the text, with its exit status. Returns false. */
 static bool refuse_text(struct making *making, const struct gm_fault *fault)
 {
     making->trial->status =
@@ -159,7 +159,7 @@ static bool refuse_text(struct making *making, const struct gm_fault *fault)
     return false;
 }
 
-/* The words that the scene is made of: formulas, and values that the graph is built on. */
+/* The words on which the scene is built: formulas, and values for the graph. */
 static bool choose_words(struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -188,8 +188,8 @@ static bool choose_words(struct making *making)
     return good;
 }
 
-/* Whether a scheme of moving meshes is named, or, where none is, is the file's. False with a sentence where a field
-   would be on both kinds of grids. */
+/* Returns true if a scheme of moving meshes is given or, without a scheme, is the file's. Returns false
+   with a sentence if a field would be on both kinds of grids. */
 static bool choose_mesh(struct making *making)
 {
     const char *schemes = making->first.texts[GM_WORD_SCHEMES];
@@ -205,8 +205,8 @@ static bool choose_mesh(struct making *making)
                      "kind of them");
 }
 
-/* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in such a
-   line, or the value of the first one; 0: nowhere. */
+/* The offset of the line that a sentence "word: fault" is about: a line with the next word of the
+   sentence, or the value of the first one; 0: no line. */
 static size_t line_of(const struct gm_typed_file *written, const char *sentence)
 {
     const size_t word = strcspn(sentence, ": ");
@@ -229,7 +229,7 @@ static size_t line_of(const struct gm_typed_file *written, const char *sentence)
     return first;
 }
 
-/* The equations of a system that was read, with the values that these are built on; what was read is emptied. Then the
+/* Builds the equations of the read system with its values, and empties the read one. Then builds the
    scene. */
 static bool open_system(struct making *making)
 {
@@ -304,7 +304,7 @@ static void find_largest(struct making *making)
     }
 }
 
-/* Reports what there is not enough memory for. */
+/* Reports a lack of memory, with the largest length. */
 static void refuse_memory(const struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -320,7 +320,7 @@ static void refuse_memory(const struct making *making)
     gm_place_show(written->text, written->length, fault.offset, making->message);
 }
 
-/* Makes a scene of the text, or finds the one that was kept. */
+/* Makes a scene of the text, or finds the existing one. */
 static void make(struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -385,7 +385,8 @@ static bool write_text(struct making *making)
         return true;
     }
     if (written->length > GM_LARGEST_SYSTEM || !gm_lines_are_text(written->text, written->length, &fault)) {
-        /* what is too long was not read, what is no text ends strings early: the reader says so */
+        /* the file is too long and was not read, or its bytes are not text and end strings early: the
+           reader reports it */
         gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault);
         return refuse_text(making, &fault);
     }
@@ -407,7 +408,7 @@ bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[]
         const unsigned long refusals = gm_memory_refusals();
         pthread_mutex_lock(&making_one);
         make(&making);
-        if (gm_memory_refusals() != refusals) { /* whatever else was blamed, and what is only there in part */
+        if (gm_memory_refusals() != refusals) { /* other faults, and incomplete results, may follow from it */
             if (trial->made->scene) {
                 trial->made->close(trial->made->scene);
             }

@@ -7,8 +7,8 @@
 
 #include "app/base/files.h"
 
-/* The scenes that are made of systems and rooms that somebody wrote. Sentences may have three lines: what is wrong, the
-   text, a caret below the place. */
+/* The scenes of user-defined systems and rooms. Sentences may have three lines: the fault, the text, and a
+   caret below the place. */
 
 struct gm_arguments;
 struct gm_file;
@@ -16,40 +16,40 @@ struct gm_user_system;
 struct gm_scene;
 struct gm_system_value;
 
-extern const char gm_system_typed[]; /* "system": what stands before a formula */
+extern const char gm_system_typed[]; /* "system": the word before a formula */
 
-/* Opens the system of a file; without one, of the words "system H=... key=value ...". Returns 0, or an exit status with a
-   sentence. To be closed in both cases. */
+/* Opens the system of a file, or without one, of the words "system H=... key=value ...". Returns 0, or an
+   exit status with a sentence. The caller closes it in both cases. */
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
                    const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
                    char *message);
 
-/* Whether the first of some words means a system: one of a file, or `system` with a formula behind it; or a
-   room of a file, which is opened the same way. */
+/* Returns true if the first word means a system: a file's, or `system` with a formula after it; or a room
+   of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
-/* The keys that say, or replace, the formulas of some words whose first means a system, until NULL. */
+/* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
+   words. */
 const char *const *gm_system_keys(const char *word);
-/* The scene of the system or room that words "NAME key=value ..." mean; a parameter that the equations are built on
-   has the value that is given there, and formulas behind a file's name take the place of its own. It lives as
-   long as the program, and the same words mean the same scene. NULL with a sentence, and then an exit
-   status. */
+/* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
+   built have the given values, and typed formulas replace those of the file. The scene lives as long as
+   the program, and the same words give the same scene. Returns NULL with a sentence and an exit status. */
 const struct gm_scene *gm_system_scene(int count, char *const words[], int *status, char *message);
 
-/* A scene of words that are still being typed: nothing is kept of it, unless it was there before. */
+/* A scene of words during typing: it is discarded, unless it existed before. */
 struct gm_system_trial {
     const struct gm_scene *scene;
-    int status; /* where there is none: an exit status, and a place */
+    int status; /* the exit status if there is no scene */
     struct gm_word_place place;
-    struct gm_made_system *made; /* its own */
+    struct gm_made_system *made; /* the trial's scene */
 };
-/* False with a sentence. To be closed in both cases, before which it may be kept: from then on the same words
-   mean this scene, as long as the program lives. */
+/* Returns false with a sentence. The caller closes it in both cases, and may store it before: from then on
+   the same words mean this scene, as long as the program lives. */
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message);
 void gm_system_trial_keep(struct gm_system_trial *trial);
 void gm_system_trial_close(struct gm_system_trial *trial);
 
-/* From now on that word means this text, and no file: as where a picture tells how it was made. False: no
-   memory. */
+/* From now on the word means this text instead of a file, for a picture that stores its system. Returns
+   false when out of memory. */
 bool gm_system_recall(const char *word, const char *text);
 
 /* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A typed line as words, and what is wrong with it. */
+/* A typed line as words, and its faults. */
 #include "app/words/typed.h"
 
 #include <ctype.h>
@@ -16,15 +16,15 @@
 /* A walk through the letters of a line's words. */
 struct walk {
     const char *line;
-    size_t at; /* of the letter */
+    size_t at; /* offset of the letter */
     int word, depth;
     char quote;
     bool inside;  /* a word has begun */
-    bool behind;  /* an equals sign, where blanks mean nothing */
-    bool has_key; /* of the word */
+    bool behind;  /* it follows an equals sign, so blanks mean nothing */
+    bool has_key; /* the word has a key */
 };
 
-/* Whether a word begins here: NAME= or NAME[index]=. */
+/* Returns true if a word begins here: NAME= or NAME[index]=. */
 static bool is_key(const char *text)
 {
     size_t length = 0;
@@ -38,7 +38,7 @@ static bool is_key(const char *text)
     return length > 0 && !isdigit((unsigned char)text[0]) && text[length] == '=';
 }
 
-/* The next letter of a word; 0 at the end. `walk->at` is behind it then. */
+/* The next letter of a word; 0 at the end. `walk->at` is then after it. */
 static char next_letter(struct walk *walk)
 {
     for (char c; (c = walk->line[walk->at]) != '\0';) {
@@ -98,11 +98,11 @@ bool gm_typed_split(struct gm_arguments *words, const char *line)
     return good;
 }
 
-/* Where in a line a letter of a word stands. */
+/* The offset, in a line, of a letter of a word. */
 static size_t place_of(const char *line, int word, size_t offset)
 {
     struct walk walk = {.line = line, .word = -1};
-    size_t at = 0; /* behind its last letter */
+    size_t at = 0; /* the offset after its last letter */
     while (next_letter(&walk) != '\0' && walk.word <= word) {
         if (walk.word == word && offset-- == 0) {
             return walk.at - 1;
@@ -112,7 +112,7 @@ static size_t place_of(const char *line, int word, size_t offset)
     return at;
 }
 
-/* Whether a word is split by what it holds, or loses it. */
+/* Returns true if blanks or quotes would split or change the word. */
 static bool needs_quotes(const char *word)
 {
     struct gm_arguments alone = {0};
@@ -134,10 +134,10 @@ char *gm_typed_join(const struct gm_arguments *words)
     return stream && fclose(stream) == 0 ? text : NULL;
 }
 
-/* ---- what they mean ---- */
+/* ---- the meaning of the words ---- */
 
-/* The words of a line with the scene in front, which a formula does without; `shift` is how many were put
-   there, or below 0 left out, as what a command line begins with is. */
+/* The words of a line with the scene first, which a formula does not need; `shift`: the number of words
+   added, or negative, of leading words of a command line removed. */
 static bool read_words(struct gm_arguments *words, const char *line, int *shift)
 {
     struct gm_arguments typed = {0};
@@ -156,7 +156,7 @@ static bool read_words(struct gm_arguments *words, const char *line, int *shift)
     return good;
 }
 
-/* The first line of a message is what is wrong; what follows shows the place. */
+/* The first line of a message is the fault; the others show the place. */
 static bool fail(struct gm_typed_fault *fault, const char *message)
 {
     const size_t length = strcspn(message, "\n");
@@ -165,7 +165,7 @@ static bool fail(struct gm_typed_fault *fault, const char *message)
     return false;
 }
 
-/* The word that has the key: its value, or, of a key that there is not, the key. */
+/* The place of a key's value, or, for an unknown key, of the key. */
 static struct gm_word_place word_of(const struct gm_arguments *words, const struct gm_scene *scene,
                                     const char *key)
 {
@@ -179,7 +179,7 @@ static struct gm_word_place word_of(const struct gm_arguments *words, const stru
     return (struct gm_word_place){-1, 0};
 }
 
-/* `trial`: what was made is left to it, and no request. */
+/* `trial` gets the scene, and no request is made. */
 static bool read_line(struct gm_request *request, struct gm_system_trial *trial, const char *line,
                       size_t schemes, struct gm_typed_fault *fault)
 {
@@ -196,7 +196,7 @@ static bool read_line(struct gm_request *request, struct gm_system_trial *trial,
         good = gm_system_try(trial, words.count, words.words, message);
         scene = trial->scene;
         place = trial->place;
-        place.word = !good && trial->status == GM_EXIT_FILE ? 0 : place.word; /* its name */
+        place.word = !good && trial->status == GM_EXIT_FILE ? 0 : place.word; /* the file's name */
     } else if (good) {
         scene = gm_request_scene(words.count, words.words, &status, message);
         good = scene != NULL;
@@ -239,7 +239,7 @@ bool gm_typed_check(const char *line, struct gm_typed_fault *fault)
 
 /* ---- schemes ---- */
 
-/* Without blanks around it; a key may stand in front. malloc'ed. */
+/* The scheme without blanks around it; a key may precede it. malloc'ed. */
 static char *scheme_of(const char *line, size_t *begin)
 {
     static const char key[] = "scheme=";

@@ -5,29 +5,29 @@
 #include "app/base/arguments.h"
 #include "app/words/request.h"
 
-/* A line that is typed where there is no shell: the words of a command line. A blank ends a key's word where
-   behind it another one begins, NAME=, outside of parentheses; so a formula needs no quotes, H=p^2/2 - cos(q)
-   q=2, and may have them. */
+/* A typed line without a shell: the words of a command line. A blank ends a key's word if another one,
+   NAME=, follows it outside of parentheses. So a formula needs no quotes, H=p^2/2 - cos(q) q=2, and may
+   have them. */
 
-/* What is wrong with a line. */
+/* A fault of a line. */
 struct gm_typed_fault {
     char sentence[GM_MESSAGE]; /* "": nothing */
     long at;                   /* the byte of the line; below 0: nowhere in it */
 };
 
-/* The words of a line; and as a line, with quotes where they are needed, malloc'ed. False, NULL: no
-   memory. */
+/* The words of a line, and the line of words, with quotes if they are needed, malloc'ed. Return false,
+   NULL when out of memory. */
 bool gm_typed_split(struct gm_arguments *words, const char *line);
 char *gm_typed_join(const struct gm_arguments *words);
 
-/* Reads a line that says a system: a formula, H= L= rate=, a file or a name, with key=value; or a scene with
-   its own. `schemes` as of gm_request_parse. False with a fault. */
+/* Reads a line of a system: a formula, H= L= rate=, a file or a name, with key=value; or of a scene with
+   its keys. `schemes`: see gm_request_parse. Returns false with a fault. */
 bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
                       struct gm_typed_fault *fault);
-/* Whether it could, and nothing is kept of it. */
+/* Returns true if the line can be read; stores nothing. */
 bool gm_typed_check(const char *line, struct gm_typed_fault *fault);
 
-/* The same of a scheme: a name, a path, a word. */
+/* The same for a scheme: a name, a path, a word. */
 const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault);
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault);
 

@@ -40,9 +40,10 @@ bool gm_typed_is_formula(const char *word)
     return key_of(word, gm_typed_keys, &value) < FORMULA_COORDINATES;
 }
 
-/* ---- words in place of a file's lines ---- */
+/* ---- words that replace lines of a file ---- */
 
-/* Whether a word sets what a line does: that key, and of a rate or a bracket the same names before the =. */
+/* Returns true if a word replaces a line: it has its key and, for a rate or a bracket, the same names
+   before the =. */
 static bool replaces(const char *word, const char *key, const char *value)
 {
     const char *typed = gm_word_after(word, key);
@@ -115,7 +116,7 @@ bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)
     return good;
 }
 
-/* ---- what is wrong ---- */
+/* ---- faults ---- */
 
 static void word_fault(const char *word, size_t at, const char *sentence, char *message)
 {
@@ -196,19 +197,19 @@ struct names {
     size_t count;
 };
 
-/* What is typed, on its way to the lines of a file. */
+/* The typed words, to be written as the lines of a file. */
 struct typing {
     const struct gm_typed_file *file;
-    struct gm_formula *graph;      /* of the formula that is read while its names have no values yet */
-    struct gm_fault fault;         /* of the first that is none, and */
-    struct gm_word_place wrong;    /* its place */
-    struct names names;            /* in the formulas */
+    struct gm_formula *graph;      /* a formula that is read before its names have values */
+    struct gm_fault fault;         /* the first fault */
+    struct gm_word_place wrong;    /* the place of the fault */
+    struct names names;            /* names in the formulas */
     struct names parts;            /* components of the state */
-    struct names given;            /* which have a value, and those that need none: the indices of sums */
-    bool has[FORMULA_COORDINATES]; /* which of H, L and rate there are */
+    struct names given;            /* names with a value, or that need none: the indices of sums */
+    bool has[FORMULA_COORDINATES]; /* true for those of H, L and rate that are given */
     bool usual;                    /* the coordinates are q or q1, q2, as none are given */
     bool velocities;               /* they are called v, or v1, v2 */
-    char lines[16 * MOST_NAMES];   /* of the usual coordinates */
+    char lines[16 * MOST_NAMES];   /* the lines of the default coordinates */
 };
 
 static bool is_name(const struct name *name, const char *text, size_t length)
@@ -260,7 +261,7 @@ static void collect(struct names *names, struct names *indices, const char *text
         if (*behind == '=') {
             note(indices, text, length);
         } else if (*behind != '(' &&
-                   !gm_formula_reserves(text, length)) { /* what is called is a function, or none */
+                   !gm_formula_reserves(text, length)) { /* a called name is not a variable */
             note(names, text, length);
         }
         text += length;
@@ -284,7 +285,7 @@ static const char *no_name(size_t i, const void *data)
     return NULL;
 }
 
-/* Notes the names of H, L or what stands on the right of a rate, and what is wrong with it whatever these are. */
+/* Notes the names in H, L or the right side of a rate, and faults that do not depend on them. */
 static void add_formula(struct typing *typing, int word, const char *text, size_t length)
 {
     struct gm_formula graph;
@@ -303,7 +304,7 @@ static void add_formula(struct typing *typing, int word, const char *text, size_
     gm_formula_close(&graph);
 }
 
-/* Rates, x = y, y = -x: what stands on the left is a part of the state. */
+/* Rates, x = y, y = -x: the left sides are parts of the state. */
 static void add_rates(struct typing *typing, int word, const char *text)
 {
     while (*(text += strspn(text, " \t"))) {
@@ -344,8 +345,8 @@ static void put_formulas(struct typing *typing, FILE *stream)
     }
 }
 
-/* "coordinates: q1 q2", as far as such names occur, or q alone, their momenta and, where they are called
-   v1, v2, their velocities. */
+/* Writes "coordinates: q1 q2", as far as such names occur, or q alone, their momenta and, for names v1,
+   v2, their velocities. */
 static void put_usual_coordinates(struct typing *typing, FILE *stream)
 {
     static const char *const lists[] = {"coordinates", "momenta", "velocities"};
@@ -370,7 +371,7 @@ static void put_usual_coordinates(struct typing *typing, FILE *stream)
     fputs(typing->lines, stream);
 }
 
-/* Whether it is a component, or the momentum or the velocity of one: p_q, v_q. */
+/* Returns true if it is a component, or the momentum or the velocity of one: p_q, v_q. */
 static bool is_part(const struct typing *typing, const char *name, size_t length)
 {
     return holds(&typing->parts, name, length) ||
@@ -396,14 +397,14 @@ static void put_starts_or_parameters(struct typing *typing, bool starts, FILE *s
     }
 }
 
-/* Whether a name may stand without a value. */
+/* Returns true if a name needs no value. */
 static bool needs_none(const struct typing *typing, const struct name *name, bool part)
 {
     const struct names *given = &typing->given;
     if (is_name(name, "t", 1) || holds(given, name->text, name->length)) {
         return true;
     }
-    const int digits = (int)name->length - 1; /* p1 is not needed where v_q1 or v1 is given */
+    const int digits = (int)name->length - 1; /* p1 is not needed if v_q1 or v1 is given */
     if (typing->usual && typing->has[FORMULA_L] && name->text[0] == 'p' && digits < 30 &&
         (holds_written(given, "v_q%.*s", digits, name->text + 1) ||
          holds_written(given, "v%.*s", digits, name->text + 1))) {
@@ -413,7 +414,7 @@ static bool needs_none(const struct typing *typing, const struct name *name, boo
                 : is_part(typing, name->text, name->length);
 }
 
-/* The place of a name that was collected; word -1: it is not in a word. */
+/* The place of a collected name; word -1: no word has it. */
 static struct gm_word_place place_of(const struct gm_typed_file *file, const char *name)
 {
     for (int i = 0; i < file->count; i++) {
@@ -424,11 +425,11 @@ static struct gm_word_place place_of(const struct gm_typed_file *file, const cha
     return (struct gm_word_place){-1, 0};
 }
 
-/* Every name has to be given: the components at the start, all others as parameters. */
+/* Checks that every name is given: the components at the start, all others as parameters. */
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
     char missing[160] = "";
-    bool file_momenta = false; /* as momenta are called in a file, and with coordinates= */
+    bool file_momenta = false; /* momenta are named as in a file, and with coordinates= */
     for (int parameters = 0; parameters < 2; parameters++) {
         const struct names *needed = parameters ? &typing->names : &typing->parts;
         for (size_t i = 0; i < needed->count; i++) {
@@ -457,7 +458,7 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
     return !missing[0];
 }
 
-/* Writes what the system is made of, and notes which names have a value at the start. */
+/* Writes the lines of the system, and notes the names with a value at the start. */
 static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place *place, char *message)
 {
     static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", NULL};

@@ -12,35 +12,35 @@ struct gm_fault;
 
 /* A fault in a line that a word wrote is reported at its place in the word. */
 struct gm_typed_file { /* {0} is an empty text */
-    const char *path;  /* NULL: of words alone */
+    const char *path;  /* NULL: only words */
     char *text;        /* malloc'ed */
     size_t length;
     int count;
     char *const *words; /* "NAME key=value ..." */
 };
 
-extern const char *const gm_typed_keys[];     /* of words alone: H L rate coordinates momenta, and NULL */
+extern const char *const gm_typed_keys[]; /* keys without a file: H L rate coordinates momenta, and NULL */
 extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
 
-/* Whether a word sets H, L or rate. */
+/* Returns true if a word sets H, L or rate. */
 bool gm_typed_is_formula(const char *word);
 /* The value of a word that sets this key; NULL if it sets another one. */
 const char *gm_word_after(const char *word, const char *key);
 
-/* Writes the file that "system H=... key=value ..." would be: coordinates that are not given are q, or q1, q2 and so
-   on, names of the state have their values at the start, others are parameters. False with a sentence, and a place
-   where it has one. */
+/* Writes the file that "system H=... key=value ..." means: the default coordinates are q, or q1, q2 and so
+   on, names of the state have their values at the start, others are parameters. Returns false with a
+   sentence and, if possible, a place. */
 bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place, char *message);
-/* Writes the formulas that were typed where the text has its own. False: no memory. */
+/* Writes the typed formulas over those of the text. Returns false when out of memory. */
 bool gm_typed_file_replace(struct gm_typed_file *file);
-/* Whether a word is one of these lines. */
+/* Returns true if a word is one of these lines. */
 bool gm_typed_file_has(const struct gm_typed_file *file, const char *word);
 
-/* Reports what is wrong with the text, and sets `place` if it is in one of the words. Returns an exit status. */
+/* Reports a fault of the text, and sets `place` if it is in one of the words. Returns an exit status. */
 int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault *fault,
                         struct gm_word_place *place, char *message);
 
-/* The formulas of a text as words, "H=p^2/2", which would replace them. False: no memory. */
+/* The formulas of a text as words that would replace them, "H=p^2/2". Returns false when out of memory. */
 bool gm_typed_file_formulas(const char *text, struct gm_arguments *words);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The words behind a scene's name: keys with lists of values, which may be ranges, and their product. */
+/* The words after a scene's name: keys with lists of values, which may be ranges, and their product. */
 #include "app/words/words.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ size_t gm_word_first(const char *value)
     return length;
 }
 
-/* Whether a text is to be read as a range: ".." is read before numbers. */
+/* Returns true if a text is a range: ".." has precedence over numbers. */
 static bool is_range(const char *text)
 {
     return text[gm_word_first(text)] == '.';
@@ -41,8 +41,8 @@ static double to_15_digits(double value)
     return strtod(text, NULL);
 }
 
-/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is what "0.3" is read as, not
-   its neighbour, and values by equal factors have 15 digits: so what is printed is what one would type. */
+/* Value `index`, 0 <= index < count. The ends are as typed; between them 0.3 is the double read from
+   "0.3", not its neighbour, and values by equal factors have 15 digits: a printed value can be typed. */
 static double value_in(const struct gm_range *range, size_t index)
 {
     const double last = (double)(range->count - 1), at = (double)index;
@@ -70,7 +70,7 @@ static bool read_end(const char *from, const char *to, double *value)
     return gm_number_parse(text, value) && isfinite(*value);
 }
 
-/* What is wrong with it; NULL: nothing. */
+/* The fault of a range, or NULL. */
 static const char *fault_of(const struct gm_range *range, bool whole)
 {
     if (!(range->first < range->last)) {
@@ -92,8 +92,8 @@ static const char *fault_of(const struct gm_range *range, bool whole)
     return NULL;
 }
 
-/* Reads "END..END:COUNT" or "END..END:logCOUNT", the ends numbers as gm_number_parse takes them. False with a
-   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values have to be whole numbers. */
+/* Reads "END..END:COUNT" or "END..END:logCOUNT" with ends for gm_number_parse. Returns false with a
+   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values must be whole numbers. */
 static bool parse_range(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
 {
     const char *between = strstr(text, ".."), *colon = strrchr(text, ':');
@@ -163,7 +163,7 @@ void gm_words_close(struct gm_words *words)
     words->count = 0;
 }
 
-/* False: out of memory, or with a sentence. */
+/* Returns false when out of memory, or with a sentence. */
 static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
 {
     if (length == 0) {
@@ -192,7 +192,7 @@ bool gm_word_is_number(const struct gm_scene *scene, const char *key)
     return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
 }
 
-/* Where the last piece of a number's list is a range, it stands for its values. */
+/* Replaces the last piece of a list of numbers by its values, if it is a range. */
 static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
 {
     struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
@@ -256,7 +256,7 @@ static bool has_digits_alone(const char *text)
     return text[strspn(text, "0123456789")] == '\0';
 }
 
-/* Nobody writes a number of a list as 05. */
+/* Returns true for 05 and similar, which lists do not have. */
 static bool begins_with_zero(const char *text)
 {
     return text[0] == '0' && text[1] != '\0' && has_digits_alone(text);
@@ -284,8 +284,8 @@ static bool known_key(const struct gm_scene *scene, const char *key)
     return gm_common_key_find(key) || gm_word_parameter(scene, key);
 }
 
-/* Whether a terminal would obey some of it. Bytes that are no UTF-8 (U+FFFD here) are not among that: a file
-   may be called so. */
+/* Returns true if a terminal would obey a part of the word. Bytes that are not UTF-8 (U+FFFD here) are
+   allowed: file names may have them. */
 static bool has_orders(const char *word)
 {
     for (uint32_t code; (code = gm_text_next(&word)) != 0;) {
@@ -309,7 +309,7 @@ static const char *next_comma(const char *text)
     return NULL;
 }
 
-/* Whether the scene was made of that word already. */
+/* Returns true if the scene was already built with that word. */
 static bool is_of_scene(const struct gm_scene *scene, const char *word)
 {
     for (const char *const *own = scene->words; own && *own; own++) {
@@ -320,7 +320,7 @@ static bool is_of_scene(const struct gm_scene *scene, const char *word)
     return false;
 }
 
-/* Whether commas in the value are its own. */
+/* Returns true if commas in the value do not separate values. */
 static bool is_whole(const struct gm_parameter *row, const char *value)
 {
     bool choices = row && row->choices;
@@ -435,7 +435,7 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
     return true;
 }
 
-/* The schemes that a scene prefers where these words are typed. */
+/* The schemes that a scene prefers if these words are typed. */
 static const struct gm_preference *preferred(const struct gm_scene *scene, int count, char *const typed[])
 {
     for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
@@ -448,7 +448,7 @@ static const struct gm_preference *preferred(const struct gm_scene *scene, int c
     return NULL;
 }
 
-/* Whether the typed words leave a usual one without effect, as a mesh file does rows, or bring schemes. */
+/* Returns true if the typed words make a default word ineffective, such as rows with a mesh file. */
 static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
 {
     char key[64];
@@ -478,7 +478,7 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
         good = (!word && is_idle(scene, typed, arguments.words[i])) ||
                gm_arguments_add(words, word ? word : arguments.words[i]);
     }
-    for (int i = 1; good && i < typed->count; i++) { /* those without a place yet, or given twice */
+    for (int i = 1; good && i < typed->count; i++) { /* typed words without a place, or given twice */
         const bool placed = gm_arguments_have(&arguments, typed->words[i]) &&
                             gm_arguments_find(typed, typed->words[i]) == typed->words[i];
         good = placed || gm_arguments_add(words, typed->words[i]);
@@ -507,7 +507,7 @@ static bool prefer(struct gm_words *words, const char *const *names, size_t coun
     return good;
 }
 
-/* Those of the common keys that are not the lane's have one value, of their choices. */
+/* Checks that each common key that is not a lane's has one value, one of its choices. */
 static bool check_choices(const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < gm_common_key_count; i++) {

@@ -11,19 +11,20 @@
 /* Values between two ends, both included: "0..0.9:10" evenly, "1e-4..1e-1:log7" by equal factors. */
 
 struct gm_range {
-    double first, last; /* first < last; of equal factors: of one sign */
-    size_t count;       /* at least 2, at most 1e15 */
+    double first, last; /* first < last; for equal factors both have one sign */
+    size_t count;       /* number of values, at least 2, at most 1e15 */
     bool logarithmic;
 };
 
-/* How long the first value of a list, or of a range, is: the sum in sum(i = 1 .. 3, q[i]) is one. */
+/* The length, in bytes, of the first value or range of a list; the sum in sum(i = 1 .. 3, q[i]) is one
+   value. */
 size_t gm_word_first(const char *value);
 
-/* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
+/* The words after a scene's name: keys with lists of values, and the choice of lane k among them. */
 
 enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64 };
 
-/* What stands between two commas: a value, or a range of them. */
+/* A piece between two commas: a value, or a range of values. */
 struct gm_word_piece {
     char *text;
     struct gm_range range; /* count 0: none */
@@ -33,7 +34,7 @@ struct gm_word {
     char *key;
     struct gm_word_piece pieces[GM_MOST_PIECES];
     size_t piece_count;
-    size_t count; /* of values */
+    size_t count; /* number of values */
 };
 
 struct gm_words {
@@ -49,52 +50,53 @@ struct gm_common_key {
 };
 extern const struct gm_common_key gm_common_keys[];
 extern const size_t gm_common_key_count;
-/* NULL if there is none of that name */
+/* The key with that name, or NULL. */
 const struct gm_common_key *gm_common_key_find(const char *name);
 
-/* Reads `count` words "key=value,value" for a scene; without scheme= the first `schemes` that it prefers are
-   put in front. False with a sentence (GM_MESSAGE bytes). In both cases to be closed. */
+/* Reads `count` words "key=value,value" for a scene; without scheme= its first `schemes` preferred ones
+   are added. Returns false with a sentence (GM_MESSAGE bytes). The caller closes it in both cases. */
 bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
                    size_t schemes, char *message);
 void gm_words_close(struct gm_words *words);
 
-/* Fills an empty list with a scene's words, "SCENE key=value": those of the text `usual`, but for those that the
-   typed ones replace or leave without effect, and the typed ones. False when memory is short. */
+/* Fills an empty list with a scene's words, "SCENE key=value": the typed words, and those of the text
+   `usual` that they neither replace nor disable. Returns false when out of memory. */
 bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
                        const struct gm_arguments *typed, const char *usual);
 
-/* The parameter of that key, of the scene or of schemes; NULL: there is none. */
+/* The parameter with that key, of the scene or of schemes, or NULL. */
 const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key);
-/* Whether the values of a key are numbers. */
+/* Returns true if the values of a key are numbers. */
 bool gm_word_is_number(const struct gm_scene *scene, const char *key);
 
-/* NULL if the key was not typed. */
+/* The word with that key, or NULL. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
-/* Value `index` of a list: as typed, or, of a range, in `text` (GM_TEXT_SIZE bytes) as it would be. */
+/* Value `index` of a list: as typed, or, for a range, written to `text` (GM_TEXT_SIZE bytes) as it would
+   be typed. */
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
 
-/* Makes an overlay=yes among them overlay=no: there are more lanes than colours. False when memory is short. */
+/* Changes overlay=yes to overlay=no: there are more lanes than colours. Returns false when out of memory. */
 bool gm_words_separate(struct gm_words *words);
 
-/* Whether a common key that has choices was given its second one: yes, cost. */
+/* Returns true if a common key with choices has the second one: yes, cost. */
 bool gm_words_chosen(const struct gm_words *words, const char *key);
 
-/* Whether piece `index` of a list and the one before it (of the first: behind it) are probably one number
-   with a comma as its decimal mark: 0,5 or 1,05. Writes it with a point. */
+/* Returns true if piece `index` of a list and the one before it (for the first: after it) are probably one
+   number with a comma as its decimal mark: 0,5 or 1,05. Writes it with a point. */
 bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size);
 #define GM_DECIMAL_POINT "the decimal mark is a point (%s), a comma separates the values of a list"
 
-/* How many runs they make: the product of the lists' lengths, or, zipped, their length. False with a
-   sentence, which more than `most` make too. */
+/* Counts the runs: the product of the lists' lengths, or their length with zip. Returns false with a
+   sentence, also if there are more than `most`. */
 bool gm_words_count(const struct gm_words *words, size_t most, size_t *count, char *message);
 
-/* Which value of list i run number `lane` takes. The first list changes slowest. */
+/* The index of run `lane`'s value in list i. The first list changes slowest. */
 size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
 
-/* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */
+/* "SCENE key=value ..."; malloc'ed. Returns NULL when out of memory. */
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words);
 
 #endif

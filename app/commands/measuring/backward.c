@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint backward: the modified Hamiltonian that a scheme keeps, by where it is cut off and by the step. */
+/* geomint backward: the modified Hamiltonian that a scheme conserves, by truncation order and step size. */
 #include <math.h>
 #include <stdio.h>
 

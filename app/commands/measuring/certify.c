@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint certify: the claims against what is measured, and against what theory says of the coefficients. */
+/* geomint certify: the claims against measurements, and against the theory of the coefficients. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@
 #include "render/files/temporary.h"
 #include "render/picture/picture.h"
 
-/* ---- what a certificate looks like ---- */
+/* ---- the display of a certificate ---- */
 
 static void print_certificate(const struct gm_certificate *certificate)
 {
@@ -103,7 +103,7 @@ static void print_certificate(const struct gm_certificate *certificate)
 
 /* ---- the diagram of the order ---- */
 
-/* Errors against dt, beside lines of the order that is claimed. Of a name that several rows have, each has its line. */
+/* Errors against dt, with lines of the claimed order; each row of a shared name has its line. */
 struct orders {
     const struct gm_certificate *certificates;
     size_t count;
@@ -118,7 +118,7 @@ static bool are_known(const struct orders *orders)
     return points > 0;
 }
 
-/* Where the line of the claimed order begins: that part of the largest step's error, where it hides nothing. */
+/* The start of the claimed order's line, as a part of the error at the largest step; it hides no points. */
 static const double part_below = 0.3;
 
 static void find_axes(const struct orders *orders, struct gm_axis *steps, struct gm_axis *errors)
@@ -216,8 +216,8 @@ static bool write_orders(const void *data, const char *path)
 
 /* ---- the command ---- */
 
-/* As a text or as JSON; `system` is what it was measured on, NULL: the problems that schemes are certified
-   on. What - is written to gets nothing else. */
+/* Prints text or JSON. `system`: the system of the measurement; NULL: the problems for certificates. A
+   stream that an output option claims with - gets nothing else. */
 static void show(const struct gm_options *options, const struct gm_certificate *certificate,
                  const char *system)
 {
@@ -229,7 +229,7 @@ static void show(const struct gm_options *options, const struct gm_certificate *
     }
 }
 
-/* The diagram, where it is asked for; `status` says what the certificates came to. */
+/* Writes the diagram if it was requested; `status`: the verdict of the certificates. */
 static int chart(const struct gm_options *options, const struct gm_certificate *certificates, size_t count,
                  int status)
 {
@@ -255,12 +255,12 @@ static int chart(const struct gm_options *options, const struct gm_certificate *
     return written == GM_EXIT_OK ? status : written;
 }
 
-/* The schemes that are certified, and what came of them. */
+/* The schemes to certify, and their results. */
 struct certifying {
     const struct gm_scheme **schemes;
     const struct gm_options *options;
     struct gm_certificate *certificates; /* a place for each scheme, as there are few */
-    bool *lost;                          /* for want of memory */
+    bool *lost;                          /* true if memory was short */
     size_t count, certified, broken;
 };
 
@@ -298,7 +298,7 @@ static bool is_interrupted(void *self)
 
 /* ---- on one system ---- */
 
-/* The scheme is the first word, the others say more of the system. */
+/* The scheme is the first word, the others describe the system. */
 static int certify_on(const struct gm_options *options)
 {
     const struct gm_arguments *typed = &options->arguments;

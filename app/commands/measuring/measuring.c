@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the commands that measure have in common: their diagram and their table, as their options say, and of those that
-   are studies of the explorer too all but how they print. */
+/* The common part of the commands that measure: diagrams and tables by options, and, for the explorer's
+   studies, everything but the printing. */
 #include "app/commands/measuring/measuring.h"
 
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "core/basics.h"
 #include "core/memory.h"
 
-/* "stability kepler dt=0.1": what `again` reads. */
+/* "stability kepler dt=0.1": the words for `again`. */
 static const char *command_line(const char *command, const struct gm_options *options)
 {
     struct gm_arena *arena = options->arena;

@@ -6,13 +6,13 @@
 #include "app/grid/grid.h"
 #include "render/picture/picture.h"
 
-/* Writes the PNG and the CSV of a command that measures, as its options say, and tells of it. They are called
-   `name` where the options have none. Returns the exit status. */
+/* Writes the PNG and the CSV of a measuring command, as its options demand, and reports them. `name` is
+   their default name. Returns the exit status. */
 int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
                      const void *data, void (*draw)(const void *data, struct gm_picture *picture),
                      bool (*write)(const void *data, const char *path));
 
-/* How a study prints: as text, and of a line as JSON the members before and behind its runs, which are called `cells`. */
+/* The printer of a study: text, or a line of JSON with members before and after its runs, called `cells`. */
 struct gm_study_printer {
     void (*print)(const struct gm_grid *grid);
     const char *cells;

@@ -43,7 +43,7 @@ static double place(const struct region *region, size_t i)
     return -region->reach + 2 * region->reach * (double)i / (SIDE - 1);
 }
 
-/* Whether the family keeps more than one step in mind. */
+/* The number of steps to measure: a family with stored steps needs more than one. */
 static int64_t steps_of(const struct gm_scheme *scheme)
 {
     return scheme->family->not_resumable ? 24 : 1;

@@ -22,7 +22,7 @@ static size_t cores_of(const struct gm_options *options)
     return options->jobs > 0 ? (size_t)options->jobs : gm_pool_cores();
 }
 
-/* Ends the command unless the runs are to be made. */
+/* Ends the command unless the user agrees to the runs. */
 static void confirm(const struct gm_sweep *sweep, const struct gm_options *options)
 {
     const size_t runs = gm_sweep_share(sweep);
@@ -49,7 +49,7 @@ static bool is_status(const char *word)
     return false;
 }
 
-/* Whether a picture is asked for. */
+/* Returns true if a picture is requested. */
 static bool is_drawn(const struct gm_options *options)
 {
     return options->out || options->output;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the tables say, in words, so that `list`, the manual, the pages and completion agree; and docs/schemes.md and
-   docs/scenes.md, as the program knows itself. */
+/* The tables in words, for `list`, the manual, the pages and completion; and the generated docs/schemes.md
+   and docs/scenes.md. */
 #include "app/commands/reference/reference.h"
 
 #include <math.h>

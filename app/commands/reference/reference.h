@@ -5,9 +5,9 @@
 #include "core/theory/theory.h"
 #include "scenes/common/lane.h"
 
-/* What the tables say, in words: for `list`, the manual, the pages and completion, so that they agree. */
+/* The tables in words, for `list`, the manual, the pages and completion. */
 
-/* What a parameter may be: "0 to 1", "light, dark", "a word". Returns text. */
+/* The range of a parameter: "0 to 1", "light, dark", "a word". Returns text. */
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size);
 
 /* The letters of a scheme's claims, "S=R"; needs GM_CLAIM_COUNT + 1 bytes. */
@@ -17,7 +17,7 @@ void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters);
 void gm_catalogue_schemes_markdown(void);
 void gm_catalogue_scenes_markdown(void);
 
-/* What theory says of a scheme, on standard output, as lines that begin with `indent`. */
+/* Prints the theory of a scheme to standard output, as lines that begin with `indent`. */
 void gm_theory_print(const struct gm_theory *theory, const char *indent);
 
 /* --version: the program and the libraries. Returns the exit status. */

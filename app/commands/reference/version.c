@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint --version: the program, what it can do here, and the libraries it runs with; Cairo and CHOLMOD, which are
-   loaded only for PDF and for flows, are those that it was made with. What paints its pictures is told by
-   `geomint terminal`. */
+/* geomint --version: the program, its features here, and its libraries. Cairo and CHOLMOD are loaded only
+   for PDF and for flows; their versions are those of the build. `geomint terminal` reports the painter. */
 #include <curses.h>
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -39,7 +38,7 @@ static void print_libraries(void)
            CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION);
 }
 
-/* What depends on programs of others is looked for, and started only when it is wanted. */
+/* Looks for external programs without starting them. */
 static void print_features(void)
 {
     char path[GM_CACHE_PATH], kernels[GM_CACHE_PATH], message[GM_MESSAGE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which modified Hamiltonian a scheme keeps: its error by step and truncation. */
+/* The modified Hamiltonians that schemes conserve: their errors by step size and truncation. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 /* ---- layout ---- */
 
-/* Its place among the schemes that the scene prefers; behind them all where it is none. */
+/* The rank of a scheme among those that the scene prefers; after them if it is not one. */
 static size_t rank_of(const struct gm_scene *scene, const struct gm_scheme *scheme)
 {
     size_t rank = 0;
@@ -22,7 +22,8 @@ static size_t rank_of(const struct gm_scene *scene, const struct gm_scheme *sche
     return rank;
 }
 
-/* How long work-precision runs, five steps around the scene's own, and the first scheme with a modified energy. */
+/* The duration of work-precision, five steps around the scene's default, and the first scheme with a
+   modified energy. */
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
     if (!scene->asked_shown) {
@@ -76,7 +77,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
 
 /* ---- runs ---- */
 
-/* From the last two terms that are there, |dt^k H_k| = C k! (dt / gamma)^k. */
+/* The gamma of the last two terms, |dt^k H_k| = C k! (dt / gamma)^k. */
 static double gamma_of(const struct gm_grid_cell *cell)
 {
     int last = GM_MODIFIED_POWER;
@@ -136,11 +137,11 @@ static void look(const struct gm_lane *lane, struct gm_modified_energy *energy, 
     gm_modified_energy_terms(energy, y, terms);
 }
 
-/* Runs a lane; `y` is scratch. */
+/* Advances a lane to its end; `y` is scratch. */
 static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_modified_energy *energy,
                   double *y, struct gm_grid_cell *cell)
 {
-    enum { LOOKS = 400 }; /* at a run, at most */
+    enum { LOOKS = 400 }; /* the largest number of sampled steps */
     double first[GM_POWERS], terms[GM_POWERS];
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
@@ -151,7 +152,7 @@ static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_mo
         if (i > 0) {
             gm_grid_advance(grid, lane, step, INFINITY);
         }
-        /* by a shorter step, whose H~ is another one; or on the way */
+        /* stopped by the user, or by a shorter step, which has another H~ */
         if (gm_lane_stopped(lane) || gm_listener_stops(grid->listener)) {
             break;
         }
@@ -210,7 +211,7 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
 
 static const char *const powers[GM_POWERS] = {"H", "to Δt", "to Δt²", "to Δt³", "to Δt⁴", "to Δt⁵", "to Δt⁶"};
 
-/* What a logarithmic axis can show of an error. */
+/* Returns true if a logarithmic axis can show an error. */
 static bool is_drawn(const struct gm_grid_cell *cell, int k)
 {
     return cell->tried && cell->errors[k] > 1e-18 && cell->errors[k] < 1e3;
@@ -231,7 +232,7 @@ static void range_of(const struct gm_grid *grid, struct gm_axis *steps, struct g
             }
         }
     }
-    if (errors->low > errors->high) { /* there is nothing but round-off */
+    if (errors->low > errors->high) { /* only round-off is left */
         *steps = (struct gm_axis){.label = "Δt", .scale = GM_LOG, .low = 0.1, .high = 1};
         errors->low = 1e-16;
         errors->high = 1;
@@ -265,7 +266,7 @@ static void draw_line(const struct gm_grid_line *line, const struct gm_axis *ste
     }
 }
 
-/* Against the power: where it is best to cut off. */
+/* Draws the error against the power, which shows the best truncation. */
 static void draw_cuts(const struct gm_grid_line *line, const struct gm_axis *errors,
                       struct gm_picture *picture, double *points)
 {

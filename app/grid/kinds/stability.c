@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which step keeps which scheme bounded or accurate: a step in the plan's unit over a parameter. */
+/* The steps for which a scheme is bounded or accurate: a step in the plan's unit over a parameter. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
-    enum { MOST = 6 }; /* of the scene's schemes, where the plan names none */
+    enum { MOST = 6 }; /* schemes of the scene, if the plan gives none */
     if (!scene->stability) {
         gm_arena_refuse(grid->arena, "scene %s has no stability map: %s", scene->name,
                         scene->no_stability ? scene->no_stability
@@ -106,7 +106,7 @@ static enum gm_cell_verdict verdict(const struct gm_grid *grid, const struct gm_
     return grid->accuracy < INFINITY && !(cell->error <= grid->accuracy) ? GM_WRONG : GM_BOUNDED;
 }
 
-/* A run that takes longer than this is judged where it is. */
+/* CPU time after which a run is judged by its current state */
 static const double most_seconds = 10;
 
 static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
@@ -138,7 +138,7 @@ static double largest_to(const struct gm_grid *grid, struct gm_lane *lane, int64
     return largest;
 }
 
-/* The end to the start; of a conserved quantity that may start at 0 as a part of its size. */
+/* The end divided by the start; a conserved quantity that may start at 0 is measured by its size. */
 static double ratio_of(const struct gm_lane *lane, const struct gm_observable *conserved, double before,
                        double after)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which accuracy costs how much: from the words of the command line to schemes, steps and a measure; error and cost
+/* The cost of accuracy: from the words of the command line to schemes, steps and a measure; error and cost
    of every scheme with every step. */
 #include <math.h>
 #include <stdio.h>
@@ -34,8 +34,8 @@ static bool is_typed(const struct gm_grid *grid, const char *key)
     return gm_arguments_have(grid->typed, word);
 }
 
-/* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
-   those. */
+/* Lanes may differ only in scheme, dt, resolution and ratio, and in values that follow from those unless
+   typed. */
 static bool is_one_problem(const struct gm_grid *grid)
 {
     const struct gm_request *request = &grid->request;
@@ -56,7 +56,7 @@ static bool is_one_problem(const struct gm_grid *grid)
     return true;
 }
 
-/* Whether the ladders or the lines of the diagram have the values of this word. */
+/* Returns true if the ladders or the lines of the diagram vary this word. */
 static bool is_varied(const struct gm_grid *grid, const char *word)
 {
     const char *const keys[] = {"scheme", "dt", "until", grid->parameter ? grid->parameter->key : NULL,
@@ -82,7 +82,7 @@ static void note_settings(struct gm_grid *grid, const struct gm_arguments *words
     }
 }
 
-/* Takes "best" out of the list of schemes, wherever it stands; false: it is not among them. */
+/* Takes "best" out of the list of schemes; false: it is not among them. */
 static bool take_best(struct gm_arguments *words)
 {
     static const char key[] = "scheme=", best[] = "best";
@@ -95,7 +95,7 @@ static bool take_best(struct gm_arguments *words)
         while (gm_span_take(list, &rest, ",", &name)) {
             if (name.end - name.begin == sizeof best - 1 &&
                 memcmp(list + name.begin, best, sizeof best - 1) == 0) {
-                /* with the comma behind it, or else that before it, so that something is left to be alike */
+                /* cut with the comma after it, or else the one before, so that the rest is a list */
                 const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
                 const size_t from = last && !alone ? name.begin - 1 : name.begin,
                              to = last ? name.end : rest.begin;
@@ -180,7 +180,7 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
     }
 }
 
-/* Whether a scheme is measured where none is named: of two names of one method one is. */
+/* Returns true if a scheme is measured by default; a method with two names is measured once. */
 static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *scheme, const struct gm_lane *lane)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -194,7 +194,7 @@ static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *schem
            !(same && is_entrant(grid, same, lane));
 }
 
-/* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
+/* Chooses the given schemes, or all that fit `lane`'s problem and are not the reference. */
 static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named)
 {
     const struct gm_request *request = &grid->request;
@@ -251,7 +251,7 @@ static void choose_steps(struct gm_grid *grid)
     }
 }
 
-/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+/* Chooses the values of the words, or those of the plan if the words give only one, which is not a ladder. */
 static void choose_resolutions(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -294,8 +294,8 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
         gm_chosen_refuse(scene, grid->measure, message);
         gm_arena_refuse(grid->arena, "%s", message);
     }
-    /* at the start already a measure can say nothing with these parameters, as a distance from an exact
-       solution that there is not; or with this scheme, but then others may say more */
+    /* the measure may be undefined with these parameters, as a distance from a missing exact solution, or
+       only with this scheme; others may then have it */
     const struct gm_observable *observable = gm_scene_observable_at(scene, (size_t)found);
     if (observable->why || isfinite(gm_lane_observe(lane, (size_t)found))) {
         grid->measure_title = observable->title;
@@ -347,11 +347,11 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
 
 enum { REPEATS = 5 };
 
-/* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
+/* A measurement is repeated up to this time, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
-/* A run of the trusted scheme to the end that is not timed, which reports how far it is; with another value of a
-   parameter where `row` is not NULL. */
+/* A run of the trusted scheme to its end, which is not timed and reports its progress; with another value
+   of a parameter unless `row` is NULL. */
 static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
 {
     char message[GM_MESSAGE];
@@ -371,7 +371,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
         snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
         gm_listener_hears(grid->listener, what, 0, gm_grid_cells(grid));
         const double share = (percent + 1) / 100.;
-        /* the carried rounding errors are worth their price here */
+        /* the carried rounding errors are worth their cost here */
         gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
     }
     if (lane->run->status != GM_OK || gm_listener_stops(grid->listener)) {
@@ -381,8 +381,8 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     return lane;
 }
 
-/* The run that errors are distances from, of a scene that measures these: at twice the finest resolution, with half the
-   shortest step. */
+/* The reference run of a scene that measures distances from it: at twice the finest resolution, with half
+   the shortest step. */
 static void run_finer(struct gm_grid *grid)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -397,7 +397,7 @@ static void run_finer(struct gm_grid *grid)
     grid->finer = run_reference(grid, row, finer);
 }
 
-/* The scheme of the reference run: the plan's, or that of the highest order which fits; NULL: there is none. */
+/* The scheme of the reference run: the plan's, or the fitting one with the highest order, or NULL. */
 static const struct gm_scheme *trusted_of(const struct gm_grid *grid, const struct gm_problem *problem)
 {
     const struct gm_work *work = grid->request.scene->work;
@@ -478,7 +478,7 @@ static double error_of(const struct gm_grid *grid, const struct gm_lane *lane, c
     return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
 }
 
-/* The same of a scheme that chose its steps and ends behind `until`: the solution is taken on to where it ends. */
+/* The same for an adaptive scheme that ends after `until`: the solution is advanced to its end. */
 static double error_behind(const struct gm_grid *grid, const struct gm_lane *lane)
 {
     const struct gm_problem *problem = &lane->problem;
@@ -505,7 +505,7 @@ static double error_behind(const struct gm_grid *grid, const struct gm_lane *lan
     return error;
 }
 
-/* Why the lane has no such number, where it says so. */
+/* Writes the lane's reason for the missing number, or "". */
 static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, char *message)
 {
     const int observable = gm_scene_observable(lane->scene, grid->measure);
@@ -513,8 +513,8 @@ static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, 
     gm_refuse(message, "%s", reason ? reason : "");
 }
 
-/* Makes and times a run; returns the time, INFINITY where it was given up. A run that its scene may stop is followed in
-   any case. */
+/* Makes a run and returns its time, INFINITY if it was given up. A run that its scene may stop is observed
+   in any case. */
 static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
 {
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
@@ -523,7 +523,7 @@ static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
     return gm_grid_goes_on(grid, lane, steps) ? INFINITY : seconds;
 }
 
-/* Once more, looking on the way, for an observable that recalls the past. Returns what it then says. */
+/* Repeats a run in slices, for an observable that needs the past. Returns its value. */
 static double follow(const struct gm_grid *grid, const struct gm_scheme *scheme, struct gm_grid_cell *cell,
                      char *message)
 {
@@ -542,7 +542,7 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
 {
     const struct gm_scheme *scheme = lane->scheme;
     if (grid->solution && scheme == grid->trusted && cell->dt <= 1.01 * grid->reference_step) {
-        cell->tried = false; /* that is the run that the others are measured against */
+        cell->tried = false; /* the run is the reference of the others */
         return;
     }
     double spent = cell->seconds = time_run(grid, lane);
@@ -568,8 +568,8 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
     }
 }
 
-/* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
-   varies, the resolution rules. */
+/* Returns true if shorter steps are of no use: round-off dominates, or they take too long, or the
+   resolution dominates. */
 static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *last)
 {
     const struct gm_grid_cell *before = last - 1;
@@ -582,7 +582,7 @@ static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *las
 static bool is_needless(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell)
 {
     const struct gm_grid_cell *last = &line->cells[cell] - 1;
-    const size_t before = cell % grid->steps.count; /* of the same resolution */
+    const size_t before = cell % grid->steps.count; /* cells before it with the same resolution */
     return line->ended || (before > 0 && !last->tried) || (before > 1 && is_enough(grid, last));
 }
 

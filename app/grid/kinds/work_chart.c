@@ -23,14 +23,14 @@ static bool holds(const struct gm_grid_line *const *chosen, size_t count, const 
     return false;
 }
 
-/* Whether more than one run was made. */
+/* Returns true if more than one run was made. */
 static bool is_line(const struct gm_grid_line *line)
 {
     return line->count > 1 && line->cells[1].tried;
 }
 
-/* The cheapest at each error by either cost, then the scene's preferred ones, then, where there are few,
- * others. */
+/* Chooses lines to name: the cheapest at each error by either cost, then the scene's preferred schemes,
+ * then, if there are few, others. */
 static size_t choose(const struct gm_grid *grid, const struct gm_grid_line *chosen[NAMED])
 {
     size_t count = 0;
@@ -78,12 +78,12 @@ static size_t points_of(const struct gm_grid_line *line, enum gm_cost cost, doub
     return count;
 }
 
-/* Where names stand. Everything in parts of the panel's width and height. */
+/* A rectangle for a name, in fractions of the panel's width and height. */
 struct place {
     double left, low, right, high;
 };
 
-/* A drawn line, as it stands in the panel. */
+/* A line that the panel shows. */
 struct drawn {
     const double *points;
     size_t count;
@@ -94,7 +94,7 @@ static double across(const struct gm_axis *axis, double value)
     return log(value / axis->low) / log(axis->high / axis->low);
 }
 
-/* How much of a line runs through a place, in steps of a hundredth of the panel. */
+/* The part of a line that runs through a place, in steps of a hundredth of the panel. */
 static double covered(const struct gm_panel *panel, const struct drawn *line, const struct place *place)
 {
     double steps = 0;
@@ -127,7 +127,7 @@ static struct place name_place(const struct gm_panel *panel, const struct drawn 
             const double left = side & 1 ? u - aside - wide : u + aside;
             const double low = side & 2 ? v - 0.8 * tall : v - 0.2 * tall;
             const struct place place = {left, low, left + wide, low + tall};
-            /* later points lie lower, where lines part */
+            /* later points are lower, and lines separate there */
             double cost =
                 0.2 * (double)side + 0.5 * (double)(lines[own].count - k) / (double)lines[own].count;
             cost += place.left < 0 || place.right > 1 ? 40 : 0;
@@ -185,7 +185,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         const size_t count = points_of(&grid->lines[i], cost, points);
         for (size_t k = 0; k < count; k++) {
             gm_range_add(&panel->x.low, &panel->x.high, points[2 * k]);
-            /* an error above 10 says no more than 10 does */
+            /* errors above 10 are drawn as 10 */
             gm_range_add(&panel->y.low, &panel->y.high, fmin(points[2 * k + 1], 10));
         }
     }

@@ -29,7 +29,7 @@ struct gm_sweep_chart {
     const struct gm_sweep *sweep;
     size_t keys[2], key_count; /* the words along the axes */
     size_t bins[2];            /* 1 up, in a graph */
-    size_t lines;              /* of each observable: the combinations of all other words */
+    size_t lines;              /* lines per observable: the combinations of all other words */
     size_t shown;              /* observables: the first of the sweep's */
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
     size_t failed;             /* runs, which are left out */
@@ -43,7 +43,7 @@ static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
     return number && word->count > 1;
 }
 
-/* What the picture has along its axes, and how many lines; false with a sentence if that is no picture. */
+/* Plans the picture's axes and lines; returns false with a sentence if the sweep has none. */
 static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, char *message)
 {
     size_t axes = 0;
@@ -90,7 +90,7 @@ bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message)
     return plan(&chart, sweep, message);
 }
 
-/* Which line a run belongs to. */
+/* The index of a run's line. */
 static size_t line_of(const struct gm_sweep_chart *chart, size_t run)
 {
     const struct gm_words *words = &chart->sweep->words;
@@ -124,7 +124,7 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
 
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
-    enum { OBSERVABLES = 7 }; /* cells behind the status: warning, t, steps, evaluations, solves, seconds */
+    enum { OBSERVABLES = 7 }; /* cells after the status: warning, t, steps, evaluations, solves, seconds */
     if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
@@ -190,8 +190,7 @@ static double mean_of(const struct bin *bin)
     return bin->runs > 0 ? bin->sum / (double)bin->runs : NAN;
 }
 
-/* The values of an observable that are drawn: their ends, and whether they are better told apart by
-   powers. */
+/* The drawn values of an observable: their ends, and the choice of a logarithmic scale. */
 struct extent {
     double low, high;
     bool logarithmic, is_signed;
@@ -243,7 +242,7 @@ static void order_bins(const struct gm_sweep_chart *chart, size_t axis, size_t *
     }
 }
 
-/* Whether an axis has the scale of powers: equal factors were asked for, or the parameter is one of those. */
+/* Returns true if an axis is logarithmic: by equal factors in the range, or by its parameter. */
 static bool is_logarithmic(const struct gm_sweep_chart *chart, size_t axis)
 {
     const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
@@ -285,7 +284,7 @@ static const char *short_title(const struct gm_sweep_chart *chart, size_t observ
     return formula ? gm_picture_text(picture, "%.*s", (int)(formula - title), title) : title;
 }
 
-/* What sets a line apart: "Verlet, system = pendulum". */
+/* The name that distinguishes a line: "Verlet, system = pendulum". */
 static const char *line_name(const struct gm_sweep_chart *chart, size_t line, struct gm_picture *picture)
 {
     const struct gm_words *words = &chart->sweep->words;
@@ -312,7 +311,7 @@ static const char *line_name(const struct gm_sweep_chart *chart, size_t line, st
 
 static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, struct gm_picture *picture)
 {
-    enum { SINGLE = 64 }; /* so many points are told apart */
+    enum { SINGLE = 64 }; /* the largest number of separate points */
     const size_t count = chart->bins[0];
     const struct extent extent = extent_of(chart, observable);
     double *points = gm_picture_memory(picture, 3 * count * sizeof *points), *values = points + 2 * count;
@@ -355,7 +354,7 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
 struct cells {
     double *points, *values;
     int *triangles;
-    size_t count; /* of cells */
+    size_t count; /* number of cells */
 };
 
 static void add_cell(struct cells *cells, const double x[2], const double y[2], double value)

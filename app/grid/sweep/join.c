@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shares of a sweep: what it was is noted beside them, and their rows become one table. */
+/* The shards of a sweep: a note beside them has the sweep's words, and their rows become one table. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message
     return good;
 }
 
-/* What stands behind a word that begins a line; NULL: nothing does. */
+/* The text after a word that begins a line, or NULL. */
 static char *find(char *note, const char *word)
 {
     char *at = note ? strstr(note, word) : NULL;
@@ -90,8 +90,8 @@ static void allow_files(void)
     }
 }
 
-/* Opens the share behind its head. A share that is not there has no rows; one that is being written, or that
-   is of another sweep, is refused. */
+/* Opens the shard after its head. A missing shard has no rows; one that is being written, or another
+   sweep's, is refused. */
 static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard,
                        struct gm_csv_lines *share, char *message)
 {
@@ -118,7 +118,7 @@ static bool merge(const struct gm_sweep *sweep, struct gm_csv_lines *shares, FIL
     enum { NAMED = 10 };
     for (size_t run = 0; run < sweep->count; run++) {
         struct gm_csv_lines *share = &shares[run % sweep->shards];
-        const char *row = gm_csv_next(share); /* a torn row is none */
+        const char *row = gm_csv_next(share); /* an incomplete row does not count */
         if (row && gm_sweep_front(sweep, run, row) == 0) {
             return gm_refuse(message, "share %zu has a row that is not that of run %zu",
                              run % sweep->shards + 1, run);

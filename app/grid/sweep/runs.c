@@ -18,7 +18,7 @@
 const char gm_sweep_statuses[] =
     "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused, warning";
 
-/* Whether a word says how runs are made of the others, and is no key of a run. */
+/* Returns true if a word determines the list of runs and is not a key of a run. */
 static bool is_of_the_list(const struct gm_word *word)
 {
     return strcmp(word->key, "zip") == 0;
@@ -39,7 +39,7 @@ static bool add_word(struct gm_arguments *arguments, const char *key, const char
     return good;
 }
 
-/* Whether a word is a parameter that schemes bring, and that this one does not. */
+/* Returns true if a word is a parameter of schemes that this one does not have. */
 static bool is_idle(const struct gm_sweep *sweep, const struct gm_word *word, const struct gm_scheme *scheme)
 {
     const struct gm_parameter *setting = gm_setting_find(word->key);
@@ -47,8 +47,8 @@ static bool is_idle(const struct gm_sweep *sweep, const struct gm_word *word, co
            !gm_scheme_takes(scheme, setting);
 }
 
-/* The words of run number `run`, which are to be closed; `instead` of key `key`, where that is not NULL. What
-   its scheme does not take is left out, as lanes leave it out, where another one takes it. */
+/* The words of run number `run`, with `instead` for the key `key` unless it is NULL. A parameter that its
+   scheme does not have is left out if another scheme of the sweep has it. The caller closes the words. */
 static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, const char *instead,
                      struct gm_arguments *arguments)
 {
@@ -79,7 +79,7 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
     return good;
 }
 
-/* A text about a run; malloc'ed, NULL when memory is short. */
+/* A text about a run; malloc'ed. Returns NULL when out of memory. */
 static char *text_of(const struct gm_sweep *sweep, size_t run,
                      bool (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
 {
@@ -124,7 +124,8 @@ static size_t middle_of(const struct gm_sweep *sweep)
     return sweep->words.zip ? sweep->count / 2 : run;
 }
 
-/* Asks for a run as `geomint run` would; the request is to be closed in any case. False with a sentence. */
+/* Reads a run's words as `geomint run` does. Returns false with a sentence; the caller closes the request
+   in any case. */
 static bool ask(const struct gm_sweep *sweep, size_t run, const char *key, const char *instead,
                 struct gm_request *request, char *message)
 {
@@ -146,8 +147,8 @@ static bool try_run(struct gm_sweep *sweep, size_t run, const char *key, const c
     return good;
 }
 
-/* Whether the first run can be asked for, with another value of a key, or else the one in the middle: in a
-   corner of ranges there may be no run. False with a sentence on the first. */
+/* Returns true if the first run can be made with another value of a key, or else the middle one: a corner
+   of ranges may have no run. Returns false with a sentence on the first. */
 static bool try_some(struct gm_sweep *sweep, const char *key, const char *value, char *message)
 {
     char ignored[GM_MESSAGE];
@@ -159,7 +160,7 @@ static bool try_some(struct gm_sweep *sweep, const char *key, const char *value,
     return good;
 }
 
-/* Whether a value is one of its key. */
+/* Returns true if the key can have this value. */
 static bool fits(const struct gm_scene *scene, const char *key, const char *value)
 {
     char *own = gm_scene_defaults(scene);
@@ -174,8 +175,7 @@ static bool fits(const struct gm_scene *scene, const char *key, const char *valu
     return good;
 }
 
-/* A run can be asked for with all schemes, and every list holds values of its key: of a range the ends
-   tell. */
+/* Checks a run with each scheme, and that every list holds values of its key: for a range, both ends. */
 static bool check(struct gm_sweep *sweep, char *message)
 {
     char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
@@ -222,7 +222,7 @@ static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
     for (size_t i = 0; i < sweep->words.count; i++) {
         if (is_column(&sweep->words.list[i])) {
             const char *key = sweep->words.list[i].key;
-            /* behind the status stands how many were made */
+            /* the number of steps made is a column after the status */
             fprintf(stream, ",%s", strcmp(key, "steps") == 0 ? "steps_asked" : key);
         }
     }
@@ -315,7 +315,7 @@ size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line
     return same ? length : 0;
 }
 
-/* The cells behind the front, of a run that has ended or could not begin (no lane). */
+/* Puts the cells after the front, for a run that has ended or could not begin (no lane). */
 static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
                     const char *warning, const double *values, FILE *stream)
 {
@@ -341,7 +341,7 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
     fputc('\n', stream);
 }
 
-/* Whether what is told follows from the last state alone. */
+/* Returns true if all chosen observables follow from the last state alone. */
 static bool is_of_the_end(const struct gm_sweep *sweep)
 {
     bool end = !sweep->scene->stop;
@@ -353,7 +353,7 @@ static bool is_of_the_end(const struct gm_sweep *sweep)
     return end;
 }
 
-/* Asks for the run as `geomint run` would, and makes it, unless a status says why it cannot be. */
+/* Reads the run's words as `geomint run` does, and makes it, unless a status gives a reason against it. */
 static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
                      const char *status, struct gm_sweep_row *row)
 {

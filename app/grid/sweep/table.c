@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of a sweep: rows at its end, one write each; what is there is read again, checked and kept. */
+/* The table of a sweep: rows are appended with one write each; existing rows are read, checked and kept. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -22,16 +22,16 @@
 struct gm_sweep_table {
     const struct gm_sweep *sweep;
     char *path;              /* NULL: standard output */
-    int fd;                  /* where rows go */
-    bool unheard;            /* nobody reads what goes there */
-    off_t size;              /* of the whole rows there */
-    size_t there;            /* rows: of the first runs of the share */
-    struct gm_csv_lines old; /* of the table as it was found; its stream has the lock as well */
-    /* Where rows are made anew: they go to PATH.part, in their order with those that are kept. */
+    int fd;                  /* the file of new rows */
+    bool unheard;            /* the output has no reader */
+    off_t size;              /* size of the whole rows, in bytes */
+    size_t there;            /* number of rows: the first runs of the shard */
+    struct gm_csv_lines old; /* the table before this run; its stream has the lock too */
+    /* the file PATH.part, if rows are recomputed: it gets all rows in their order */
     char *part;
     size_t *again; /* the numbers of these rows */
     size_t again_count;
-    size_t copied; /* rows of `old` that are in the other file, or were made anew */
+    size_t copied; /* rows of `old` that were copied to the other file, or recomputed */
 };
 
 static bool refuse_writing(char *message, const char *path)
@@ -46,7 +46,7 @@ char *gm_sweep_share_path(const char *path, size_t shard, size_t shards)
     return shards == 1 ? strdup(path) : gm_text("%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
 }
 
-/* ---- what is there ---- */
+/* ---- existing rows ---- */
 
 static size_t commas_of(const char *line)
 {
@@ -57,13 +57,14 @@ static size_t commas_of(const char *line)
     return commas;
 }
 
-/* Whether a line is the row of a run: it begins as that does, and has as many cells as the head. */
+/* Returns true if a line is the row of a run: its front is the run's, and it has as many cells as the
+   head. */
 static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line)
 {
     return gm_sweep_front(sweep, run, line) > 0 && commas_of(line) == commas_of(sweep->head);
 }
 
-/* Whether a row has this status, behind the front, or any warning, which comes next. */
+/* Returns true if a row has this status, or any warning, which is the next cell. */
 static bool has_status(const struct gm_sweep *sweep, size_t run, const char *line, const char *status)
 {
     const size_t front = gm_sweep_front(sweep, run, line);
@@ -72,7 +73,7 @@ static bool has_status(const struct gm_sweep *sweep, size_t run, const char *lin
     return has || (strcmp(status, "warning") == 0 && *warning && *warning != ',');
 }
 
-/* Whether a head is this one but for the column of warnings, which older tables have not. */
+/* Returns true if a head differs only by the column of warnings, which older tables do not have. */
 static bool is_older_head(const char *line, const char *head)
 {
     static const char column[] = "warning,";
@@ -105,7 +106,8 @@ static bool refuse_row(const struct gm_sweep_table *table, const char *line, cha
         table->path, row + 1, gm_sweep_run(sweep, row));
 }
 
-/* The head, or where the table is empty or its head torn, nothing; false with a sentence if it is another one. */
+/* Reads the head; an empty table or an incomplete head has none. Returns false with a sentence for another
+   head. */
 static bool read_head(struct gm_sweep_table *table, char *message)
 {
     const char *head = table->sweep->head;
@@ -120,7 +122,7 @@ static bool read_head(struct gm_sweep_table *table, char *message)
                                                : "its columns are others");
 }
 
-/* Notes that a row is made anew. */
+/* Notes a row to recompute. */
 static bool add_again(struct gm_sweep_table *table, size_t k, char *message)
 {
     size_t *again = realloc(table->again, (table->again_count + 1) * sizeof *again);
@@ -132,8 +134,8 @@ static bool add_again(struct gm_sweep_table *table, size_t k, char *message)
     return true;
 }
 
-/* What is there, line by line: how many rows of the sweep, and where the last one ends. False with a sentence
-   if a line is none. */
+/* Reads the existing rows, and notes their number and the end of the last one. Returns false with a
+   sentence if a line is not a row. */
 static bool read_rows(struct gm_sweep_table *table, const char *retry, char *message)
 {
     const size_t runs = gm_sweep_share(table->sweep);
@@ -164,7 +166,7 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
             table->unheard = errno == EPIPE;
             refuse_writing(message, path);
             if (table->path && ftruncate(table->fd, table->size) != 0) {
-                /* its last row stays torn, and is cut off when the table is opened again */
+                /* the last row stays incomplete, and is cut off when the table is opened again */
             }
             return false;
         }
@@ -174,7 +176,7 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
     return true;
 }
 
-/* Where rows are made anew, all go to another file, which takes the table's place in the end. */
+/* Begins the other file for a table with recomputed rows; in the end it replaces the table. */
 static bool begin_anew(struct gm_sweep_table *table, char *message)
 {
     table->part = gm_text("%s.part", table->path);
@@ -269,8 +271,8 @@ const char *gm_sweep_table_path(const struct gm_sweep_table *table)
 
 /* ---- filling ---- */
 
-/* Rows that may wait for an earlier one: as the work behind a run that takes long is lost when the program is
-   killed, as much as that of the run itself, the number only bounds the memory. */
+/* Rows that may wait for an earlier one. A killed program loses the work after a long run, at most as much
+   as that run; the number only bounds the memory. */
 enum { WINDOW = 1024 };
 
 struct filling {
@@ -284,7 +286,7 @@ struct filling {
     struct gm_sweep_row slots[WINDOW];
 };
 
-/* The row that piece `index` of the pool is: those made anew come before those that are not there. */
+/* The row of the pool's piece `index`: recomputed rows come before missing ones. */
 static size_t row_of(const struct gm_sweep_table *table, size_t index)
 {
     return index < table->again_count ? table->again[index] : table->there + index - table->again_count;
@@ -311,7 +313,7 @@ static void hear(struct filling *filling, size_t k)
     }
 }
 
-/* Copies the rows before `k` that are there, and passes over that one. */
+/* Copies the existing rows before `k`, and skips row `k`. */
 static bool copy_old(struct gm_sweep_table *table, size_t k, char *message)
 {
     while (table->part && table->copied < table->there && table->copied <= k) {
@@ -387,7 +389,7 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
     if (!filling->failed) {
         gm_pool_run(&pool);
     }
-    /* where that was interrupted, rows that are there stay, behind those that were made */
+    /* after an interruption the remaining existing rows follow the new ones */
     filling->failed = filling->failed || !copy_old(table, SIZE_MAX, message);
     sum->unheard = table->unheard;
     const bool good = !filling->failed;

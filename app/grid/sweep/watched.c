@@ -35,7 +35,7 @@ static void open_grid(struct gm_grid *grid)
     const char *measure = grid->requested;
     char message[GM_MESSAGE];
     struct gm_arguments *others = gm_arguments_in(grid->arena);
-    for (int i = 0; i < typed->count; i++) { /* --measure LIST stands among the words */
+    for (int i = 0; i < typed->count; i++) { /* --measure LIST is among the words */
         if (strcmp(typed->words[i], "--measure") == 0 && i + 1 < typed->count) {
             measure = typed->words[++i];
         } else {
