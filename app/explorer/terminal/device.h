@@ -157,7 +157,7 @@ void gm_console_close(void);
 /* Restores the former signal handlers. */
 void gm_console_release(void);
 
-/* Returns the next available key, as ncurses numbers it; -1 if there is none. */
+/* Returns the next available key, as ncurses numbers it; -1 if no key is available. */
 int gm_console_key(void);
 /* Returns the milliseconds to wait for the rest of an incomplete key or answer, after which gm_console_key
    returns its bytes; -1 if none is incomplete. */
@@ -300,8 +300,8 @@ bool gm_display_read(struct gm_display *display);
 /* Waits until no picture is in use. Call it before closing the picture's owner. */
 void gm_display_finish(struct gm_display *display);
 
-/* Returns the state's panel at a cell of the shown picture, and sets the point in its units; NULL if there
-   is none. */
+/* Returns the state's panel at a cell of the shown picture, and sets the point in its units; NULL without
+   a panel. */
 const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
                                          int row, double *x, double *y);
 
