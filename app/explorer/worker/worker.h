@@ -10,9 +10,9 @@
 
 struct gm_worker;
 
-/* Opens the lanes and starts the thread; gm_worker_close frees it. `wake` is an eventfd, written when a
-   shot is finished. `first` (may be NULL) is obeyed before the first step. Returns NULL on failure and
-   fills message (GM_MESSAGE bytes). */
+/* Opens the lanes and starts the thread. Returns the worker, which gm_worker_close frees; on failure fills
+   message (GM_MESSAGE bytes) and returns NULL. `wake` is an eventfd, written when a shot is finished.
+   `first` (may be NULL) is obeyed before the first step. */
 struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
                                  char *message);
 /* Writes the requested files, finishes a movie and frees the worker. `parting` (GM_MESSAGE bytes) receives
