@@ -207,7 +207,7 @@ struct gm_writer {
     size_t bound;                      /* the most bytes that may be unanswered */
     /* the terminal's cursor, colours and attributes */
     int column, row;
-    long foreground, background; /* -1: unknown */
+    long foreground, background; /* the current colours; -1: unknown */
     bool bold, reverse;
     int16_t *nearest; /* 256 colours: the index for 15 bits of colour; -1: not computed */
 };

@@ -8,7 +8,7 @@
 
 #include "core/basics.h"
 
-enum { PAGE = 10 }; /* lines */
+enum { PAGE = 10 }; /* lines per press of PgUp or PgDn */
 
 /* A page that grows downwards, scrolled by `scroll` rows. */
 struct page {

@@ -96,7 +96,7 @@ void gm_capture_close(struct gm_capture *capture);
 
 /* Saves the played system to a file if it is user-defined. */
 void gm_capture_save_system(struct gm_play *play);
-/* Saves the picture. */
+/* Saves the picture as PNG to the working directory. */
 void gm_capture_save(struct gm_play *play, enum gm_theme theme);
 /* Starts the movie, or finishes it. */
 void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme);

@@ -33,7 +33,7 @@ struct gm_worker {
     int filled;    /* index of the shot that the thread fills; the screen has the other one */
     struct gm_shot shots[2];
 
-    /* the thread's own */
+    /* owned by the thread */
     char *name; /* the scene to open with its first `schemes` schemes; NULL: the session is open */
     size_t schemes;
     bool shown; /* a shot was taken; the first precedes the first step, which may take minutes */
