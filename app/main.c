@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint: the first word is the command, or a scene for the explorer. The command's result is the exit
-   status, unless memory was short. */
+/* geomint: the first word is the command, or a scene for the explorer. The exit status is the command's,
+   or GM_EXIT_MEMORY. */
 #include <locale.h>
 #include <malloc.h>
 #include <signal.h>
@@ -22,14 +22,14 @@
 #include "render/gl/context.h"
 #include "render/pixels/canvas.h"
 
-/* The possible first words: commands and scenes. */
+/* Returns candidate i for the first word, a command or a scene. */
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
     return i < gm_command_count ? gm_commands[i].name : gm_scene_name(i - gm_command_count);
 }
 
-/* Returns true if a word is in a list, such as --help, -h, help. */
+/* Returns true if the word is one of a NULL-terminated list. */
 static bool is_one_of(const char *word, const char *const *words)
 {
     while (*words && strcmp(*words, word) != 0) {
@@ -92,26 +92,26 @@ static bool is_interrupted(void)
     return gm_interrupted;
 }
 
-/* Keeps freed buffers in the process, up to a few frames: a movie requests the same ones for every frame,
-   and fetching them again from the system, page by page, takes a seventh of a frame's time. The first
-   buffers have huge pages if available: pages of 4 KB take a sixth of the time of one picture. */
+/* A movie needs the same buffers for every frame. The process retains freed memory, up to a few frames'
+   worth: fetching it from the system page by page takes a seventh of a frame's time. The first 31 MB use
+   huge pages if the system has them: pages of 4 KB cost a sixth of the time of one picture. */
 static void keep_buffers(void)
 {
     static const size_t huge = (size_t)2 << 20, room = (size_t)31 << 20;
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    /* the end of the heap, to which it is given back */
+    /* the end of the heap, to which the block is freed */
     void *block = gm_address_space_is_limited() ? NULL : malloc(room);
     if (block) {
         const uintptr_t first = ((uintptr_t)block + huge - 1) / huge * huge;
         madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);
         free(block);
     } else {
-        gm_memory_forget(); /* the request was only for speed */
+        gm_memory_forget(); /* the block only saves time, so its failure is not a shortage */
     }
 }
 
-/* A command that runs in the body of its arena. */
+/* A command, its options and its exit status, passed to the body of the arena. */
 struct running {
     const struct gm_command_row *command;
     struct gm_options options;
@@ -130,7 +130,7 @@ static int run(int argc, char *argv[])
 {
     keep_buffers();
     setlocale(LC_CTYPE, "");
-    /* a broken pipe and a full disk are reported after the write */
+    /* the writers handle a broken pipe and a full disk */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     gm_context_answer_crashes();
@@ -147,12 +147,12 @@ static int run(int argc, char *argv[])
         if (is_one_of(argv[1], (const char *const[]){"--version", "-V", "version", NULL})) {
             return gm_version();
         }
-        const bool option = argv[1][0] == '-'; /* the explorer's */
+        const bool option = argv[1][0] == '-'; /* an option of the explorer */
         command = option ? command : gm_command_find(argv[1]);
         if (!command) {
             return unknown_command(argv[1]);
         }
-        /* a scene's name opens the explorer, and is its first word */
+        /* a scene's name opens the explorer as its first word */
         first = !option && strcmp(command->name, argv[1]) == 0 ? 2 : 1;
     }
     for (int i = first; i < argc && command->bit != GM_COMPLETE; i++) {
@@ -169,7 +169,7 @@ static int run(int argc, char *argv[])
         gm_kernel_folder(kernels, sizeof kernels);
         gm_engine_choose(options->engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         struct gm_arena *arena = gm_arena_open();
-        running.status = GM_EXIT_MEMORY; /* unless something else is known */
+        running.status = GM_EXIT_MEMORY; /* unless the command sets it */
         gm_arena_run(arena, obey, &running);
         gm_arena_close(arena);
         gm_canvas_settle();
@@ -183,8 +183,7 @@ static int run(int argc, char *argv[])
 int main(int argc, char *argv[])
 {
     const int status = run(argc, argv);
-    /* a lack of memory may have had other consequences: an apparent mistake in the request, or a smaller
-       result */
+    /* a shortage may have been reported as a mistake in the request, or have reduced the result */
     if (!gm_memory_was_short() || status == GM_EXIT_INTERRUPTED || status == GM_EXIT_PIPE) {
         return status;
     }

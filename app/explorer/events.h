@@ -8,65 +8,63 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* What the files of the explorer share: explorer.c its beginning, its loop with what is shown, and its end; input.c the
-   list of what there is, the keys and the mouse; open.c what is open, and typed lines. Everything stands under who
-   writes it. */
+/* The state that the explorer's files share: explorer.c has start, loop and end; input.c the list, keys
+   and mouse; open.c scenes and typed lines. Functions are grouped by file. */
 
-/* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
+/* The open scene, or a tour's step with its study, and its worker. */
 
 enum { GM_NAME = 256 };
 
 struct gm_open {
-    int wake;                   /* the worker's shots are announced here */
-    struct gm_display *display; /* that may be painting a picture of the worker's */
+    int wake;                   /* eventfd, written when a shot is finished */
+    struct gm_display *display; /* the display, which may be painting a picture of the worker's */
     struct gm_worker *worker;
-    const struct gm_scene *scene; /* the worker's; NULL: it makes it first */
-    char name[GM_NAME];           /* of that scene, in the list of what there is */
-    struct gm_shot *shot;         /* NULL: it has given none yet */
-    bool asked;                   /* for a shot */
-    int64_t next_shot;            /* in milliseconds: none is asked for earlier */
-    unsigned long told;           /* number of the last command line that was shown */
-    char said[GM_MESSAGE];        /* why there will be no shot, or "" */
-    struct gm_guide guide;        /* without a tour: none */
-    bool touring;                 /* the worker is led by it */
+    const struct gm_scene *scene; /* the worker's scene; NULL: not yet made */
+    char name[GM_NAME];           /* the scene's name in the list */
+    struct gm_shot *shot;         /* the last shot; NULL before the first */
+    bool asked;                   /* a shot was requested */
+    int64_t next_shot;            /* time (ms) of the next request for a shot */
+    unsigned long told;           /* number of the last command line shown */
+    char said[GM_MESSAGE];        /* the reason why there will be no shot, or "" */
+    struct gm_guide guide;        /* the guide; its tour may be NULL */
+    bool touring;                 /* the worker plays the guide's tour */
     struct gm_studies studies;
-    char *partings; /* a line for every movie that was finished by leaving its scene, or NULL */
+    char *partings; /* the lines to print in the shell at the end, or NULL */
 };
 
-/* The list of what there is. */
+/* The list of scenes, tours and files. */
 struct gm_list {
-    bool shown; /* and what is open is a look at a scene */
+    bool shown; /* the list is shown, and the open scene is a preview */
     struct gm_start start;
-    struct gm_start_entry *files; /* systems and rooms, as they were when the list was shown; names and titles
-                                     are its own */
+    struct gm_start_entry *files; /* systems and rooms of files; the list owns their names and titles */
     size_t file_count;
-    struct gm_tour *tours; /* that it offers; NULL: not read yet */
+    struct gm_tour *tours; /* the tours; NULL: not read */
     size_t tour_count;
-    bool kept;        /* that look is a scene that was left and can be gone back to */
-    int64_t look_due; /* when the chosen scene is looked at; -1: it is */
+    bool kept;        /* the open scene was left and can be resumed */
+    int64_t look_due; /* time (ms) of the next preview; -1: none is due */
 };
 
-/* The mouse. */
+/* The mouse and the hit that it holds. */
 struct gm_pointer {
     struct gm_mouse mouse;
-    struct gm_hit held; /* what the button went down on */
+    struct gm_hit held; /* the hit under the pressed button */
     bool holding;
-    int column, row; /* where it was last, while it is down */
+    int column, row; /* the last cell while the button is pressed */
 };
 
-/* Whether a line could be read, and nothing is kept of it. */
+/* Reads a line without storing it; returns false and fills fault if it is wrong. */
 typedef bool gm_line_reader(const char *line, struct gm_typed_fault *fault);
 
-struct gm_check { /* {0} has found out nothing */
+struct gm_check { /* the check of a typed line; {0} is empty */
     struct gm_job job;
     bool open;
     gm_line_reader *read;
-    char *line; /* that was asked about last */
+    char *line; /* the last line checked */
     struct gm_typed_fault fault;
 };
 
 struct gm_explorer {
-    int wake; /* the worker's shots and all signals are announced here */
+    int wake; /* eventfd for the worker's shots and all signals */
     struct gm_terminal terminal;
     struct gm_face face;
     struct gm_screen screen;
@@ -76,73 +74,73 @@ struct gm_explorer {
     struct gm_pointer pointer;
     struct gm_measure measure;
     struct gm_typed_prompt typed_prompt;
-    struct gm_check check; /* of what is typed in it */
-    bool editing;          /* the present system is asked for, to be edited */
-    int64_t held_until;    /* keys wait for what is not there yet; 0: they do not */
-    bool behind;           /* some of them may have left the terminal */
-    int late;              /* how many rounds of the terminal's answers are still to come */
-    bool dirty;            /* the screen has to be composed again */
-    bool fresh;            /* with a new picture */
-    double draw_cost;      /* seconds that composing it took the last time */
+    struct gm_check check; /* the check of the prompt's line */
+    bool editing;          /* the current system's line was requested for editing */
+    int64_t held_until;    /* time (ms) until which keys wait for a scene; 0: they do not */
+    bool behind;           /* the console may have waiting keys */
+    int late;              /* rounds of the terminal's answers still to come */
+    bool dirty;            /* the screen must be composed again */
+    bool fresh;            /* the picture is new */
+    double draw_cost;      /* seconds of the last composition */
     bool leave;
     int status;
-    char message[GM_MESSAGE]; /* said when the terminal is the shell's again */
+    char message[GM_MESSAGE]; /* printed when the terminal is restored */
 };
 
-/* Ends the explorer with an exit status. */
+/* Ends the explorer's loop; `status` is the exit status. */
 static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 {
     explorer->leave = true;
     explorer->status = status;
 }
 
-/* ---- what is open ---- */
+/* ---- scenes ---- */
 
-/* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
+/* These replace the open scene. They return false and fill message (GM_MESSAGE bytes) on failure. */
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
-/* A scene, a system or a room as its name alone gives it; a preview is for the list of them. */
+/* Opens a scene, system or room by name; a preview is for the list. */
 bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message);
-/* The scene of the tour's present step, from its start, and its study. */
+/* Opens the scene of the tour's current step from its start, and its study. */
 bool gm_open_step(struct gm_open *open, char *message);
 
-/* The study of the tour's present step, once its question is answered. */
+/* Shows the study of the tour's current step once its question is answered. */
 void gm_open_study(struct gm_open *open);
 
-/* Leaves what is open. A movie that is being made, and a file that was asked for, are finished first; otherwise a step
-   that is being made is not waited for. */
+/* Leaves the open scene. Finishes a movie and requested files, but does not wait for a step. */
 void gm_open_leave(struct gm_open *open);
 
 /* ---- the list of scenes ---- */
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
-/* Whether the worker is a look at what is chosen. */
+/* Returns true if the worker plays the chosen entry and it has a preview. */
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
-/* Looks at the chosen scene now. Tours are only told of. */
+/* Opens the preview of the chosen scene. */
 void gm_explorer_look(struct gm_explorer *explorer);
 
 /* ---- typed lines ---- */
 
-/* The run of a line (app/words/typed.h) takes the place of what is open, which stays where the line is wrong. */
+/* Opens the run of a line (app/words/typed.h). If the line is wrong, returns false and fills fault; the
+   open scene remains. */
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
-/* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
+/* Opens the prompt with the open system, the last line or an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
 void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
 void gm_explorer_ask_map(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
-/* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
+/* Checks the typed line, and carries it out if it is correct and entered. */
 void gm_explorer_check_typed(struct gm_explorer *explorer);
 void gm_explorer_close_typed(struct gm_explorer *explorer);
 
 /* ---- input ---- */
 
 void gm_explorer_key(struct gm_explorer *explorer, int key);
-/* Offers the chosen one of the command lines that are shown to the terminal's clipboard. */
+/* Offers the chosen command line to the terminal's clipboard. */
 void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);
 
-/* The terminal has another size, or may show anything. */
+/* Adapts to the terminal's size and writes the screen again. */
 void gm_explorer_resize(struct gm_explorer *explorer);
 
 #endif

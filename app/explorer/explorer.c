@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explorer from its beginning to its end, and the loop in between that waits for keys and news. */
+/* The explorer's start and end, and the loop that waits for keys and events. */
 #include "app/explorer/explorer.h"
 
 #include <curses.h>
@@ -21,12 +21,12 @@
 #include "render/clock.h"
 
 enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
-/* Frames come at their full pace while they take at most this part of a core. */
+/* the part of a core up to which frames come at full pace */
 static const double FRAMES_SHARE = 1.0 / 3;
 
-/* ---- what is shown, and when ---- */
+/* ---- output ---- */
 
-/* A scene that was opened says for a while what to watch. */
+/* Starts showing what to watch in a newly opened scene, for some seconds. */
 static void begin_watch(struct gm_explorer *explorer)
 {
     enum { WATCH_MILLISECONDS = 8000 };
@@ -37,7 +37,7 @@ static void begin_watch(struct gm_explorer *explorer)
     }
 }
 
-/* A page about a scheme wants it measured. */
+/* Requests the measurement of the scheme on a page. */
 static void ask_measure(struct gm_explorer *explorer)
 {
     struct gm_face *face = &explorer->face;
@@ -75,8 +75,8 @@ static void draw(struct gm_explorer *explorer)
                                     .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
 }
 
-/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
-   wait for input, in milliseconds; -1: as long as it takes. */
+/* Composes and sends as fast as the terminal accepts: a slow one loses frames, never model time. Returns
+   the milliseconds to wait for input; -1: without limit. */
 static int put_out(struct gm_explorer *explorer)
 {
     int64_t now = gm_clock_milliseconds();
@@ -111,9 +111,9 @@ static int put_out(struct gm_explorer *explorer)
     return -1;
 }
 
-/* ---- what comes in ---- */
+/* ---- input ---- */
 
-/* Letters may have changed their size, which the system does not always know. */
+/* The font's size may have changed, which the system does not always report. */
 static void read_cell_size(struct gm_explorer *explorer)
 {
     struct gm_terminal *terminal = &explorer->terminal;
@@ -126,8 +126,8 @@ static void read_cell_size(struct gm_explorer *explorer)
     }
 }
 
-/* Answers that come late, after a second, still lead to pixels: the terminal is asked for their limits then, and how
-   pictures are shown is decided again unless the user has chosen something else. */
+/* Uses answers that come after a second or more: asks the terminal for its limits, then decides again how
+   to show pictures, unless the user has chosen. */
 static void read_late_answers(struct gm_explorer *explorer)
 {
     struct gm_terminal *terminal = &explorer->terminal;
@@ -150,8 +150,8 @@ static void read_late_answers(struct gm_explorer *explorer)
     }
 }
 
-/* Whether what is typed now is for what is not there yet: a scene, or what its worker is to tell. A tour goes on
-   without its picture. */
+/* Returns true if typed keys are for a scene or text that the worker has not yet delivered. A tour accepts
+   keys without its picture. */
 static bool is_early(const struct gm_explorer *explorer)
 {
     const struct gm_open *open = &explorer->open;
@@ -159,10 +159,10 @@ static bool is_early(const struct gm_explorer *explorer)
            (open->worker && !open->shot && !open->said[0] && !open->touring && !explorer->list.shown);
 }
 
-/* For how many milliseconds more keys wait; 0: they are read. */
+/* Returns the milliseconds for which keys must wait; 0: they are read. */
 static int hold_keys(struct gm_explorer *explorer)
 {
-    enum { LONGEST = 500 }; /* a worker in a long step does not silence the keys */
+    enum { LONGEST = 500 }; /* milliseconds; a long step does not block the keys further */
     const int64_t now = gm_clock_milliseconds();
     if (!is_early(explorer)) {
         explorer->held_until = 0;
@@ -176,7 +176,7 @@ static int hold_keys(struct gm_explorer *explorer)
     return (int)(explorer->held_until - now);
 }
 
-/* Keys that wait may have left the terminal already: the console has them. */
+/* Reads keys, including those that the console already has. */
 static void read_keys(struct gm_explorer *explorer)
 {
     while (!explorer->leave) {
@@ -187,7 +187,7 @@ static void read_keys(struct gm_explorer *explorer)
         }
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->pointer.mouse, key, &event);
-        if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
+        if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a change of size does not close a page */
             gm_explorer_key(explorer, key);
         } else if (result == GM_MOUSE_EVENT) {
             gm_explorer_point(explorer, &event);
@@ -195,8 +195,8 @@ static void read_keys(struct gm_explorer *explorer)
     }
 }
 
-/* Whether the terminal is gone: it says that there is something to read, and nothing is there. It is asked anew:
-   the system throws away what was typed before a second Ctrl-Z. */
+/* Returns true if the terminal is gone: input is ready but has no bytes. It is polled again, as the system
+   discards bytes typed before a second Ctrl-Z. */
 static bool is_gone(void)
 {
     struct pollfd keys = {.fd = STDIN_FILENO, .events = POLLIN};
@@ -221,14 +221,14 @@ static void read_picture(struct gm_explorer *explorer)
         return;
     }
     explorer->dirty = true;
-    if (explorer->display.failed) { /* there is no font: blocks do not need one */
+    if (explorer->display.failed) { /* without a font only blocks work */
         explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
             false;
         explorer->face.pixels = GM_INLINE_NONE;
     }
 }
 
-/* Command lines that were asked for are shown, and the first is offered to the clipboard. */
+/* Shows the requested command lines, and offers the first to the clipboard. */
 static void read_command(struct gm_explorer *explorer)
 {
     const struct gm_shot *shot = explorer->open.shot;
@@ -247,8 +247,8 @@ static void read_command(struct gm_explorer *explorer)
     gm_explorer_copy(explorer);
 }
 
-/* Milliseconds from frame to frame: costly ones, and pictures of pixels, come half as often, so that steps and
-   others get their turn. */
+/* Returns the milliseconds between frames: costly ones and pictures of pixels come half as often, which
+   leaves time for steps and other processes. */
 static int period(const struct gm_explorer *explorer, const struct gm_shot *shot)
 {
     const double affordable = 1000 * (shot->cost + explorer->draw_cost) / FRAMES_SHARE;
@@ -261,8 +261,7 @@ static int period(const struct gm_explorer *explorer, const struct gm_shot *shot
     return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
 }
 
-/* At an even pace, whatever taking and drawing a shot costs, but for a pause in which others get their
-   turn. */
+/* Returns the time of the next shot, at an even pace, with a pause that leaves others time. */
 static int64_t next_time(int64_t last, int period)
 {
     enum { LEAST_PAUSE = 5 };
@@ -291,7 +290,7 @@ static void read_news(struct gm_explorer *explorer)
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
         explorer->open.shot = shot;
-        explorer->open.scene = shot->scene; /* which the worker has made by now */
+        explorer->open.scene = shot->scene; /* the worker has made the scene by now */
         explorer->open.asked = false;
         read_command(explorer);
         explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
@@ -335,7 +334,7 @@ static void run(struct gm_explorer *explorer)
             if (errno != EINTR) {
                 gm_explorer_leave(explorer, GM_EXIT_USAGE);
             }
-            continue; /* a signal's news is on its way */
+            continue; /* a signal's handler wakes the loop */
         }
         if (watched[NEWS].revents) {
             read_news(explorer);
@@ -377,7 +376,7 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     explorer.open.wake = explorer.wake;
     explorer.open.display = &explorer.display;
-    /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
+    /* Opens the lanes before the terminal is taken over: an error is easier to read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         gm_refuse(explorer.message, "The system has no eventfd to spare.");
@@ -408,7 +407,7 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     gm_explorer_close_list(&explorer.list);
     fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
     free(explorer.open.partings);
-    gm_console_release(); /* the eventfd stays: a worker that was left in a long step may yet write to it */
+    gm_console_release(); /* the eventfd stays open: an abandoned worker may still write to it */
     if (!ok || explorer.status == GM_EXIT_USAGE) {
         return gm_give_up(GM_EXIT_USAGE, "%s",
                           explorer.message[0] ? explorer.message : "There is not enough memory.");

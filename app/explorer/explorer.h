@@ -6,9 +6,9 @@
 #include "app/tours/tour.h"
 #include "app/words/request.h"
 
-/* The interactive explorer, led by a tour where there is one. A request without a scene (or NULL) begins with the list
-   of scenes. Returns an exit status; a signal that asks to leave ends the process as that signal does, the terminal
-   restored. */
+/* Runs the interactive explorer, with a tour if that is not NULL. Without a request or scene it starts
+   with the list of scenes. Returns an exit status. A signal that asks to leave restores the terminal, then
+   ends the process. */
 int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
                 const struct gm_overrides *overrides);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the user does: the list of what there is, keys, and the mouse. */
+/* The user's input: the list of scenes, keys, and the mouse. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
@@ -14,7 +14,7 @@
 
 /* ---- the list ---- */
 
-/* The choice in the list of scenes rests for this long before it is looked at. */
+/* time (ms) before the chosen scene is previewed */
 enum { REST_MILLISECONDS = 150 };
 
 static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
@@ -35,13 +35,13 @@ static bool is_listed(const struct gm_list *list, const char *name)
     return false;
 }
 
-/* Files of a kind, as they are taken into the list. */
+/* The list and group that files are added to. */
 struct taking {
     struct gm_list *list;
     enum gm_start_group group;
 };
 
-/* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
+/* Adds a file, unless memory is short or a terminal cannot show its name. */
 static void add_file(const struct gm_listed *listed, const void *data)
 {
     const struct taking *taking = data;
@@ -81,22 +81,22 @@ void gm_explorer_close_list(struct gm_list *list)
     gm_tours_close(list->tours, list->tour_count);
 }
 
-/* ---- what is chosen ---- */
+/* ---- the choice ---- */
 
-/* Whether the worker is that of this entry. */
+/* Returns true if the worker plays this entry. */
 static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     const struct gm_open *open = &explorer->open;
     if (entry->tour) {
         return open->touring && strcmp(entry->name, open->guide.tour->name) == 0;
     }
-    if (gm_start_is_user(entry)) { /* or by a file that is in no list */
+    if (gm_start_is_user(entry)) { /* or an unlisted file */
         return !open->touring && open->scene && open->scene->text && !is_listed(&explorer->list, open->name);
     }
     return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
 }
 
-/* Whether it has a live look. */
+/* Returns true if the entry has a preview. */
 static bool can_be_looked_at(const struct gm_start_entry *entry)
 {
     return entry && !entry->tour && !gm_start_is_user(entry);
@@ -108,7 +108,7 @@ bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
     return can_be_looked_at(entry) && is_open(explorer, entry);
 }
 
-/* The chosen scene is looked at in a while, unless it is open already. */
+/* Schedules the preview of the chosen scene, unless it is open. */
 static void look_soon(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
@@ -126,7 +126,7 @@ void gm_explorer_look(struct gm_explorer *explorer)
     }
 }
 
-/* Takes what is found into the list, from place `first` on: the best answer to what was typed comes first. */
+/* Inserts a matching entry into the list, from index `first` on, the best match first. */
 static void find(struct gm_start *start, size_t first, const struct gm_start_entry *entry, const char *more,
                  const char *further)
 {
@@ -174,7 +174,7 @@ static void find_files(struct gm_start *start, const struct gm_list *list, enum 
     }
 }
 
-/* What was chosen before stays so unless something else answers better. */
+/* Chooses the best match; the previous choice wins a tie. */
 static void choose(struct gm_start *start, const struct gm_start_entry *before)
 {
     start->choice = 0;
@@ -202,7 +202,7 @@ static void find_all(struct gm_explorer *explorer)
 
 void gm_explorer_show_start(struct gm_explorer *explorer)
 {
-    char message[GM_MESSAGE]; /* what cannot be read is for `geomint list` to tell */
+    char message[GM_MESSAGE]; /* `geomint list` reports unreadable files */
     if (!explorer->list.tours) {
         explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
     }
@@ -223,7 +223,7 @@ void gm_explorer_show_start(struct gm_explorer *explorer)
     look_soon(explorer);
 }
 
-/* A tour that was left goes on with the step where it was. */
+/* Opens a tour; one that was left is resumed at its step. */
 static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
 {
     struct gm_guide *guide = &explorer->open.guide;
@@ -241,7 +241,7 @@ static bool enter_named(struct gm_explorer *explorer, const char *name)
     return gm_open_named(&explorer->open, name, false, explorer->message);
 }
 
-/* Opens the chosen scene or tour, or goes back to it where it was left. */
+/* Opens the chosen scene or tour, or returns to it if it is still open. */
 static void enter(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
@@ -292,7 +292,7 @@ static void press_in_list(struct gm_explorer *explorer, int key)
         start->choice = gm_start_next_group(start);
         look_soon(explorer);
     } else if (key == '/' && !start->typed[0]) {
-        /* what is typed is looked for anyway */
+        /* typing searches without a slash */
     } else if (gm_typed_key(start->typed, key)) {
         find_all(explorer);
     }
@@ -310,12 +310,12 @@ void gm_explorer_resize(struct gm_explorer *explorer)
     gm_display_forget(&explorer->display);
     gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
     if (explorer->face.pixels) {
-        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
+        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* the font's size may have changed */
     }
     explorer->dirty = explorer->fresh = true;
 }
 
-/* In other colours, or none. */
+/* Writes the screen again after a change of colours. */
 static void repaint(struct gm_explorer *explorer)
 {
     struct gm_writer *writer = &explorer->display.writer;
@@ -343,7 +343,7 @@ void gm_explorer_copy(struct gm_explorer *explorer)
     }
 }
 
-/* Another step of the tour, if there is one. */
+/* Handles a key of the tour, if there is one. */
 static void press_in_tour(struct gm_explorer *explorer, int key)
 {
     struct gm_open *open = &explorer->open;
@@ -367,7 +367,7 @@ static void press_in_tour(struct gm_explorer *explorer, int key)
     }
 }
 
-/* A key of an open scene: it belongs to what is open above it, or is one of the table. */
+/* Passes a key to the part that is open above the scene, or to the table of keys. */
 static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
@@ -377,7 +377,7 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
     if (press->key == GM_KEY_REDRAW) {
         return GM_KEY_REPAINT;
     }
-    if (press->shot->running_ahead && press->key != 'q') { /* any key stops it */
+    if (press->shot->running_ahead && press->key != 'q') { /* any key stops running ahead */
         return gm_keystroke_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
     }
     if (face->page != GM_PAGE_SCENE) {
@@ -389,7 +389,7 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
     if (face->prompt != GM_PROMPT_NONE) {
         return gm_prompt_press(press);
     }
-    if (gm_key_is_escape(press->key) && (said || face->explaining)) { /* first away with what is said */
+    if (gm_key_is_escape(press->key) && (said || face->explaining)) { /* esc first dismisses the message */
         face->explaining = false;
         return GM_KEY_DONE;
     }
@@ -406,7 +406,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         press_in_list(explorer, key);
         return;
     }
-    if (!explorer->open.shot) { /* before the first picture there is only leaving */
+    if (!explorer->open.shot) { /* before the first picture one can only leave */
         if (key == 'q') {
             gm_explorer_leave(explorer, GM_EXIT_OK);
         } else if (key == 'l' || gm_key_is_escape(key)) {
@@ -477,14 +477,14 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
 
 /* ---- the mouse ---- */
 
-/* The part of a hit's width that a column stands for, 0 to 1. */
+/* Returns a column's position in a hit, 0 to 1. */
 static double part_of(const struct gm_hit *hit, int column)
 {
     double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
     return part < 0 ? 0 : part > 1 ? 1 : part;
 }
 
-/* Sliders follow the button while it is down. */
+/* Moves a slider with the pressed button. */
 static void drag(struct gm_explorer *explorer, int column)
 {
     const struct gm_shot *shot = explorer->open.shot;
@@ -519,7 +519,7 @@ static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *s
     explorer->face.choosing = GM_CHOOSE_NOTHING;
 }
 
-/* A choice has no slider: a click takes the next one. */
+/* Chooses a parameter. One without a slider takes its next value at a second click. */
 static void click_parameter(struct gm_explorer *explorer, size_t index)
 {
     const struct gm_shot_parameter *parameter = &explorer->open.shot->parameters[index];
@@ -553,7 +553,7 @@ static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_ev
     }
 }
 
-/* The run that a map has there takes the place of what is open; the map stays behind its key. */
+/* Opens the run at a point of a map; the map's key shows the map again. */
 static void click_study(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     struct gm_open *open = &explorer->open;
@@ -565,7 +565,7 @@ static void click_study(struct gm_explorer *explorer, const struct gm_mouse_even
     free(words);
 }
 
-/* Whether a picture lies there that can be gone around. */
+/* Returns true if the hit is a picture in space. */
 static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
 {
     return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&
@@ -573,8 +573,8 @@ static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit 
            explorer->open.studies.shown == GM_STUDY_NONE;
 }
 
-/* What is seen follows the button: half a turn for the width of the screen. A row is as high as two columns are
-   wide. */
+/* Turns the picture with the button: half a turn for the width of the screen. A row is as high as two
+   columns are wide. */
 static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     struct gm_pointer *pointer = &explorer->pointer;
@@ -587,7 +587,7 @@ static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event
     pointer->row = event->row;
 }
 
-/* The wheel: nearer and further over a picture in space, else through a list, or the speed. */
+/* Handles the wheel: zooms a picture in space, else scrolls a list or changes the speed. */
 static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
 {
     const bool up = event->kind == GM_MOUSE_UP;

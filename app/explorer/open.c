@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is open: begun, left, and ended; and the lines that are typed for a system or a scheme of one's own or a map of
-   many runs. */
+/* Opens and leaves scenes, and handles typed lines: a user-defined system or scheme, or a map of many
+   runs. */
 #include "app/explorer/events.h"
 
 #include <float.h>
@@ -21,7 +21,8 @@
 
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
-/* A new worker, or NULL, which owes its first shot; of a scene, or of one that it makes by that name. */
+/* Stores a new worker (or NULL), which owes its first shot, for a scene, or if that is NULL for the scene
+   called `name`. Returns false for NULL. */
 static bool take_over(struct gm_open *open, struct gm_worker *worker, const struct gm_scene *scene,
                       const char *name)
 {
@@ -39,7 +40,7 @@ static bool take_over(struct gm_open *open, struct gm_worker *worker, const stru
     return worker != NULL;
 }
 
-/* Keeps a line for the shell. */
+/* Stores a line to print in the shell. */
 static void keep_parting(struct gm_open *open, const char *line)
 {
     char *before = open->partings, *longer = NULL;
@@ -54,7 +55,7 @@ void gm_open_leave(struct gm_open *open)
     char parting[GM_MESSAGE] = "";
     gm_display_finish(open->display);
     if (open->touring) {
-        gm_worker_close(open->worker, parting); /* the tour does not outlive it otherwise */
+        gm_worker_close(open->worker, parting); /* the worker must end before its tour is freed */
     } else if (open->worker) {
         gm_worker_abandon(open->worker, parting);
     }
@@ -115,7 +116,7 @@ bool gm_open_step(struct gm_open *open, char *message)
     return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene, NULL);
 }
 
-/* ---- what is wrong with a line, found out by a thread: a sum may have many terms ---- */
+/* ---- faults of a line, found by a thread: a sum may have many terms ---- */
 
 static void find_out(void *self)
 {
@@ -123,7 +124,8 @@ static void find_out(void *self)
     check->read(check->line, &check->fault);
 }
 
-/* Whether it is known; else that is found out, unless another line still is, and `wake` is written to at the end. */
+/* Returns true if the line's fault is known. Otherwise checks the line, unless another one is being
+   checked; `wake` is written at the end. */
 static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char *line, int wake,
                         struct gm_typed_fault *fault)
 {
@@ -180,7 +182,7 @@ static void close_prompt(struct gm_explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
-/* Three steps of a scheme that fits, of which one goes back, or two stages. */
+/* Returns an example: three steps of a suitable scheme, one of them backwards, or two stages. */
 static const char *scheme_example(const struct gm_shot *shot)
 {
     static const char *const examples[][2] = {
@@ -210,7 +212,7 @@ void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork)
                 SIZE_MAX);
 }
 
-/* A system of one's own is told first, as a command line, by the thread that runs it. */
+/* Asks for a system. If one is open, the worker first sends its command line. */
 void gm_explorer_ask_system(struct gm_explorer *explorer)
 {
     const struct gm_open *open = &explorer->open;
@@ -230,8 +232,7 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
     bool good = command && gm_typed_split(&typed, command) && typed.count > 1;
     struct gm_arguments formulas = {0};
     explorer->editing = false;
-    /* without the program's name; `system` goes without saying, and behind a file's name stand its
-       formulas */
+    /* omits the program's name and `system`; after a file's name come its formulas */
     const bool formula = good && strcmp(typed.words[1], "system") == 0;
     good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
                                 gm_typed_file_formulas(explorer->open.scene->text, &formulas)));
@@ -242,7 +243,7 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
         good = gm_arguments_have(&formulas, typed.words[i]) || gm_arguments_add(&words, typed.words[i]);
     }
     char *text = good ? gm_typed_join(&words) : NULL;
-    if (text) { /* the cursor behind the first formula */
+    if (text) { /* the cursor is after the first formula */
         size_t at = words.count > 0 ? strlen(words.words[0]) : 0;
         at += !formula && words.count > 1 ? 1 + strlen(words.words[1]) : 0;
         open_prompt(explorer, GM_TYPED_SYSTEM, text, at);
@@ -255,7 +256,7 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
 
 /* ---- maps ---- */
 
-/* A typed line as the words of the command `sweep`; malloc'ed, NULL: no memory. */
+/* Returns a typed line as words of the command `sweep`. The caller frees them; NULL when out of memory. */
 static char *sweep_words(const char *line)
 {
     static const char measure[] = "measure=";
@@ -294,7 +295,7 @@ static bool check_map(const char *line, struct gm_typed_fault *fault)
     return good;
 }
 
-/* A number that is swept: by a half of it to both sides. */
+/* Writes the range of a swept number: half its value to both sides. Returns false if it cannot be swept. */
 static bool range_of(const struct gm_shot_parameter *parameter, char *word, size_t size)
 {
     enum { ACROSS = 24 };
@@ -312,8 +313,8 @@ static bool range_of(const struct gm_shot_parameter *parameter, char *word, size
     return true;
 }
 
-/* The open scene by the selected lane's scheme, over the chosen parameter and the next one that is a number,
-   to be edited. malloc'ed, NULL: no memory. */
+/* Returns a map of the open scene with the selected lane's scheme, over the chosen parameter and the next
+   number. The caller frees it; NULL when out of memory. */
 static char *map_example(const struct gm_explorer *explorer)
 {
     const struct gm_shot *shot = explorer->open.shot;
@@ -347,7 +348,7 @@ static char *map_example(const struct gm_explorer *explorer)
     return text;
 }
 
-/* With what was typed before, if that was of the same scene. */
+/* Opens the prompt with the last line for this scene, or an example. */
 void gm_explorer_ask_map(struct gm_explorer *explorer)
 {
     const char *last = explorer->typed_prompt.last[GM_TYPED_MAP];
@@ -359,7 +360,7 @@ void gm_explorer_ask_map(struct gm_explorer *explorer)
     free(usual);
 }
 
-/* ---- what is typed is taken ---- */
+/* ---- accepted lines ---- */
 
 static bool take_map(struct gm_explorer *explorer)
 {
@@ -376,7 +377,7 @@ static bool take_map(struct gm_explorer *explorer)
     return good;
 }
 
-/* For the selected lane, or for one more from its state; false: there is none. */
+/* Gives the scheme to the selected lane, or to a copy of it; returns false if it is NULL. */
 static bool take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
 {
     if (scheme) {
@@ -400,7 +401,7 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
     return true;
 }
 
-/* What is typed is right: it takes the place of what runs, or of a lane's scheme. */
+/* Carries out a correct line. */
 static void take(struct gm_explorer *explorer)
 {
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
@@ -453,7 +454,7 @@ void gm_explorer_press_typed(struct gm_explorer *explorer, int key)
             take(explorer);
         }
     } else {
-        if (prompt->entered) { /* more came at once: an end of a line in what was pasted is a blank */
+        if (prompt->entered) { /* pasted text continues: its line end is a blank */
             gm_edit_press(&prompt->line, ' ');
         }
         prompt->entered = false;

@@ -10,8 +10,8 @@
 #include "core/scheme.h"
 #include "render/layout/appearance.h"
 
-/* A thread that does one thing each time it is asked to, and sleeps in between. What the thing is done to
-   belongs to the thread while it is busy, and to the caller otherwise, unless they share a lock. */
+/* A thread that does a piece of work on request and sleeps in between. The data belong to the thread while
+   it is busy, else to the caller, unless they share a lock. */
 
 struct gm_job {
     pthread_t thread;
@@ -23,70 +23,72 @@ struct gm_job {
     void *self;
 };
 
-/* `end`, unless it is NULL, is called in the thread at its end; `wake` is an eventfd that is written to whenever a
-   piece of work is done, or -1. False with a sentence (GM_MESSAGE bytes). */
+/* Starts the thread, which calls `end` (may be NULL) last. `wake` is -1 or an eventfd, written after each
+   piece of work. Returns false on failure and fills message (GM_MESSAGE bytes). */
 bool gm_job_open(struct gm_job *job, void (*work)(void *self), void (*end)(void *self), void *self, int wake,
                  char *message);
-/* What was begun is finished. */
+/* Finishes the requested work and ends the thread. */
 void gm_job_close(struct gm_job *job);
 
-/* Asks for the thing; while it is being done: for once more. */
+/* Requests the work; during the work, requests it again. */
 void gm_job_begin(struct gm_job *job);
-/* Whether it is being done, or will be. */
+/* Returns true if work is requested or being done. */
 bool gm_job_is_busy(struct gm_job *job);
 
-/* What `geomint certify` measures of a scheme, while the explorer goes on: by a child process, because
-   nothing but its end stops certifying when another scheme is asked for. */
+/* Measures a scheme with `geomint certify` while the explorer runs. It is a child process, which can be
+   killed when another scheme is requested. */
 
 struct gm_measure {
-    const struct gm_scheme *scheme; /* NULL: none was asked for */
-    pid_t child;                    /* 0: none runs */
-    int fd;                         /* where it writes; -1: none */
-    char *text;                     /* what it has written, line by line */
+    const struct gm_scheme *scheme; /* NULL before the first request */
+    pid_t child;                    /* process id; 0 if none runs */
+    int fd;                         /* pipe from the child; -1 if none runs */
+    char *text;                     /* the child's output, `length` bytes */
     size_t length;
 };
 
-/* An empty one is {.fd = -1}. Asks for a scheme; another one that still runs is ended. */
+/* Requests a scheme; the measurement of another one is killed. An empty measure is {.fd = -1}. */
 void gm_measure_ask(struct gm_measure *measure, const struct gm_scheme *scheme);
-/* Reads what has come; true if that was the end. */
+/* Reads the available output; returns true if the child has ended. */
 bool gm_measure_read(struct gm_measure *measure);
-/* The lines about the scheme that was asked for; NULL while they are not complete. */
+/* Returns the lines about the requested scheme, owned by measure; NULL while incomplete. */
 const char *gm_measure_text(const struct gm_measure *measure);
 void gm_measure_close(struct gm_measure *measure);
 
-/* A diagram that is measured in the background: work-precision or stability, in a thread of its own that
-   leaves the processor to the one that draws. It alone touches its table; looks at it are handed over. */
+/* A diagram measured in the background, by a thread of low priority. Only the thread touches its table;
+   the screen receives looks. */
 
 struct gm_study_look {
     struct gm_picture *picture;
-    char what[64]; /* under way */
+    char what[64]; /* the run being measured */
     size_t done, all;
-    bool finished;            /* by itself, or stopped */
-    bool impossible;          /* nothing can be measured, and the message says why */
-    char message[GM_MESSAGE]; /* the last news, and how many there were */
+    bool finished;            /* measuring is complete or was stopped */
+    bool impossible;          /* nothing can be measured, for the reason in message */
+    char message[GM_MESSAGE]; /* the last message; its number counts messages */
     unsigned long message_number;
 };
 
 struct gm_study;
 
-/* Starts to measure; `words` are those of the command, the scene first. `wake` is an eventfd that is written
-   to when there is a new look. NULL with a sentence (GM_MESSAGE bytes). */
+/* Starts to measure; gm_study_close frees the study. `words` are the command's, the scene first. `wake` is
+   an eventfd, written when there is a new look. Returns NULL on failure and fills message (GM_MESSAGE
+   bytes). */
 struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int wake, char *message);
-/* Gives up what is not finished. NULL is ignored. */
+/* Abandons unfinished runs and frees the study; ignores NULL. */
 void gm_study_close(struct gm_study *study);
 
 const char *gm_study_words(const struct gm_study *study);
 
-/* A new look since the last call, or NULL. It may be read, and its picture laid out, until the next one. */
+/* Returns a look that is new since the last call, or NULL. The caller may read it and lay out its picture
+   until the next call. */
 struct gm_study_look *gm_study_take(struct gm_study *study);
 
-/* The words of the run that panel number `panel` of its picture shows at (x, y), the scene first; malloc'ed,
-   NULL: there is none. */
+/* Returns the words of the run at (x, y) of the picture's panel number `panel`, the scene first. The
+   caller frees them; NULL if there is no run. */
 char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y);
 
-/* Ends the measuring; what is finished stays. */
+/* Stops measuring; finished results remain. */
 void gm_study_stop(struct gm_study *study);
-/* Writes what there is as PNG and CSV here; the look after it says under what name. */
+/* Writes the results as PNG and CSV to the working directory; the next look's message gives the name. */
 void gm_study_save(struct gm_study *study, enum gm_theme theme);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work beside the screen: studies, pictures of pixels, frames of a movie. */
+/* The thread behind studies, pictures of pixels, and frames of a movie. */
 #include "app/explorer/background/background.h"
 
 #include <stdint.h>
@@ -26,7 +26,7 @@ static void *go_on(void *self)
         pthread_mutex_lock(&job->lock);
         job->working = false;
         if (job->wake >= 0 && write(job->wake, &one, sizeof one) < 0) {
-            /* the count is full: who waits is awake already */
+            /* the count is full: the waiting thread is awake */
         }
     }
     pthread_mutex_unlock(&job->lock);

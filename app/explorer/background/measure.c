@@ -27,7 +27,7 @@ static void end(struct gm_measure *measure)
     measure->child = 0;
 }
 
-/* This program once more, its output in our pipe; the terminal is not its own. */
+/* Starts this program as a child that writes to our pipe and has no terminal. Returns false on failure. */
 static bool start(struct gm_measure *measure, int out)
 {
     posix_spawn_file_actions_t files;

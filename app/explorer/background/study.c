@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study under way: what it measures goes to the screen as looks, what the screen orders comes as flags. */
+/* A running study: results go to the screen as looks, orders from the screen come as flags. */
 #include "app/explorer/background/background.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 
 enum { NICE = 10 };
 
-/* A look is worth its while after so many seconds. */
+/* seconds between two looks, at least */
 static const double look_seconds = 0.1;
 
 struct gm_study {
@@ -33,15 +33,15 @@ struct gm_study {
     bool stop, leave, save;
     enum gm_theme theme;
     bool ready; /* looks[filled] is finished and not yet taken */
-    int filled; /* the look that the thread fills; the screen has the other one */
+    int filled; /* index of the look that the thread fills; the screen has the other one */
     struct gm_study_look looks[2];
 
-    /* the thread's own */
-    struct gm_arguments arguments; /* the words, cut up */
+    /* owned by the thread */
+    struct gm_arguments arguments; /* the words, split */
     struct gm_grid grid;
-    struct gm_study_look now; /* all but the picture */
-    double looked;            /* when the last look was handed over */
-    unsigned long told;       /* number of its message */
+    struct gm_study_look now; /* the current look without its picture */
+    double looked;            /* time of the last look, in seconds */
+    unsigned long told;       /* number of that look's message */
 };
 
 const char *gm_study_words(const struct gm_study *study)
@@ -57,7 +57,7 @@ static void say(struct gm_study *study, const char *sentence)
     study->now.message_number++;
 }
 
-/* Hands a look over if the last one was taken. */
+/* Passes a look to the screen if the last one was taken. */
 static void show(struct gm_study *study)
 {
     pthread_mutex_lock(&study->lock);
@@ -78,7 +78,7 @@ static void show(struct gm_study *study)
     study->ready = true;
     pthread_mutex_unlock(&study->lock);
     if (write(study->wake, &one, sizeof one) < 0) {
-        return; /* the counter is full: whoever reads it will look */
+        return; /* the counter is full: its reader will take the look */
     }
 }
 
@@ -102,7 +102,7 @@ static void save(struct gm_study *study, enum gm_theme theme)
     say(study, sentence);
 }
 
-/* Saves if that was asked for. */
+/* Saves if requested. */
 static void save_if_wanted(struct gm_study *study)
 {
     pthread_mutex_lock(&study->lock);
@@ -141,7 +141,7 @@ static void measure(struct gm_study *study)
 {
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
-    setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* of this thread alone */
+    setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* on Linux this affects only this thread */
     const bool good = gm_grid_measure(&study->grid, &listener, message);
     study->now.finished = true;
     if (is_stopped(study)) {
@@ -155,7 +155,7 @@ static void measure(struct gm_study *study)
     }
 }
 
-/* Measures, the first time; later does what is asked for, and tells of it once the last look was taken. */
+/* Measures at the first call, then carries out orders. Shows the result once the last look was taken. */
 static void work(void *self)
 {
     struct gm_study *study = self;
@@ -222,7 +222,7 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     return study;
 }
 
-/* Has the thread look at what was ordered. */
+/* Sets a flag and wakes the thread. */
 static void order(struct gm_study *study, bool *what)
 {
     pthread_mutex_lock(&study->lock);

@@ -40,7 +40,7 @@ void gm_edit_set(struct gm_edit *line, const char *text, size_t at)
     line->at = at < line->length ? at : line->length;
 }
 
-/* Takes away what is between two places. */
+/* Deletes the bytes from `from` to `to`. */
 static void cut(struct gm_edit *line, size_t from, size_t to)
 {
     memmove(line->text + from, line->text + to, line->length + 1 - to);
@@ -96,18 +96,18 @@ bool gm_edit_press(struct gm_edit *line, int key)
     return true;
 }
 
-/* ---- what is drawn ---- */
+/* ---- drawing ---- */
 
 static const uint32_t cursor = 0x258F; /* a bar at the left of its cell, which no formula has */
 
-/* What stands for a letter: what a terminal obeys, or draws in two cells or in none, is a question mark. */
+/* Returns the code, or '?' for control characters and those that do not take one cell. */
 static uint32_t shown(uint32_t code)
 {
     const bool plain = gm_text_is_shown(code) && (code < 0x300 || wcwidth((wchar_t)code) == 1);
     return plain && (code < 0x300 || code >= 0x370) ? code : '?';
 }
 
-/* The cells of what is in front of byte `at`. */
+/* Returns the number of cells before byte `at`. */
 static int cells_before(const struct gm_edit *line, size_t at)
 {
     const char *text = line->text;
@@ -118,7 +118,7 @@ static int cells_before(const struct gm_edit *line, size_t at)
     return cells;
 }
 
-/* The first cell in sight of a row of so many: the cursor is in the row's second half where there is more. */
+/* Returns the first visible cell of `width`: the cursor is two thirds along if text follows. */
 static int first_cell(const struct gm_edit *line, int width)
 {
     const int all = cells_before(line, line->length) + 1, at = cells_before(line, line->at);

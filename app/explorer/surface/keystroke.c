@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all keys have in common, and how well what is typed is answered. */
+/* Functions common to all keys, and the search. */
 #include "app/explorer/surface/surface.h"
 
 #include <ctype.h>
@@ -57,7 +57,7 @@ enum gm_key_result gm_keystroke_page(const struct gm_keystroke *press, enum gm_p
 
 /* ---- searching ---- */
 
-/* How a word stands in a text, the best first. */
+/* The place of a word in a text, the best first. */
 enum { EXACT, PREFIX, WORD_START, ANYWHERE, NOWHERE };
 
 static bool begins_with(const char *text, const char *word, size_t length)
@@ -89,7 +89,7 @@ int gm_search_rank(const char *typed, const char *const *texts)
         int best = length == 0 ? 0 : INT_MAX;
         for (int i = 0; length > 0 && texts[i]; i++) {
             const int place = place_in(texts[i], typed, length);
-            /* of equal places the one in the first text, which is the name, counts most */
+            /* among equal places the first text, the name, ranks first */
             const int rank = place == NOWHERE ? INT_MAX : place * GM_SEARCH_TEXTS + i;
             best = rank < best ? rank : best;
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The screen as cells, and writing into a rectangle of it: text, sliders, hints, a picture. */
+/* The screen as cells, and writing into a rectangle of it: text, sliders, hints, pictures. */
 #include "app/explorer/surface/surface.h"
 
 #include <math.h>
@@ -74,10 +74,10 @@ void gm_sheet_number(double value, char *text, size_t size)
 {
     char digits[40];
     if (!isfinite(value)) {
-        snprintf(text, size, "–"); /* there is no such number here */
+        snprintf(text, size, "–");
         return;
     }
-    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter so than with all its zeros */
+    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter than with its zeros */
         snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
     } else {
         snprintf(digits, sizeof digits, "%.3g", value);
@@ -138,8 +138,8 @@ static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t lengt
     return gm_sheet_width(sheet, line) > available;
 }
 
-/* How many bytes of a line fit: all, or, as it is one long word, those up to a comma in its second half, or
-   to any letter. */
+/* Returns how many bytes of a line fit. A long word breaks after a comma in its second half, or at any
+   letter. */
 static size_t broken(const struct gm_sheet *sheet, const char *word, size_t length, int available)
 {
     size_t fits = length;
@@ -186,7 +186,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         while (*text == ' ' || *text == '\n') {
             text++;
         }
-        if (*text && taken == rows) { /* words are left */
+        if (*text && taken == rows) { /* some words did not fit */
             const int end = gm_sheet_width(sheet, line);
             gm_sheet_text(sheet, column + (end < available ? end : available - 1), row + taken - 1,
                           sheet->face->blocks == GM_ASCII ? "." : "…", role, false);
@@ -376,7 +376,7 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, c
         return;
     }
     if (face->guide) {
-        shot->picture->caption = ""; /* a tour has words of its own, and may ask for a prediction */
+        shot->picture->caption = ""; /* a tour has its own texts, and may ask for a prediction */
     }
     gm_sheet_paint(sheet, &screen->picture, shot->picture);
 }

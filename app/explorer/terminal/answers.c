@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What arrives among the keys: a terminal's answers told from them, byte by byte, whether they come whole, late or
-   never; and the mouse, out of the keys that make up its reports. */
+/* Separates a terminal's answers and mouse reports from the keys, byte by byte, even if they are late or
+   incomplete. */
 #include "app/explorer/terminal/device.h"
 
 #include <ctype.h>
@@ -25,12 +25,12 @@ static bool is_parameter(char c)
     return (c >= '0' && c <= '9') || c == ';';
 }
 
-/* Answers that are strings: what they begin with, and all of that is needed to tell them from keys. */
+/* The starts of the answers that are strings; each differs from any key. */
 static const char images[] = "\033_G", ground[] = "\033]11;", setting[] = "\033P1$r",
                   no_setting[] = "\033P0$r";
 static const char *const strings[] = {images, ground, setting, no_setting};
 
-/* A string ends with ST, or with the bell as xterm once had it. */
+/* Judges a string, which ends with ST, or with the bell as in old xterm. */
 static enum verdict judge_string(const char *held, size_t count, const char *begin)
 {
     const size_t size = strlen(begin);
@@ -44,7 +44,7 @@ static enum verdict judge_string(const char *held, size_t count, const char *beg
     return ends ? ANSWER : PERHAPS;
 }
 
-/* Whether the held bytes are an answer, may become one, or are keys. No key of ncurses begins like one of the
+/* Judges the held bytes: an answer, the start of one, or keys. No key of ncurses begins like one of the
    strings or with CSI ?, or ends its numbers with n, t. */
 static enum verdict judge(const char *held, size_t count)
 {
@@ -78,7 +78,7 @@ static enum verdict judge(const char *held, size_t count)
 
 enum { NUMBERS = 16 };
 
-/* The numbers between the semicolons; returns how many. */
+/* Reads the numbers between the semicolons; returns how many. */
 static int read_numbers(const char *text, int numbers[NUMBERS])
 {
     int count = 0;
@@ -109,7 +109,8 @@ static void take_private(struct gm_answers *answers, const int *numbers, int cou
     }
 }
 
-/* rgb:RRRR/GGGG/BBBB, with one to four digits each, or rgba: with a fourth. Rec. 709's weights. */
+/* Reads the luminance (Rec. 709) of rgb:RRRR/GGGG/BBBB, with one to four digits each, or rgba: with a
+   fourth. */
 static void take_ground(struct gm_answers *answers, const char *text)
 {
     static const double weights[] = {0.2126, 0.7152, 0.0722};
@@ -140,7 +141,7 @@ static void take_string(struct gm_answers *answers)
     } else if (held[1] == ']') {
         take_ground(answers, held + sizeof ground - 1);
     } else {
-        /* the colour that was set comes back as it was, or the nearest one of a palette */
+        /* the answer has the colour that was set, or the nearest one of a palette */
         const bool direct = strstr(held, "48:2:") || strstr(held, "48;2;");
         answers->true_colour =
             answers->true_colour || (direct && (strstr(held, "1:2:3") || strstr(held, "1;2;3")));
@@ -191,7 +192,7 @@ size_t gm_answers_sort(struct gm_answers *answers, const char *bytes, size_t cou
             continue;
         }
         bool ends = bytes[i] == '\033' && answers->count > 2 && answers->held[1] != '[';
-        if (bytes[i] == '\033' && answers->count > 0 && !ends) { /* another one begins */
+        if (bytes[i] == '\033' && answers->count > 0 && !ends) { /* another answer begins */
             written += gm_answers_release(answers, keys + written);
         }
         answers->held[answers->count++] = bytes[i];
@@ -222,7 +223,7 @@ static void send_all(const char *text)
     }
 }
 
-/* The last question is the one for the attributes, which every terminal answers. */
+/* Sends questions and waits. The last one must be for the attributes, which every terminal answers. */
 static void ask(struct gm_answers *answers, const char *questions, int patience, char *typed,
                 size_t *typed_size)
 {
@@ -250,11 +251,11 @@ static void ask(struct gm_answers *answers, const char *questions, int patience,
     }
 }
 
-/* A background of true colour, the question which one is set (DECRQSS), and all attributes off again. */
+/* sets a background in true colour, asks which one is set (DECRQSS), and resets all attributes */
 #define ASK_TRUE_COLOUR "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
 #define ASK_GROUND "\033]11;?\033\\"
 #define ASK_SYNCHRONISED "\033[?2026$p\033[c"
-/* the image of one pixel is only asked about (a=q), not shown */
+/* only asks about an image of one pixel (a=q) */
 #define ASK_IMAGES "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
 
 int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, char *typed,
@@ -269,19 +270,19 @@ int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, 
     const int64_t begun = gm_clock_milliseconds();
     *answers = (struct gm_answers){0};
     *typed_size = 0;
-    /* who is in the background may not change the terminal's settings */
+    /* a background process may not change the terminal's settings */
     if (tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &before) != 0) {
         return 0;
     }
-    /* what ends or stops the program waits until the settings are back */
+    /* signals wait until the settings are restored */
     sigset_t all, unblocked;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &unblocked);
     raw = before;
-    raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | ISIG); /* an interrupt, too */
+    raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | ISIG); /* Ctrl-C is read as a byte */
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
-    tcsetattr(STDIN_FILENO, TCSANOW, &raw); /* what was typed already stays */
+    tcsetattr(STDIN_FILENO, TCSANOW, &raw); /* bytes typed earlier remain */
     ask(answers, questions[which], patience, typed, typed_size);
     if (answers->attributes && (answers->sixel || answers->kitty)) {
         ask(answers, GM_ASK_LIMITS, patience, typed, typed_size);
@@ -313,7 +314,7 @@ static bool understand(const char *text, char end, struct gm_mouse_event *event)
         return end == 'M';
     }
     if ((code & ~MOVES & ~BUTTON) != 0 || (code & BUTTON) != 0) {
-        return false; /* of the buttons only the left one counts */
+        return false; /* only the left button counts */
     }
     event->kind = end == 'm' ? GM_MOUSE_RELEASE : code & MOVES ? GM_MOUSE_DRAG : GM_MOUSE_PRESS;
     return true;

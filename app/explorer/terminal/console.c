@@ -21,18 +21,18 @@
 #include "render/clock.h"
 
 static SCREEN *screen;
-static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */
+static WINDOW *keys; /* a pad: reading its keys does not make ncurses draw */
 static int wake_fd = -1;
-/* ncurses reads the keys from a pipe: what it must not see is taken out before. */
+/* ncurses reads the keys from a pipe, without the answers */
 static FILE *input;
 static int feed_fd = -1;
 static struct gm_answers *answers;
-static int64_t heard;         /* when the last byte came */
-static struct termios before; /* as the shell had it */
-static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
+static int64_t heard;         /* time (ms) of the last byte read */
+static struct termios before; /* the shell's settings */
+static char parting[256];     /* the bytes that restore the terminal, prepared for signal handlers */
 static size_t parting_size;
 static volatile sig_atomic_t active, leaving, resized, stopping, lost, given_back;
-static pthread_t owner; /* of the terminal */
+static pthread_t owner; /* the thread that owns the terminal */
 static bool reports_mouse;
 
 /* ---- signals ---- */
@@ -42,7 +42,7 @@ static void announce(void)
     int error = errno;
     const uint64_t one = 1;
     if (write(wake_fd, &one, sizeof one) < 0) {
-        /* the count is full: it is awake already */
+        /* the count is full: the loop is awake */
     }
     errno = error;
 }
@@ -50,13 +50,13 @@ static void announce(void)
 static struct sigaction handled_before[NSIG];
 static bool handled;
 
-enum { ROOM = 1000, HOLD = 3000 }; /* milliseconds for a terminal, or its thread, that is busy */
-enum { PATIENCE = 2 };             /* seconds for the loop to see that somebody leaves */
+enum { ROOM = 1000, HOLD = 3000 }; /* milliseconds to wait for a busy terminal, or its thread */
+enum { PATIENCE = 2 };             /* seconds for the loop to notice a signal to leave */
 
 static void give_back_at_once(void)
 {
     if (active) {
-        /* a terminal that takes nothing would hold it up */
+        /* a terminal that accepts nothing would block */
         if (poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1, ROOM) > 0 &&
             write(STDOUT_FILENO, parting, parting_size) < 0) {
             /* nothing can be done about it */
@@ -66,8 +66,8 @@ static void give_back_at_once(void)
     }
 }
 
-/* The process is lost; the shell behind it must not be. The thread that has the terminal gives it back, so
-   that it writes nothing after that; the one with the fault dies of it. */
+/* Restores the terminal in a crash. Its owner does that and writes nothing afterwards; the thread with the
+   fault then dies. */
 static void on_crash(int number)
 {
     if (pthread_equal(pthread_self(), owner)) {
@@ -79,19 +79,19 @@ static void on_crash(int number)
     } else {
         lost = 1;
         pthread_kill(owner, number);
-        /* not only while it is active: it may be about to take the terminal over */
+        /* also when inactive: the owner may be about to take the terminal over */
         for (int waited = 0; !given_back && waited < HOLD; waited++) {
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         }
-        give_back_at_once(); /* if that one cannot */
+        give_back_at_once(); /* the owner may be unable to */
     }
     sigaction(number, &handled_before[number], NULL);
     raise(number);
 }
 
-/* The first leaves. A terminal's end says so several times, itself and through the shell: that is no reason
-   to give up what is being finished, but whoever asks for the third time is not held up by anything, nor by what does
-   not look at the news for seconds, as the opening of a fine mesh. */
+/* Asks the explorer to leave. A closing terminal sends several signals, itself and through the shell, so
+   the second does not interrupt unfinished files. The third ends the process at once; so does the alarm,
+   if the loop does not respond for seconds, as when it opens a fine mesh. */
 static void on_leave(int number)
 {
     const bool asks = number == SIGINT || number == SIGTERM || number == SIGQUIT;
@@ -125,7 +125,7 @@ static void on_stop(int number)
     announce();
 }
 
-/* What the handler of a signal is; NULL: it is left as it is. */
+/* Returns the handler of a signal; NULL: unchanged. */
 static void (*handler_of(int number))(int)
 {
     switch (number) {
@@ -151,7 +151,7 @@ static void (*handler_of(int number))(int)
     case SIGTRAP:
     case SIGSYS:
         return on_crash;
-    /* the next two are set before ncurses looks, so that it leaves them to us: its own handlers would draw */
+    /* set before ncurses starts, so that it does not install handlers that draw */
     case SIGWINCH:
         return on_resize;
     case SIGTSTP:
@@ -165,7 +165,7 @@ static void (*handler_of(int number))(int)
 
 static void handle(int number, void (*handler)(int), struct sigaction *old)
 {
-    /* restarted, as stdio loses what it was about to write; poll returns all the same */
+    /* restarted, as stdio would lose bytes; poll returns anyway */
     struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, old);
@@ -197,7 +197,7 @@ static void add_parting(const char *text)
     if (!text || text == (char *)-1) {
         return;
     }
-    /* without padding, which means nothing to today's terminals */
+    /* skips padding, which modern terminals do not need */
     while (*text && parting_size < sizeof parting) {
         const char *end = text[0] == '$' && text[1] == '<' ? strchr(text, '>') : NULL;
         if (end) {
@@ -211,7 +211,7 @@ static void add_parting(const char *text)
 static void prepare_parting(bool modern)
 {
     parting_size = 0;
-    if (modern) { /* first of all: what is half written, an image perhaps, would take the rest in */
+    if (modern) { /* first: ends a half-written sequence or image, which would swallow the rest */
         add_parting("\030\033\\\033[?2026l");
     }
     if (reports_mouse) {
@@ -235,7 +235,7 @@ static void say_mouse(const char *mode)
 static void take_over(void)
 {
     active = 1;
-    /* Draws one blank screen: this is where ncurses switches to the alternate one. It never draws again. */
+    /* Draws a blank screen, once: here ncurses switches to the alternate screen. */
     clearok(stdscr, TRUE);
     refresh();
     say_mouse(GM_MOUSE_ON);
@@ -244,12 +244,12 @@ static void take_over(void)
 static void give_back(void)
 {
     say_mouse(GM_MOUSE_OFF);
-    /* ncurses did not draw, so it does not know which colours and attributes are on */
+    /* ncurses did not draw, so it does not know the current attributes */
     const char *plain = tigetstr("sgr0");
     if (plain && plain != (char *)-1) {
         putp(plain);
     }
-    /* Also where there is another screen to go back to: GNU screen says so and mostly has none. */
+    /* clear even with an alternate screen: GNU screen claims one and mostly has none */
     clearok(stdscr, TRUE);
     refresh();
     endwin();
@@ -282,15 +282,14 @@ static void close_input(void)
     feed_fd = -1;
 }
 
-/* keypad() makes terminals send other sequences for these than before; what was typed ahead are the ordinary
-   ones. */
+/* Defines the ordinary sequences, which are the ones typed before keypad() changes them. */
 static void define_ordinary_arrows(void)
 {
     define_key("\033[A", KEY_UP);
     define_key("\033[B", KEY_DOWN);
     define_key("\033[C", KEY_RIGHT);
     define_key("\033[D", KEY_LEFT);
-    define_key("\033[1;2A", KEY_SR); /* with shift, which few descriptions of terminals name */
+    define_key("\033[1;2A", KEY_SR); /* with shift, which few terminfo entries name */
     define_key("\033[1;2B", KEY_SF);
     define_key("\033[1;2C", KEY_SRIGHT);
     define_key("\033[1;2D", KEY_SLEFT);
@@ -319,7 +318,7 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
     active = 1;
     set_escdelay(25);
     cbreak();
-    noqiflush(); /* a signal's key would throw away half of a sequence that is on its way */
+    noqiflush(); /* a signal's key would discard half of a sequence */
     noecho();
     nonl();
     curs_set(0);
@@ -332,7 +331,7 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
     keypad(keys, TRUE);
     define_ordinary_arrows();
     nodelay(keys, TRUE);
-    reports_mouse = tigetnum("colors") >= 8; /* terminals of old would show the letters */
+    reports_mouse = tigetnum("colors") >= 8; /* old terminals would show the letters */
     define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
     prepare_parting(tigetnum("colors") >= 256);
     take_over();
@@ -345,7 +344,7 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
 
 bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
 {
-    /* a signal waits until it is known how to give the terminal back */
+    /* signals wait until the terminal can be restored */
     sigset_t all, unblocked;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &unblocked);
@@ -359,7 +358,7 @@ void gm_console_close(void)
     if (!screen) {
         return;
     }
-    if (active) { /* not if it was stopped, and asked to end by somebody who has the terminal now */
+    if (active) { /* not while stopped: another process has the terminal then */
         give_back();
     }
     if (keys) {
@@ -377,7 +376,7 @@ void gm_console_release(void)
     handled = false;
 }
 
-/* A terminal sends what belongs together at once; only the way from it may cut it. */
+/* milliseconds between bytes of one sequence, which only the line can separate */
 enum { BELONGS_TOGETHER = 50 };
 
 int gm_console_patience(void)
@@ -395,7 +394,7 @@ static void feed(void)
     char bytes[1024], typed[sizeof bytes + GM_ANSWER_LONGEST];
     size_t size = 0;
     if (poll(&(struct pollfd){.fd = feed_fd, .events = POLLOUT}, 1, 0) <= 0) {
-        return; /* what was pasted waits until there is room: none of it is lost */
+        return; /* pasted text waits for room: none is lost */
     }
     if (poll(&(struct pollfd){.fd = STDIN_FILENO, .events = POLLIN}, 1, 0) > 0) {
         ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
@@ -407,7 +406,7 @@ static void feed(void)
         size = gm_answers_release(answers, typed);
     }
     if (size > 0 && write(feed_fd, typed, size) < 0) {
-        beep(); /* more keys than anyone types: they are lost */
+        beep(); /* these keys are lost */
     }
 }
 
@@ -446,8 +445,7 @@ void gm_console_stop(void)
 {
     struct sigaction ours;
     give_back();
-    /* Not SIGSTOP: where no shell could wake it again, as in a terminal of its own, the system lets this
-     * pass. */
+    /* Not SIGSTOP: the system ignores SIGTSTP if no shell could resume the process. */
     handle(SIGTSTP, SIG_DFL, &ours);
     raise(SIGTSTP);
     sigaction(SIGTSTP, &ours, NULL);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Composed screens to the terminal, with the picture of pixels that a screen leaves room for, which is painted and
-   encoded beside. */
+/* Sends composed screens to the terminal. A thread paints and encodes their picture of pixels. */
 #include "app/explorer/terminal/device.h"
 
 #include <errno.h>
@@ -19,16 +18,16 @@
 
 struct gm_pixels {
     struct gm_job painting;
-    bool busy; /* a picture was begun and not yet taken */
+    bool busy; /* a picture was started and not yet taken */
 
-    /* the caller's and the thread's in turn */
+    /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
     struct gm_pixels_job job;
     const char *bytes;
     size_t size;
 
-    /* the thread's */
-    struct gm_pixels_job made_for; /* what the following are for */
+    /* owned by the thread */
+    struct gm_pixels_job made_for; /* the settings of the canvas, image and rgb */
     struct gm_canvas *canvas;
     struct gm_inline *image;
     unsigned char *rgb;
@@ -55,7 +54,7 @@ static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job
     return same_kind(a, b) && a->theme == b->theme;
 }
 
-/* Makes sure of a canvas of the right size. */
+/* Opens a canvas of the right size, unless it is open. */
 static bool prepare(struct gm_pixels *pixels)
 {
     const struct gm_pixels_job *job = &pixels->job;
@@ -94,7 +93,7 @@ static struct gm_pixels *open_pixels(int wake)
 {
     char message[GM_MESSAGE];
     struct gm_pixels *pixels = calloc(1, sizeof *pixels);
-    /* a context of OpenGL, where there is one, is the thread's: it is closed there */
+    /* the thread owns an OpenGL context and closes it */
     if (pixels && !gm_job_open(&pixels->painting, paint, forget, pixels, wake, message)) {
         free(pixels);
         pixels = NULL;
@@ -164,7 +163,7 @@ static void remove_picture(struct gm_display *display)
     display->lost = true;
 }
 
-/* Begins the picture that the screen leaves room for, unless it is there. */
+/* Starts the screen's picture; returns false if it is current or cannot be painted. */
 static bool begin(struct gm_display *display, const struct gm_composed *screen)
 {
     const struct gm_terminal *terminal = display->terminal;
@@ -233,7 +232,7 @@ const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_p
                             (row - place->row + 0.5) * place->cell_height, x, y);
 }
 
-/* Sends what is queued and waits for what the terminal was asked, for a while. */
+/* Sends queued bytes and awaits the answers, for at most PATIENCE milliseconds. */
 static void drain(struct gm_display *display)
 {
     enum { PATIENCE = 1000 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What to show pictures with, by option, environment, answers and terminfo, and a word on why. */
+/* Decides how to show pictures, from options, environment, answers and terminfo, and records the reasons. */
 #include "app/explorer/terminal/device.h"
 
 #include <curses.h>
@@ -27,20 +27,20 @@ static const char *const graphics_names[] = {"kitty", "sixel", "braille", "quadr
 static const char *const theme_names[] = {"light", "dark", "mono", NULL};
 enum { LIGHT, DARK, MONO };
 
-/* From the finest way to the coarsest, as in graphics_names. */
+/* the ways to show pictures, the finest first, as in graphics_names */
 static const struct gm_graphics ladder[] = {
     {GM_INLINE_KITTY, GM_BRAILLE},  {GM_INLINE_SIXEL, GM_BRAILLE},    {GM_INLINE_NONE, GM_BRAILLE},
     {GM_INLINE_NONE, GM_QUADRANTS}, {GM_INLINE_NONE, GM_HALF_BLOCKS}, {GM_INLINE_NONE, GM_ASCII},
 };
 enum { RUNGS = GM_COUNT(ladder), FIRST_BLOCKS = 2 };
 
-/* Longer than a round trip to the other side of the world; a terminal that answers is not waited for. */
+/* milliseconds; longer than a round trip around the world */
 enum { PATIENCE = 1000 };
 
 static int rung_of(struct gm_graphics graphics)
 {
     for (int i = 0; i < RUNGS; i++) {
-        /* with pixels the blocks are those of the text */
+        /* with pixels only the text uses blocks */
         if (ladder[i].pixels == graphics.pixels && (graphics.pixels || ladder[i].blocks == graphics.blocks)) {
             return i;
         }
@@ -48,7 +48,8 @@ static int rung_of(struct gm_graphics graphics)
     return RUNGS - 1;
 }
 
-/* The ladder's step as this terminal can take it: beside pixels text is ASCII where letters are. */
+/* Returns the ladder's step for this terminal: beside pixels, text without braille uses half blocks or
+   ASCII. */
 static struct gm_graphics step_on(const struct gm_terminal *terminal, int rung)
 {
     struct gm_graphics graphics = ladder[rung];
@@ -79,13 +80,13 @@ static const char *environment(const char *name)
     return value ? value : "";
 }
 
-/* What the user demands, by an option or else by the environment. */
+/* A demand of the user, by an option or else the environment. */
 struct demand {
     const char *name, *value; /* value: "" if nothing is demanded */
-    int number;               /* among the names */
+    int number;               /* index among the names, or -1 */
 };
 
-/* False with a sentence if it has none of the names. */
+/* Finds a demand. Returns false and fills message if its value is not one of the names. */
 static bool find_demand(struct demand *demand, const char *option, const char *given, const char *variable,
                         const char *const *names, char *message)
 {
@@ -169,7 +170,7 @@ static void ask(struct gm_terminal *terminal)
     bool tmux = *environment("TMUX") || begins(terminal->name, "tmux");
     bool multiplexer = tmux || begins(terminal->name, "screen");
     bool old = begins(terminal->name, "linux") || begins(terminal->name, "vt");
-    /* screen would pass some questions on as text */
+    /* GNU screen would show some questions as text */
     enum gm_ask which = tmux ? GM_ASK_GROUND : multiplexer || old ? GM_ASK_PLAIN : GM_ASK_ALL;
     terminal->asked =
         gm_answers_ask(&terminal->answers, which, PATIENCE, terminal->typed, &terminal->typed_size);
@@ -202,13 +203,13 @@ static void find_cell(struct gm_terminal *terminal)
     } else if (terminal->cell_width == 0) {
         snprintf(terminal->cell_why, GM_REASON, "neither the system nor the terminal tells");
     }
-    if (terminal->cell_width > 200 || terminal->cell_height > 400) { /* no letter is so large */
+    if (terminal->cell_width > 200 || terminal->cell_height > 400) { /* no font is that large */
         terminal->cell_width = terminal->cell_height = 0;
         snprintf(terminal->cell_why, GM_REASON, "what was told cannot be");
     }
 }
 
-/* ---- what follows from it ---- */
+/* ---- decisions ---- */
 
 static void decide_colours(struct gm_terminal *terminal, const struct demand *demand, bool mono)
 {
@@ -225,8 +226,7 @@ static void decide_colours(struct gm_terminal *terminal, const struct demand *de
         terminal->colours = GM_COLOURS_NONE;
         snprintf(terminal->colours_why, GM_REASON, "NO_COLOR is set");
     } else if (has < 8) {
-        /* COLORTERM is inherited through ssh and su; a TERM that was set to a terminal without colours knows
-           better. */
+        /* ssh and su pass COLORTERM on; a TERM without colours is more reliable */
         terminal->colours = GM_COLOURS_NONE;
         snprintf(terminal->colours_why, GM_REASON, "terminfo knows no colours of TERM=%s%s", terminal->name,
                  says_true ? ", whatever COLORTERM says" : "");
@@ -276,7 +276,7 @@ static void decide_graphics(struct gm_terminal *terminal, const struct demand *d
         rung = demand->number;
         because(terminal->graphics_why, demand);
         if (ladder[rung].pixels && terminal->cell_width == 0) {
-            terminal->cell_width = 10; /* those of the VT340, which emulations of it keep to */
+            terminal->cell_width = 10; /* the cell of the VT340, which its emulators use */
             terminal->cell_height = 20;
             snprintf(terminal->cell_why, GM_REASON, "assumed, as nobody tells");
         }
@@ -299,7 +299,7 @@ static void decide_graphics(struct gm_terminal *terminal, const struct demand *d
 static void decide_theme(struct gm_terminal *terminal, const struct demand *demand)
 {
     const struct gm_answers *answers = &terminal->answers;
-    /* "default" may stand there too, and tells nothing */
+    /* the value may be "default", which gives no colour */
     const char *said = environment("COLORFGBG"), *ground = strrchr(said, ';');
     bool numbered = ground && ground[1] >= '0' && ground[1] <= '9';
     if (demand->number >= 0) {
@@ -323,7 +323,7 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
 {
     *terminal = (struct gm_terminal){
         .name = environment("TERM"), .input = isatty(STDIN_FILENO), .output = isatty(STDOUT_FILENO)};
-    /* Only the letters: numbers are read and written with a point everywhere. */
+    /* only the letters: numbers always use a decimal point */
     setlocale(LC_CTYPE, "");
     terminal->codeset = nl_langinfo(CODESET);
     terminal->utf8 = strcasecmp(terminal->codeset, "UTF-8") == 0;
@@ -423,7 +423,7 @@ static void report_ladder(const struct gm_terminal *terminal)
     printf("  %-12s %s\n", "key b", text);
 }
 
-/* What paints here, in the terminal and to files: any picture tells. */
+/* Prints the painter in use, found with a small canvas. */
 static void report_painter(const char *what, bool live, const char *where)
 {
     char message[GM_MESSAGE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bytes to a terminal: what differs from the last screen, in pieces that the line takes at once. */
+/* Writes the differences between screens to a terminal, without blocking. */
 #include "app/explorer/terminal/device.h"
 
 #include <curses.h>
@@ -18,8 +18,8 @@
 
 /* ---- the colours of a picture in terminals of 256 and of 16 colours ---- */
 
-/* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour
-   would end among the greys. */
+/* Returns a distance that counts a shift of hue four times as much as one of brightness; otherwise every
+   faded colour would become a grey. */
 static int shift(struct gm_rgb a, struct gm_rgb b)
 {
     int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b, light = (2 * r + 5 * g + blue) / 8;
@@ -37,7 +37,7 @@ static struct gm_rgb of_256(int number)
     return (struct gm_rgb){levels[number / 36], levels[number / 6 % 6], levels[number % 6]};
 }
 
-/* The nearest of the 256 colours of xterm, the first sixteen (which users redefine) left out. */
+/* Returns the nearest of xterm's 256 colours, except the first sixteen, which users redefine. */
 static int nearest_256(struct gm_rgb colour)
 {
     int best = 16;
@@ -49,7 +49,7 @@ static int nearest_256(struct gm_rgb colour)
     return best;
 }
 
-/* The sixteen as terminals usually show them; users' palettes differ, but not in what is red. */
+/* the usual sixteen colours; users' palettes differ, but not in hue */
 static const struct gm_rgb sixteen[16] = {
     {0, 0, 0},     {205, 0, 0},     {0, 205, 0},     {205, 205, 0},   {0, 0, 238}, {205, 0, 205},
     {0, 205, 205}, {229, 229, 229}, {127, 127, 127}, {255, 0, 0},     {0, 255, 0}, {255, 255, 0},
@@ -67,7 +67,7 @@ static int nearest_16(struct gm_rgb colour)
     return best;
 }
 
-/* Strong and faded, on black and on white. */
+/* strong and faded colours of the roles, on black and on white */
 static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
     [GM_THEME_DARK] = {[GM_PAPER] = {0, 0},
                        [GM_INK] = {15, 7},
@@ -97,11 +97,11 @@ static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
                         [GM_LANE + 5] = {0, 8}},
 };
 
-/* A role in its own colour, in the darker one of the pair where it is faded. */
+/* Returns a role's colour, or the darker one of its pair if it is faded. */
 static int nearest_role(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
-    /* distances are squares: below a third of the square is below .58 of the way */
+    /* distances are squared: 1/3 is 0.58 of the distance */
     bool faded = 3 * gm_rgb_distance(colour, paper) < gm_rgb_distance(gm_theme_colour(theme, role), paper);
     return roles[theme][role][faded];
 }
@@ -115,7 +115,7 @@ static int nearest_ground(enum gm_theme theme, struct gm_rgb colour)
     return nearest_16(colour);
 }
 
-/* Whether a colour counts as ink where there are no colours at all. */
+/* Returns true if a colour counts as ink on a monochrome terminal. */
 static bool is_ink(enum gm_theme theme, struct gm_rgb colour)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER), ink = gm_theme_colour(theme, GM_INK);
@@ -126,7 +126,7 @@ static bool is_ink(enum gm_theme theme, struct gm_rgb colour)
 
 static void put(struct gm_writer *writer, const char *bytes, size_t size)
 {
-    if (size == 0) { /* then there may be no line yet */
+    if (size == 0) { /* `bytes` may be NULL then */
         return;
     }
     if (writer->length + size > writer->capacity) {
@@ -170,7 +170,7 @@ static void put_glyph(struct gm_writer *writer, uint32_t code)
     put(writer, bytes, 1 + (size_t)more);
 }
 
-/* A capability without its padding $<5>: it would make us wait for terminals of old. */
+/* Queues a capability without its padding $<5>, which is for old terminals. */
 static void put_capability(struct gm_writer *writer, const char *capability)
 {
     if (!capability) {
@@ -225,7 +225,7 @@ static void put_colour(struct gm_writer *writer, long number, bool ground)
     }
 }
 
-/* Letters, colours and attributes as this terminal has them. */
+/* The glyph, colours and attributes of a cell on this terminal. */
 struct look {
     uint32_t glyph;
     long foreground, background;
@@ -238,7 +238,7 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
 {
     struct look look = {.glyph = cell->glyph ? cell->glyph : ' ', .bold = cell->bold};
     if (writer->colours == GM_COLOURS_NONE) {
-        /* ink or paper is all there is: two inks in one cell are a full block, an inked ground is reversed */
+        /* only ink and paper: two inks in one cell are a full block, an inked ground is reversed */
         bool ink = is_ink(writer->theme, cell->foreground);
         bool ground = is_ink(writer->theme, cell->background);
         bool block = cell->glyph >= 0x2580 && cell->glyph <= 0x259F;
@@ -259,7 +259,7 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
         look.foreground &= 7;
         look.background &= 7;
     }
-    if (look.glyph == ' ') { /* only the ground is seen */
+    if (look.glyph == ' ') { /* a blank shows only its background */
         look.foreground = writer->foreground >= 0 ? writer->foreground : look.foreground;
     }
     return look;
@@ -327,7 +327,7 @@ static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int
     put_glyph(writer, look.glyph);
     writer->column++;
     if (writer->column >= cells->columns) {
-        writer->row = -1; /* at the right edge terminals differ in where the cursor is */
+        writer->row = -1; /* at the right edge terminals differ in the cursor's position */
     }
 }
 
@@ -344,10 +344,10 @@ static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
     return true;
 }
 
-enum { CHEAPER = 4 }; /* so many cells written again cost less than addressing the cursor */
+enum { CHEAPER = 4 }; /* the most cells that are cheaper to rewrite than to skip */
 
-/* Whether the cells from where the cursor is to the column may be written again: it is cheaper, and no
-   picture is there. */
+/* Returns true if the cells from the cursor to the column can be rewritten: they are few and not covered
+   by a picture. */
 static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
 {
     if (writer->row != row || column <= writer->column || column - writer->column > CHEAPER) {
@@ -368,7 +368,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
     if (!resize(writer, cells)) {
         return;
     }
-    /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
+    /* Synchronised output: terminals that support it show the frame at once, others ignore it. */
     bool together = writer->colours >= GM_COLOURS_256 || image;
     if (together) {
         gm_writer_tell(writer, "\033[?2026h");
@@ -417,11 +417,11 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
     }
 }
 
-/* At most so many bytes may be on their way: some frames of cells, or one picture. A queue of more than LAG
-   milliseconds is too long; an answer that is LOST later than even a slow line explains is not waited for. */
+/* bytes that may be unanswered, at most and at least: some frames of cells, or one picture; the delay (ms)
+   that is too long; the milliseconds after which an answer is lost */
 enum { ON_THE_WAY = 32768, LEAST_ON_THE_WAY = 1024, LAG = 200, LOST = 3000 };
 
-/* Additive increase and multiplicative decrease, as for the window of TCP. */
+/* Adapts the bound by additive increase and multiplicative decrease, like TCP's window. */
 static void adapt(struct gm_writer *writer, int64_t now)
 {
     const int64_t passed = now - writer->sent_at[(writer->answered - 1) % GM_WRITER_FLYING];
@@ -447,12 +447,12 @@ static size_t flying(const struct gm_writer *writer)
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready)
 {
     const int64_t now = gm_clock_milliseconds();
-    if (ready > writer->asked) { /* answers to questions of before */
+    if (ready > writer->asked) { /* late answers to earlier questions */
         ready = writer->asked;
     }
     if (ready > writer->heard) {
         writer->heard = ready;
-        writer->asks = true; /* it does answer, however late */
+        writer->asks = true; /* the terminal does answer */
         writer->asked_at = now;
     }
     if (ready > writer->answered) {
@@ -470,7 +470,7 @@ int gm_writer_patience(const struct gm_writer *writer)
     if (writer->answered == writer->asked) {
         return -1;
     }
-    /* the line may take a kilobyte a second */
+    /* a slow line transfers a kilobyte per second */
     const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - gm_clock_milliseconds();
     return left > 0 ? (int)left : 0;
 }
@@ -552,7 +552,7 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
     }
     writer->bright = tigetnum("colors") >= 16 || !writer->set_foreground;
     writer->corner = tigetflag("am") <= 0 || tigetflag("xenl") > 0;
-    /* The terminal opened a second time can be made not to wait without changing that for the shell. */
+    /* A second descriptor can be non-blocking without changing the shell's. */
     const char *name = ttyname(STDOUT_FILENO);
     if (name) {
         writer->fd = open(name, O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);

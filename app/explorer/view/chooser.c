@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of schemes to choose from, searched by what is typed. */
+/* The list of schemes, with a search. */
 #include "app/explorer/view/view.h"
 
 #include <curses.h>
@@ -17,8 +17,8 @@ const struct gm_scheme gm_chooser_user = {
                "splitting(drifts; kicks), or a file: ./my.scheme",
 };
 
-/* The schemes that fit and in which everything typed is found: what is called so comes first, then those of
-   the scene. Returns how many. */
+/* Finds the suitable schemes that match the typed words, the best first, and last the one to be typed.
+   Returns their number. */
 static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
                        const struct gm_scheme *found[GM_SHOT_SCHEMES])
 {
@@ -50,7 +50,7 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
 
 /* ---- keys ---- */
 
-/* The first scheme after the selected lane's that no lane has. */
+/* Returns the first scheme after the selected lane's that no lane uses. */
 static const struct gm_scheme *first_choice(const struct gm_shot *shot)
 {
     size_t own = 0;
@@ -76,7 +76,7 @@ enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, const struc
     return GM_KEY_DONE;
 }
 
-/* The next listed scheme up or down from the chosen one. */
+/* Moves the choice up or down in the list. */
 static void move_choice(struct gm_face *face, const struct gm_shot *shot, int by)
 {
     const struct gm_scheme *found[GM_SHOT_SCHEMES];
@@ -95,7 +95,7 @@ static void move_choice(struct gm_face *face, const struct gm_shot *shot, int by
     face->choice = found[next < 0 ? 0 : next > last ? last : next];
 }
 
-/* What answers best to what was typed; with nothing typed, what was chosen stays so. */
+/* Chooses the best match; without a typed word the choice stays. */
 static void choose_best(struct gm_face *face, const struct gm_shot *shot)
 {
     const struct gm_scheme *found[GM_SHOT_SCHEMES];
@@ -147,7 +147,7 @@ enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
     }
 }
 
-/* ---- what is drawn ---- */
+/* ---- drawing ---- */
 
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour in the explorer: its keys, and what it tells below the picture. */
+/* A tour in the explorer: its keys, and its texts below the picture. */
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
@@ -31,15 +31,15 @@ enum gm_guide_result gm_guide_press(struct gm_guide *guide, int key)
         }
         return go(guide, guide->step + 1);
     case 'N':
-        return go(guide, guide->step - 1); /* before the first one there is none: the number wraps around */
+        return go(guide, guide->step - 1); /* step 0 - 1 wraps around to a number without a step */
     default:
         return go(guide, guide->step);
     }
 }
 
-/* ---- what is told ---- */
+/* ---- texts ---- */
 
-/* A word such as "Watch:" in front of a text. */
+/* Draws a mark such as "Watch:" before a text (NULL: neither); returns the rows. */
 static int draw_marked(const struct gm_sheet *sheet, int row, const char *mark, const char *text)
 {
     if (!text) {
@@ -64,7 +64,6 @@ static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide
     return row;
 }
 
-/* At most two fifths of the screen, so that there is still something to see. */
 int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide)
 {
     const struct gm_sheet nothing = gm_sheet_part(screen, 0, 0, screen->width - 2, 0);
@@ -72,7 +71,7 @@ int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide)
     return screen->height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
 }
 
-/* The keys of the tour at the right of the rule; returns where they begin. */
+/* Draws the tour's keys at the right of the rule; returns their first column. */
 static int draw_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
 {
     struct gm_hint hints[4];

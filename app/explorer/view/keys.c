@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The keys of a scene, one row each; and a line that is typed, from its first key to the order that it becomes. */
+/* The keys of a scene, and typed lines, from their first key to their order. */
 #include "app/explorer/view/view.h"
 
 #include <curses.h>
@@ -10,7 +10,7 @@
 
 /* ---- typed lines ---- */
 
-/* Where running ahead goes if no time is typed. */
+/* Writes the time to run ahead to if no time is typed. */
 static void ahead_text(const struct gm_shot *shot, char *text, size_t size)
 {
     snprintf(text, size, "%.6g", shot->ahead);
@@ -56,7 +56,8 @@ enum gm_key_result gm_prompt_press(const struct gm_keystroke *press)
     return gm_keystroke_order(press, order);
 }
 
-/* As much of the end of what was typed as leaves room for the help, where keys are added. */
+/* Returns the end of the typed text, where letters are added, and sets the mark before it; the help needs
+   the rest. */
 static const char *end_of(const char *typed, const char **before)
 {
     enum { SHOWN = 40 };
@@ -80,7 +81,7 @@ void gm_prompt_text(const struct gm_face *face, const struct gm_shot *shot, char
 
 /* ---- keys ---- */
 
-/* To the explorer, whose matter it is. */
+/* Returns the result in `meaning`, for the explorer to handle. */
 static enum gm_key_result pass_on(const struct gm_keystroke *press, const struct gm_key_code *key)
 {
     (void)press;
@@ -95,7 +96,7 @@ static enum gm_key_result order(const struct gm_keystroke *press, const struct g
         press, (struct gm_order){.kind = (enum gm_order_kind)key->meaning, .amount = key->amount});
 }
 
-/* In the colours that are seen. */
+/* Gives an order with the current theme. */
 static enum gm_key_result order_picture(const struct gm_keystroke *press, const struct gm_key_code *key)
 {
     const struct gm_key_code coloured = {.meaning = key->meaning, .amount = (int)press->face->theme};
@@ -125,7 +126,7 @@ static enum gm_key_result order_parameter(const struct gm_keystroke *press, cons
                                                        .of_scheme = parameter->of_scheme});
 }
 
-/* In space shift with the arrows goes around what is seen, else it changes finely. */
+/* Moves around a picture in space with shift and the arrows; elsewhere changes a parameter finely. */
 static enum gm_key_result order_look(const struct gm_keystroke *press, const struct gm_key_code *key)
 {
     enum { DEGREES = 5 };
@@ -208,5 +209,5 @@ enum gm_key_result gm_key_press(const struct gm_keystroke *press)
             }
         }
     }
-    return GM_KEY_DONE; /* any other key dismisses a message */
+    return GM_KEY_DONE; /* the key only dismisses a message */
 }

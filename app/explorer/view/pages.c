@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages that explain: what is on them, and how they are scrolled. */
+/* The content of the explaining pages, and scrolling. */
 #include "app/explorer/view/view.h"
 
 #include <curses.h>
@@ -8,9 +8,9 @@
 
 #include "core/basics.h"
 
-enum { PAGE = 10 }; /* lines */
+enum { PAGE = 10 }; /* lines per press of PgUp or PgDn */
 
-/* A column of the page that grows downwards, scrolled by the sheet's face. */
+/* A page that grows downwards, scrolled by `scroll` rows. */
 struct page {
     struct gm_sheet sheet;
     int row, scroll;
@@ -21,7 +21,7 @@ static void put(struct page *page, int column, const char *text, enum gm_role ro
     gm_sheet_text(&page->sheet, column, page->row - page->scroll, text, role, bold);
 }
 
-/* Breaks a text at its blanks; lines after the first begin at `column` too. */
+/* Adds a wrapped text; all its lines start at `column`. */
 static void put_wrapped(struct page *page, int column, const char *text, enum gm_role role)
 {
     page->row += gm_sheet_wrapped(&page->sheet, column, page->row - page->scroll, 100, text, role);
@@ -86,7 +86,7 @@ static void put_claims(struct page *page)
     put_wrapped(page, 0, "`geomint certify` measures every one of them.", GM_SECONDARY);
 }
 
-/* Lines, each with its own indentation, which what has no room in it keeps below. */
+/* Adds lines; each retains its indentation when wrapped. */
 static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
 {
     for (const char *at = text; at && *at;) {
@@ -95,7 +95,7 @@ static void put_lines(struct page *page, int column, const char *text, enum gm_r
         snprintf(line, sizeof line, "%.*s", (int)(length - blanks), at + blanks);
         const int rows = page->row;
         put_wrapped(page, column + (int)blanks, line, role);
-        page->row += page->row == rows; /* an empty one */
+        page->row += page->row == rows; /* an empty line takes a row */
         at += length + (at[length] == '\n');
     }
 }
@@ -220,7 +220,7 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
 
 static void draw_page(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
 {
-    /* Measured first on no rows at all, so that scrolling stops at the last line. */
+    /* Drawn first on zero rows, to find the last line for scrolling. */
     struct gm_sheet nothing = *sheet;
     nothing.height = 0;
     int most = draw(&nothing, 0, shot) - sheet->height;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The screen while a scene is open: where its parts are, and which of them there are; and the status line: of all there
-   is to say, what matters most. */
+/* The screen for an open scene: its layout, and the status line, which has the most important of its
+   texts. */
 #include "app/explorer/view/view.h"
 
 #include <curses.h>
@@ -20,7 +20,7 @@ static int by_rank(const void *a, const void *b)
     return (*first)->rank - (*second)->rank;
 }
 
-/* The hints of the table of keys. */
+/* Collects the hints of the table of keys. */
 static void key_hints(const struct gm_shot *shot, struct gm_hint hints[MOST_HINTS])
 {
     const struct gm_key_row *rows[MOST_HINTS];
@@ -43,17 +43,17 @@ static const struct gm_hint chooser_hints[] = {{"enter", "take it", '\n'},
                                                {"?", "formula", '?'},
                                                {"esc", "back", 27},
                                                {NULL, NULL, 0}};
-/* While a parameter is explained. */
+/* the hints while a parameter is explained */
 static const struct gm_hint parameter_hints[] = {
     {"enter", "type", '\n'},         {"- +", "finely", 0}, {"← →", "change", 0}, {"↑ ↓", "choose", 0},
     {"⌫", "default", KEY_BACKSPACE}, {"?", "help", '?'},   {NULL, NULL, 0}};
 static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
 static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
 
-/* Slower than this, in steps per second, a step can be seen by itself. */
+/* steps per second below which single steps are visible */
 static const double slow_motion = 20;
 
-/* The speed of the clock, whether it stands, the length of a movie. */
+/* Writes the speed, the state of the clock, and the length of a movie. */
 static void status_speed(const struct gm_shot *shot, char *text, size_t size)
 {
     char movie[24] = "", pace[32] = "";
@@ -72,7 +72,7 @@ static void status_speed(const struct gm_shot *shot, char *text, size_t size)
                             : "");
 }
 
-/* What a parameter is, its range, and whether a change starts the run again; with its value where no panel
+/* Explains a parameter: its help, range, and whether a change restarts the run; with its value if no panel
    shows it. */
 static void explain(const struct gm_shot_parameter *parameter, bool valued, char *text, size_t size)
 {
@@ -87,13 +87,13 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
 }
 
-/* Whether the status line says what to watch; a tour says that itself. */
+/* Returns true while the status line shows what to watch; a tour has its own text. */
 static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
 {
     return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
 }
 
-/* What stands at the left. */
+/* Writes the text at the left of the status line. */
 static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
     const char *lane = shot->lanes[shot->selected].scheme->title;
@@ -116,7 +116,7 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
     }
 }
 
-/* Beside a panel of so many columns, which tells the speed; 0: there is none. */
+/* Draws the status line; it has the speed if there is no panel (`side` columns; 0: none). */
 static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
 {
     const struct gm_face *face = whole->face;
@@ -124,7 +124,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
     struct gm_hint keys[MOST_HINTS];
     char text[GM_MESSAGE];
     int column = 1;
-    if (!side) { /* the side panel has it otherwise */
+    if (!side) { /* the side panel shows it otherwise */
         status_speed(shot, text, sizeof text);
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
@@ -144,7 +144,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
         gm_screen_say_above(whole, text);
         text[0] = '\0';
     }
-    /* the first hint is always there if it fits at all */
+    /* the first hint has priority over the text */
     int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - FIRST_HINT;
     int begin = gm_sheet_hints(&sheet, from < most ? from : most > column ? most : column, hints);
     if (begin > column) {
@@ -157,7 +157,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
 
 enum { SIDE_LEAST = 31, SIDE_MOST = 58 };
 
-/* Where there is no room for picture and panel, the panel comes when it is asked for, and alone. */
+/* Returns the columns of the panel. On a small screen it appears alone, on request. */
 static int side_columns(const struct gm_cells *cells, const struct gm_face *face)
 {
     const bool choosing = face->choosing != GM_CHOOSE_NOTHING;
@@ -183,7 +183,7 @@ static void draw_head(const struct gm_sheet *sheet, const struct gm_shot *shot)
                  (struct gm_hit){.kind = GM_HIT_KEY, .index = ' '});
 }
 
-/* The rule below the picture is the past: a mark stands where the lanes are. */
+/* Draws the past on the rule below the picture, with a mark at the lanes' time. */
 static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, int width)
 {
     const struct gm_sheet sheet = gm_sheet_part(whole, 1, whole->height - 2, width - 2, 1);
@@ -199,7 +199,7 @@ static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, 
 static const struct gm_hint study_hints[] = {{"esc", "back", 27},  {"x", "stop", 'x'}, {"p", "save", 'p'},
                                              {"b", "blocks", 'b'}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
 
-/* A study over the whole width, in so many rows, and how far it is. */
+/* Draws a study in `rows` rows of full width, and its progress. */
 static void draw_study(const struct gm_sheet *whole, int rows, int below)
 {
     char text[GM_MESSAGE];
@@ -223,7 +223,7 @@ static void draw_study(const struct gm_sheet *whole, int rows, int below)
     }
 }
 
-/* What is measured unseen, on the rule above the last row. */
+/* Draws the progress of hidden studies on the rule above the last row. */
 static void draw_news(const struct gm_sheet *whole, const struct gm_scene *scene)
 {
     char text[GM_MESSAGE] = "", framed[GM_MESSAGE + 2];

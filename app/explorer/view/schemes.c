@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How schemes and lanes look in lists. */
+/* The appearance of schemes and lanes in lists. */
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* A lane's line, as three cells of text; the same dash as in the picture. */
+/* a lane's line as three cells of text, dashed as in the picture */
 static const char *const dash_marks[GM_DASH_COUNT] = {
     [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
     [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
@@ -21,7 +21,7 @@ enum gm_role gm_schemes_role(const struct gm_shot_lane *lane)
     return gm_lane_role(lane->shown.colour);
 }
 
-/* ---- what schemes claim ---- */
+/* ---- claims ---- */
 
 unsigned gm_schemes_claims(const struct gm_shot *shot)
 {
@@ -35,7 +35,7 @@ unsigned gm_schemes_claims(const struct gm_shot *shot)
     return claims;
 }
 
-/* The letters in their columns from the first one on, or without what stands between them. */
+/* Writes the claims' letters in their columns, or if `close` without spaces. */
 static void claims_text(unsigned claims, unsigned columns, bool close, char *text, size_t size)
 {
     size_t at = 0;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The side panel: its rows shared out among the lanes and schemes, the parameters, what is observed, and the
-   formula. */
+/* The side panel: lanes and schemes, parameters, observables, and the formula. */
 #include "app/explorer/view/view.h"
 
 #include <math.h>
@@ -11,17 +10,17 @@
 
 /* The rows of the sections. */
 struct plan {
-    bool lanes;     /* they are listed */
-    int schemes;    /* rows of schemes without a lane, the last one perhaps "more" */
-    int parameters; /* rows */
+    bool lanes;     /* the lanes are listed */
+    int schemes;    /* rows of schemes without a lane, the last perhaps "more" */
+    int parameters; /* rows of parameters */
     bool sparks;
-    bool stacked;    /* an observable's name has a row of its own */
-    int observables; /* rows, sparks included */
+    bool stacked;    /* an observable's name has its own row */
+    int observables; /* rows of observables, with sparks */
     int gap;         /* blank rows before a section */
-    bool more;       /* schemes than rows */
+    bool more;       /* there are more schemes than rows */
 };
 
-/* ---- how the rows are shared out ---- */
+/* ---- the distribution of rows ---- */
 
 static int least(int a, int b)
 {
@@ -37,13 +36,13 @@ static int count_unused(const struct gm_shot *shot)
     return unused;
 }
 
-/* The rows of observables that there are: those of the scene and, where time was turned, the way back. */
+/* Returns the rows of observables: the scene's, and after a reversal of time the way back. */
 static int observable_rows(const struct gm_shot *shot)
 {
     return (int)shot->observable_count + shot->turned;
 }
 
-/* One section alone. */
+/* Returns the plan for one section. */
 static struct plan plan_one(int rows, enum gm_side_panel side, const struct gm_shot *shot)
 {
     struct plan plan = {.lanes = side != GM_SIDE_PARAMETERS};
@@ -68,7 +67,7 @@ static struct plan plan_one(int rows, enum gm_side_panel side, const struct gm_s
     return plan;
 }
 
-/* Shares the rows out: what must be seen first, then what is good to see, then air. */
+/* Returns the plan for all sections: first what must be visible, then what is useful, then space. */
 static struct plan plan_all(int rows, const struct gm_shot *shot)
 {
     int lanes = (int)shot->lane_count, parameters = (int)shot->parameter_count;
@@ -101,15 +100,15 @@ static struct plan plan_all(int rows, const struct gm_shot *shot)
     return plan;
 }
 
-/* ---- schemes: this section, as the others, draws from a row on and returns the one after it ---- */
+/* ---- schemes: each section draws from `row` on and returns the next free row ---- */
 
-/* Where a lane's title begins, after the mark of the selected one and the lane's line. */
+/* Returns the column of a lane's title, after the selection's mark and the lane's line. */
 static int title_column(const struct gm_sheet *sheet)
 {
     return gm_schemes_narrow(sheet) ? 5 : 6;
 }
 
-/* A name without the scheme's title that it begins with, which stands before it. */
+/* Returns a name without the scheme's title at its start, which precedes it on the screen. */
 static const char *beyond_title(const char *name, const char *title)
 {
     const size_t length = strlen(title);
@@ -119,7 +118,7 @@ static const char *beyond_title(const char *name, const char *title)
     return name[length] ? name + length + 2 : "";
 }
 
-/* What tells the lane from others of its scheme. */
+/* Writes the difference of a lane from others of its scheme. */
 static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
 {
     const char *title = lane->first_scheme->title;
@@ -128,8 +127,8 @@ static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char
     snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
-/* Up to a column: where room is short the difference keeps its values alone, and then the scheme's title is
-   cut before they are, and before a bracket at its end, which tells it from a scheme of a like title. */
+/* Draws a title and difference up to column `end`. If they are too long, the difference is reduced to its
+   values; then the title is cut, before a bracket at its end that distinguishes similar titles. */
 static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane,
                        const char *difference, int end, bool bold)
 {
@@ -157,7 +156,7 @@ static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_sh
     gm_sheet_text(sheet, whole < most ? whole : most, row, tail, gm_schemes_role(lane), bold);
 }
 
-/* What went wrong with a lane, in as many words as its name leaves room for; the last is the shortest. */
+/* Draws a lane's failure in the longest of three texts that fits. */
 static int lane_trouble(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
                         const struct gm_shot_lane *lane, int title_end)
 {
@@ -241,7 +240,7 @@ static void draw_heading(const struct gm_sheet *sheet, int row, const char *text
 
 enum { VALUE_LETTERS = 9 };
 
-/* The value as it is typed, or with fewer digits where that leaves no room for a slider. */
+/* Writes the value as typed, or with fewer digits to make room for a slider. */
 static void value_text(const struct gm_shot_parameter *parameter, char *text, size_t size)
 {
     double value;
@@ -251,7 +250,7 @@ static void value_text(const struct gm_shot_parameter *parameter, char *text, si
     }
 }
 
-/* Where the values begin: after the longest key. */
+/* Returns the column of the values, after the longest key. */
 static int value_column(const struct gm_shot *shot)
 {
     int longest = 11;
@@ -309,7 +308,7 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
     }
     draw_heading(sheet, row++, "PARAMETERS");
     int values = value_column(shot);
-    /* the chosen one is always among those shown */
+    /* the chosen parameter is always visible */
     int first = chosen - plan->parameters / 2;
     first = least(first, count - plan->parameters);
     first = first < 0 ? 0 : first;
@@ -326,7 +325,7 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
 
 enum { VALUE_WIDTH = 9, SPARK_CELLS = GM_SPARK / 2 };
 
-/* The common scale of an observable's graphs. */
+/* Sets the common scale of an observable's graphs. */
 static bool spark_range(const struct gm_shot *shot, size_t observable, double *low, double *high)
 {
     bool logarithmic = shot->scene->observables[observable].logarithmic;
@@ -355,7 +354,7 @@ static double spark_place(double value, bool logarithmic, double low, double hig
     return high > low ? fmin(fmax((at - low) / (high - low), 0), 1) : 0.5;
 }
 
-/* As braille where the picture has it, otherwise as bars or letters of growing height. */
+/* Draws a graph as braille if the picture has it, otherwise as bars or letters of growing height. */
 static void draw_spark(const struct gm_sheet *sheet, int column, int row, const struct gm_spark *spark,
                        bool logarithmic, double low, double high, enum gm_role role)
 {
@@ -372,7 +371,7 @@ static void draw_spark(const struct gm_sheet *sheet, int column, int row, const 
             double from = spark_place(bottom, logarithmic, low, high),
                    to = spark_place(top, logarithmic, low, high);
             int first = (int)(from * 3 + 0.5), last = (int)(to * 3 + 0.5);
-            /* joined to the place before, so that a steep rise is a line and not two dots */
+            /* joined to the previous value, so that a steep rise is a line */
             if (before >= 0 && before + 1 < first) {
                 first = before + 1;
             }
@@ -404,7 +403,7 @@ static void observable_name(const struct gm_observable *observable, char *text, 
     }
 }
 
-/* The lanes whose values fit side by side; the selected one is always among them. */
+/* Returns the first of the lanes whose values fit side by side, including the selected one. */
 static size_t first_column(const struct gm_shot *shot, size_t columns)
 {
     if (shot->lane_count <= columns || shot->selected < columns) {
@@ -413,13 +412,13 @@ static size_t first_column(const struct gm_shot *shot, size_t columns)
     return shot->selected - columns + 1;
 }
 
-/* The columns of numbers: the lanes from `first` on, as many as fit. */
+/* The columns of numbers: `count` lanes from `first` on. */
 struct columns {
     size_t first, count;
     int begin, label;
 };
 
-/* Numbers of the lanes in a row, under or beside a name. */
+/* Draws the lanes' numbers in a row, under or beside a name. */
 static void draw_numbers(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
                          const struct columns *columns, const char *name,
                          double (*value)(const struct gm_shot_lane *, size_t), size_t k)
@@ -491,7 +490,7 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     return row;
 }
 
-/* ---- all of it ---- */
+/* ---- the panel ---- */
 
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {

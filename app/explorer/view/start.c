@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The start: scenes, tours, and what there is in files, with a live look at the chosen one. */
+/* The start screen: scenes, tours, systems and rooms of files, with a preview of the chosen one. */
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include "core/basics.h"
 
 enum {
-    NAME_COLUMNS = 17, /* before a title */
-    LONGEST_NAME = 22, /* of a list without titles */
+    NAME_COLUMNS = 17, /* columns before a title */
+    LONGEST_NAME = 22, /* columns of a name in a list without titles */
     TITLE_COLUMNS = 38,
     LOOK_FROM_COLUMNS = 64,
     LOOK_FROM_ROWS = 14,
@@ -50,7 +50,7 @@ static void draw_entry(const struct gm_sheet *sheet, int row, const struct gm_st
     gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCENE, .index = index});
 }
 
-/* The lines above an entry that belong to its group: a free one, but at the top, and the heading. */
+/* Returns the lines above an entry for its group: a heading, and except at the top a blank. */
 static int lines_above(const struct gm_start *start, size_t i)
 {
     const enum gm_start_group group = start->found[i].group;
@@ -69,7 +69,7 @@ static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start
         lines += lines_above(start, i) + 1;
         chosen = i == start->choice ? lines - 1 : chosen;
     }
-    /* the chosen one in the middle, where the list is longer than the sheet */
+    /* the choice is in the middle of a list that is longer than the sheet */
     int first = chosen - sheet->height / 2;
     first = first > lines - sheet->height ? lines - sheet->height : first;
     first = first < 0 ? 0 : first;
@@ -99,7 +99,7 @@ static int wrapped_rows(const struct gm_sheet *sheet, const char *text)
     return gm_sheet_wrapped(&nothing, 0, 0, 100, text, GM_INK);
 }
 
-/* A sentence, and below it the line that it is about with a caret, which keep their columns. */
+/* Draws a message and below it the faulty line with a caret, in unchanged columns. */
 static void draw_fault(const struct gm_sheet *sheet, int row, int rows, const char *said)
 {
     const char *line = said + strcspn(said, "\n");
@@ -114,7 +114,7 @@ static void draw_fault(const struct gm_sheet *sheet, int row, int rows, const ch
     }
 }
 
-/* The chosen one: what it is, a live look, and what to watch, as far as its scene is made. */
+/* Draws the chosen scene's title, description, preview, and what to watch, as far as the scene is made. */
 static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
                       const struct gm_start_entry *entry, const struct gm_shot *shot, const char *said)
 {
@@ -138,7 +138,7 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
     gm_sheet_wrapped(sheet, 0, rows - below, below, watch, GM_INK);
 }
 
-/* The chosen tour: what it is about, and its steps. */
+/* Draws the chosen tour's description and its steps. */
 static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
 {
     int row = 0;
@@ -155,7 +155,7 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
                      "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
 }
 
-/* A system of one's own: what can be typed. */
+/* Draws examples for a user-defined system. */
 static void draw_own(const struct gm_sheet *sheet)
 {
     static const char *const examples[][2] = {
@@ -179,7 +179,7 @@ static void draw_own(const struct gm_sheet *sheet)
     gm_sheet_wrapped(sheet, 0, row + 1, 2, "enter opens the line to type in.", GM_SECONDARY);
 }
 
-/* The last row: what was typed, or that one can, and the keys. */
+/* Draws the last row: the typed search, or a hint that one can search, and the keys. */
 static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start)
 {
     enum { MOST = 7 };

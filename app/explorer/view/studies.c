@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which study is on the screen, its keys and its picture; and what is told of those that go on unseen. */
+/* The shown study, its keys and its picture, and the progress of hidden studies. */
 #include "app/explorer/view/view.h"
 
 #include <ctype.h>
@@ -11,7 +11,7 @@
 #include "app/base/arguments.h"
 #include "app/explorer/surface/surface.h"
 
-/* 0: a tour alone shows it */
+/* the keys of the studies; 0: only a tour shows it */
 static const char keys[GM_STUDY_COUNT] = {
     [GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm', [GM_STUDY_SWEEP] = 'M'};
 
@@ -43,7 +43,7 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
     return true;
 }
 
-/* Whether a parameter stands at its default. */
+/* Returns true if a parameter has its default value. */
 static bool is_standard(const struct gm_scene *scene, const struct gm_shot_parameter *parameter)
 {
     void *owner =
@@ -59,7 +59,7 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
     return standard;
 }
 
-/* The step is the study's own matter. */
+/* Omits dt, which the study varies. */
 char *gm_studies_words(const struct gm_shot *shot)
 {
     char *words = NULL;
@@ -150,9 +150,9 @@ bool gm_studies_look(struct gm_studies *studies)
     return news;
 }
 
-/* ---- what is drawn ---- */
+/* ---- drawing ---- */
 
-/* Why there is no diagram, in its place. */
+/* Draws the reason why there is no diagram. */
 static void draw_reason(const struct gm_sheet *sheet, const struct gm_study_look *look)
 {
     const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
@@ -211,7 +211,7 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
             (look && look->impossible)) {
             continue;
         }
-        const char *words = gm_study_words(studies->studies[i]); /* its scene first */
+        const char *words = gm_study_words(studies->studies[i]); /* the scene is the first word */
         const int length = (int)strcspn(words, " ");
         if (look && look->finished) {
             used +=

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the prompt for a system or a scheme of one's own, or a map, looks like. */
+/* The appearance of the prompt for a user-defined system or scheme, or a map. */
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
 
-/* The line, the caret, and rows for so many letters of what is wrong; above them a rule with what is asked, but in
-   screens of few rows. Of these the scene, the keys, the line and its caret have the first ones. */
+/* The prompt has the line, its caret, rows for LETTERS letters of the fault, and on taller screens a rule
+   with the question. The scene, the keys, the line and its caret have priority. */
 enum { LETTERS = 150, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16, SCREEN_ROWS = 7 };
 
 static const char *const questions[GM_TYPED_KINDS] = {
@@ -15,7 +15,7 @@ static const char *const questions[GM_TYPED_KINDS] = {
     [GM_TYPED_FORK] = " Your own scheme for one more lane: coefficients, or a file ",
 };
 
-/* What is wrong, at most. */
+/* Returns the rows for a fault, at most. */
 static int rows_told(int columns)
 {
     const int width = columns > 2 ? columns - 2 : 1, rows = (LETTERS + width - 1) / width;

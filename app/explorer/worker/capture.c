@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of a session: a picture, a movie, the words that redo it. */
+/* Saves a session as a picture, a movie, or command lines that redo it. */
 #include "app/explorer/worker/session.h"
 
 #include <errno.h>
@@ -21,7 +21,7 @@
 #include "render/message.h"
 #include "render/pixels/canvas.h"
 
-/* ---- a movie made beside the session that is played ---- */
+/* ---- the recorder ---- */
 
 enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };
 
@@ -31,16 +31,16 @@ struct gm_recorder {
     enum gm_theme theme;
     struct gm_sink *sink;
 
-    /* the caller's */
-    double begun; /* the time of the first frame, without what was left out */
-    long frames;  /* that the movie has, with those that are under way */
+    /* owned by the caller */
+    double begun; /* wall time of the first frame, in seconds, shifted by the omitted pauses */
+    long frames;  /* number of frames, including those being painted */
 
-    /* the caller's and the thread's in turn */
+    /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
-    long repeat; /* so many frames show it */
+    long repeat; /* number of frames that show the picture */
 
-    /* the thread's */
-    struct gm_canvas *canvas; /* NULL: not yet */
+    /* owned by the thread */
+    struct gm_canvas *canvas; /* NULL before the first picture */
     unsigned char *rgb;
     bool failed;
     char message[GM_MESSAGE];
@@ -58,7 +58,7 @@ static bool open_canvas(struct gm_recorder *recorder)
     return recorder->canvas && recorder->rgb;
 }
 
-/* Paints a picture once and puts it into the movie so many times. */
+/* Paints a picture once and adds `repeat` frames of it to the movie. */
 static void record(void *self)
 {
     struct gm_recorder *recorder = self;
@@ -67,7 +67,7 @@ static void record(void *self)
                        !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
 }
 
-/* In the thread, because the context is its own. */
+/* Runs in the thread, which owns the canvas's context. */
 static void end(void *self)
 {
     struct gm_recorder *recorder = self;
@@ -119,7 +119,7 @@ static bool close_recorder(struct gm_recorder *recorder, char *message)
 {
     gm_job_close(&recorder->painting);
     bool good = gm_sink_close(recorder->sink, true, message);
-    if (recorder->message[0]) { /* there was nothing to paint with */
+    if (recorder->message[0]) { /* painting failed */
         gm_refuse(message, "%s", recorder->message);
         good = false;
     }
@@ -141,7 +141,7 @@ static struct gm_picture *due_picture(struct gm_recorder *recorder, double now)
     if (due < 1 || gm_job_is_busy(&recorder->painting)) {
         return NULL;
     }
-    if (due > RATE) { /* nothing changed for long */
+    if (due > RATE) { /* no change for over a second */
         recorder->begun += (double)(due - RATE) / RATE;
         due = RATE;
     }
@@ -156,12 +156,12 @@ static void put_picture(struct gm_recorder *recorder)
     gm_job_begin(&recorder->painting);
 }
 
-/* ---- what is kept ---- */
+/* ---- pictures and systems ---- */
 
-/* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
+/* 300 dots per inch on 32 cm, 600 on the 16 cm of a text column */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
 
-/* Where the lanes are goes into the log. */
+/* Stores the lanes' step counts in the log. */
 static void note_steps(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
@@ -253,7 +253,7 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
 
 /* ---- the command lines ---- */
 
-/* The words of the arguments as a shell reads them, but, of a view, those that say when it ends. */
+/* Writes the arguments as a shell reads them; for a view without until= and steps=. */
 static void put_arguments(FILE *stream, const char *text, bool view)
 {
     struct gm_arguments arguments = {0};
@@ -268,7 +268,7 @@ static void put_arguments(FILE *stream, const char *text, bool view)
     gm_arguments_close(&arguments);
 }
 
-/* Where the lanes are: the steps, if they have made equally many. */
+/* Writes steps= if all lanes have made the same number of steps, else until=. */
 static void put_end(FILE *stream, const struct gm_session *session)
 {
     int64_t steps = session->lanes[0]->run->steps;
@@ -297,7 +297,8 @@ static void put_changes(FILE *stream, const struct gm_request *log)
     free(list);
 }
 
-/* A command of the arguments of a request: malloc'ed. Of a session's view it makes the picture. */
+/* Returns the command for a request: `geomint render` for a view, else `geomint`. The caller frees it;
+   NULL when out of memory. */
 static char *command_of(const struct gm_request *request, const struct gm_session *view, enum gm_theme theme)
 {
     char *text = NULL, *arguments = gm_request_format(request);
@@ -317,8 +318,8 @@ static char *command_of(const struct gm_request *request, const struct gm_sessio
     return text;
 }
 
-/* The lanes with the schemes and parameters that they have now: what was changed in flight is as if it had
-   been typed. */
+/* Returns the command with the lanes' current schemes and parameters, as if they had been typed. The
+   caller frees it; NULL when out of memory. */
 static char *tell_explorer(const struct gm_session *session)
 {
     struct gm_lane_spec lanes[GM_MOST_LANES];
@@ -334,7 +335,7 @@ static char *tell_explorer(const struct gm_session *session)
         struct gm_timing *timing = lanes[i].parameters;
         good = good && timing;
         if (timing) {
-            timing->dt = fabs(timing->dt); /* a start is forwards */
+            timing->dt = fabs(timing->dt); /* a run starts forwards in time */
         }
     }
     char *text = good ? command_of(&present, NULL, GM_THEME_DARK) : NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Orders carried out on a session, in the thread that steps; what cannot be done is said in the next shot. */
+/* Carries out orders on a session, in the thread that steps. The next shot reports what failed. */
 #include <math.h>
 #include <stdio.h>
 
@@ -33,7 +33,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     }
 }
 
-/* Moves the camera: the azimuth goes round, the elevation and the zoom end where they end. */
+/* Moves the camera: the azimuth wraps around, elevation and zoom stop at their limits. */
 static bool look(struct gm_play *play, const struct gm_order *order, char *message)
 {
     struct gm_session *session = &play->session;
@@ -42,7 +42,7 @@ static bool look(struct gm_play *play, const struct gm_order *order, char *messa
     for (size_t k = 0; k < GM_COUNT(keys); k++) {
         const struct gm_parameter *row = gm_scene_parameter(session->scene, keys[k]);
         if (!row || gm_scene_idle(session->scene, owner, keys[k])) {
-            return true; /* there is nothing to go around */
+            return true; /* this picture is not in space */
         }
         const double value = gm_parameter_get(row, owner);
         double moved = k == 0 ? value + order->x : k == 1 ? value + order->y : value * order->value;
@@ -81,7 +81,8 @@ static bool run_ahead(struct gm_play *play, const char *text, char *message)
     return true;
 }
 
-/* Where in the past an order goes; one up or down is a twentieth, or at least to the next snapshot. */
+/* Returns the snapshot time of an order: one up or down is a twentieth of the past, or at least one
+   snapshot. */
 static double moment_of(const struct gm_session *session, const struct gm_order *order)
 {
     double gone = gm_session_gone(session), part = gm_session_reach(session) / 20;
@@ -102,7 +103,7 @@ static bool turn(struct gm_play *play, char *message)
     return true;
 }
 
-/* Starts all lanes again from a point of the picture. */
+/* Restarts all lanes from a point of the picture. */
 static bool start_from(struct gm_play *play, double x, double y, char *message)
 {
     struct gm_session *session = &play->session;
@@ -151,10 +152,10 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
     struct gm_session *session = &play->session;
     char message[GM_MESSAGE] = "";
     if (play->restart && order->kind < GM_ORDER_SPEED) {
-        gm_play_restart(play); /* what was asked for later comes after it */
+        gm_play_restart(play); /* a later order acts on the restarted lanes */
     }
     double due = gm_play_due(play);
-    /* Other orders leave the part of a step that has gone by. */
+    /* The other orders preserve the elapsed part of a step. */
     bool jumps = order->kind <= GM_ORDER_RECORD || order->kind == GM_ORDER_RESTART;
     bool ok = true;
     switch (order->kind) {

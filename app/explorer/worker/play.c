@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Model time against the clock on the wall: how far to step, ahead, back home, and what stands still. */
+/* Model time against wall time: how far to step, ahead or back, and which lanes are frozen. */
 #include "app/explorer/worker/session.h"
 
 #include <math.h>
@@ -8,20 +8,19 @@
 #include "app/native/engine.h"
 #include "render/clock.h"
 
-/* A simulation that is later than this lets the clock wait for it. */
+/* lag in seconds above which the clock waits for the simulation */
 static const double LATE = 0.1;
-/* While it runs ahead, how it stands is told this often. */
+/* seconds between progress reports while it runs ahead */
 static const double AHEAD_NEWS = 0.25;
 
-/* Stepping is interrupted after this many seconds to look for orders; and nothing is gained by waking more
-   often. */
+/* seconds of stepping between two looks for orders; waking more often gains nothing */
 static const double SLICE = 0.008;
-/* A change that starts everything again is made at most this often, in seconds. */
+/* seconds between two restarts, at least */
 static const double RESTART_PAUSE = 1.0 / 30;
-/* The scene's own time span takes about so many seconds at first. */
+/* initial wall time of the scene's time span, in seconds */
 static const double FIRST_SECONDS = 6;
 
-enum { SLOWEST = -21, FASTEST = 15 }; /* numbers of speeds */
+enum { SLOWEST = -21, FASTEST = 15 }; /* range of the speed numbers */
 
 double gm_play_speed(const struct gm_play *play)
 {
@@ -35,7 +34,7 @@ void gm_play_set_speed(struct gm_play *play, int number)
     play->speed = number < SLOWEST ? SLOWEST : number > FASTEST ? FASTEST : number;
 }
 
-/* A speed at which so much model time takes so many seconds. */
+/* Sets the speed at which `span` of model time takes `seconds`. */
 static void set_speed_for(struct gm_play *play, double span, double seconds)
 {
     gm_play_set_speed(play, (int)round(3 * log10(span / seconds)));
@@ -55,7 +54,7 @@ void gm_play_set_clock(struct gm_play *play, double t)
     play->behind = false;
 }
 
-/* Of two times the one that comes first, as time runs now. */
+/* Returns the earlier of two times in the direction in which time runs. */
 static double sooner(const struct gm_play *play, double a, double b)
 {
     return (a - b) * gm_session_direction(&play->session) < 0 ? a : b;
@@ -93,7 +92,6 @@ double gm_play_left_until(const struct gm_play *play, double t)
     return (t - gm_session_time(&play->session)) * gm_session_direction(&play->session);
 }
 
-/* Makes what the agenda has until now; true if that was something. */
 bool gm_play_keep_agenda(struct gm_play *play)
 {
     char message[GM_MESSAGE] = "";
@@ -150,7 +148,7 @@ static bool step_ahead(struct gm_play *play)
     return worked;
 }
 
-/* Back where all began: whoever returned is seen now. */
+/* Pauses at the start time, so that the returned states can be seen. */
 static void stop_at_home(struct gm_play *play)
 {
     const struct gm_lane *lane = play->session.lanes[0];
@@ -162,7 +160,7 @@ static void stop_at_home(struct gm_play *play)
     }
 }
 
-/* No more is due at once than a second makes: a share of that is made before anybody is heard. */
+/* Limits the time that is due to one second's worth of steps, so that orders are heard. */
 static double due_at_once(const struct gm_play *play)
 {
     const struct gm_session *session = &play->session;
@@ -189,7 +187,7 @@ static bool step_along(struct gm_play *play)
     if (!play->paused && isfinite(next)) {
         double lag = (gm_play_due(play) - next) * gm_session_direction(&play->session) / gm_play_speed(play);
         if (lag > LATE) {
-            /* the clock goes on from where the slowest lane is; model time is never skipped */
+            /* the clock resumes at the slowest lane's time: model time is never skipped */
             gm_play_set_clock(play, later(play, gm_session_time(&play->session), next));
             play->behind = true;
         } else if (lag < 0.5 * LATE && !worked) {
@@ -201,7 +199,7 @@ static bool step_along(struct gm_play *play)
 
 bool gm_play_step(struct gm_play *play)
 {
-    static const double often = 0.25; /* seconds of steps: then they may be worth compiling */
+    static const double often = 0.25; /* seconds of steps after which compiling may be worthwhile */
     const double begun = gm_clock_seconds();
     const bool worked = play->ahead ? step_ahead(play) : step_along(play);
     play->stepped += worked ? gm_clock_seconds() - begun : 0;
@@ -224,7 +222,7 @@ double gm_play_pause(const struct gm_play *play)
 
 /* ---- restarts, and the steps of a tour ---- */
 
-/* To where a tour's step begins, if it builds on others. */
+/* Runs ahead to the start of a tour's step that builds on earlier ones. */
 static void go_to_step(struct gm_play *play)
 {
     const double begin = gm_tour_begin(play->agenda.tour, play->agenda.step);
@@ -244,7 +242,7 @@ void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t 
     go_to_step(play);
 }
 
-/* All lanes are back at their start: the step is shown again. */
+/* Shows the tour's step again after a restart of all lanes. */
 static void repeat_step(struct gm_play *play)
 {
     if (play->agenda.tour) {

@@ -6,144 +6,144 @@
 #include "app/tours/tour.h"
 #include "render/layout/appearance.h"
 
-/* A session that is played: model time goes on with the clock on the wall, stops, runs ahead or back home. No
-   thread: whoever plays calls in turn. */
+/* A session that is played: model time follows wall time, pauses, runs ahead or back. It has no thread;
+   all calls come from one thread at a time. */
 
 struct gm_play {
     struct gm_session session;
     size_t selected;
     bool paused;
-    bool behind;    /* the steps cost more than the speed allows */
-    bool changed;   /* there is something new to see */
-    bool preview;   /* stops at the scene's own end */
-    bool homewards; /* time was turned; it stops at the start */
-    bool ahead;     /* runs ahead from `ahead_from` to `ahead_to` */
+    bool behind;    /* the steps are slower than the speed requires */
+    bool changed;   /* a new shot would differ */
+    bool preview;   /* the session stops at the scene's own end */
+    bool homewards; /* time is reversed; the session stops at the start */
+    bool ahead;     /* the session runs ahead from `ahead_from` to `ahead_to` */
     double ahead_from, ahead_to, ahead_told;
-    bool restart; /* is due */
+    bool restart; /* a restart is due */
     double restarted;
-    double stepped; /* seconds of steps since an engine was last looked for */
-    double rate;    /* model time that a second of steps covers, as last measured; 0: not known yet */
-    int speed;      /* number of the speed */
-    double clock_t, clock_wall; /* model time and wall time at the last change of pace */
-    size_t frozen;              /* lanes that are */
-    struct gm_agenda agenda;    /* of a tour's step */
+    double stepped;             /* seconds of steps since the last look for an engine */
+    double rate;                /* measured model time per second of stepping; 0: not measured */
+    int speed;                  /* the number of the speed: see gm_play_set_speed */
+    double clock_t, clock_wall; /* model time and wall time (s) at the last change of pace */
+    size_t frozen;              /* number of frozen lanes */
+    struct gm_agenda agenda;    /* the agenda of the tour's step */
     char message[GM_MESSAGE];
-    unsigned long message_number; /* changes with every one */
+    unsigned long message_number; /* changes with every message */
 };
 
-/* The session is open: from now on there is something to step, so fast that the scene's own time span takes
-   some seconds. */
+/* Starts playing an open session, at a speed at which the scene's time span takes some seconds. */
 void gm_play_begin(struct gm_play *play);
 
-/* A sentence for the status line. */
+/* Sets the message of the status line. */
 void gm_play_say(struct gm_play *play, const char *sentence);
 
 /* ---- time ---- */
 
-/* Model time per second: 1, 2 or 5 times a power of ten. */
+/* Returns the model time per second: 1, 2 or 5 times a power of ten. */
 double gm_play_speed(const struct gm_play *play);
-/* The speed of that number, or the nearest that there is. */
+/* Sets the speed by number (three per decade, 0 is 1 per second), limited to the range. */
 void gm_play_set_speed(struct gm_play *play, int number);
-/* From now on model time goes on from t. */
+/* Resumes model time from t. */
 void gm_play_set_clock(struct gm_play *play, double t);
-/* The model time that is due. A lane that lags behind the others, being new, is stepped also when all is
+/* Returns the model time that is due. A lane behind the others, such as a new one, is stepped even while
    paused. */
 double gm_play_due(const struct gm_play *play);
-/* How much model time is left until t, as time runs now. */
+/* Returns the model time left until t, in the direction in which time runs. */
 double gm_play_left_until(const struct gm_play *play, double t);
-/* From here to the time `to` without a pause. */
+/* Runs ahead to the time `to` without pausing. */
 void gm_play_run_ahead(struct gm_play *play, double to);
 
 /* ---- a round ---- */
 
-/* Starts all lanes again if that was asked for and the last time was long enough ago: changes that come
-   together, and those that come soon after, make one restart. */
+/* Restarts all lanes if requested and the last restart is long enough ago, so that several changes make
+   one restart. */
 void gm_play_restart_if_due(struct gm_play *play);
-/* The same at once. */
+/* Restarts all lanes at once. */
 void gm_play_restart(struct gm_play *play);
-/* Steps for a while; false if there was nothing to do. */
+/* Steps for some milliseconds; returns false if no step was due. */
 bool gm_play_step(struct gm_play *play);
-/* The agenda: makes the changes that are due, and stops where a tour's step does; true if that was something. */
+/* Makes the changes that the agenda has due, and stops at the end of a tour's step. Returns true if a
+   change was made. */
 bool gm_play_keep_agenda(struct gm_play *play);
-/* Tells of lanes that have failed. */
+/* Reports lanes that have failed. */
 void gm_play_watch_frozen(struct gm_play *play);
-/* After how many seconds there is something to do again; infinite if there is nothing. */
+/* Returns the seconds until the next work is due; infinite if none is. */
 double gm_play_pause(const struct gm_play *play);
 
 /* ---- a tour ---- */
 
-/* Plays a step of a tour, the session being where step gm_tour_first(tour, step) begins; it waits there. */
+/* Plays a step of a tour. The session must be at the start of step gm_tour_first(tour, step). If `waits`,
+   it pauses there. */
 void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t step, bool waits);
 
-/* What is kept of a session that is played: pictures, a movie, the command lines that redo it. */
+/* Pictures, a movie, and command lines that redo a session. */
 
-/* A thread that paints pictures and hands them to ffmpeg, so that steps do not wait for it. The movie goes with the
-   clock on the wall: a picture is held for as long as it was seen, but where nothing changes for no longer than a
-   second. */
+/* A thread that paints pictures and passes them to ffmpeg, so that steps do not wait. The movie follows
+   wall time: each picture lasts as long as it was seen, at most a second. */
 struct gm_recorder;
-/* Seconds of the movie so far. */
+/* Returns the movie's length in seconds. */
 double gm_recorder_length(const struct gm_recorder *recorder);
 
 struct gm_capture {
-    struct gm_recorder *recorder; /* NULL: no movie is made */
-    bool unrecorded;              /* something changed since its last frame */
-    char *commands[GM_COMMANDS];  /* of the view at the time they were asked for; NULL: they were not */
-    unsigned long command_number; /* changes with every one */
+    struct gm_recorder *recorder; /* NULL if no movie is being made */
+    bool unrecorded;              /* something changed since the movie's last frame */
+    char *commands[GM_COMMANDS];  /* commands for the view when they were requested; NULL before */
+    unsigned long command_number; /* changes with every request */
 };
 
-/* Ends without a movie: gm_capture_stop_recording comes first. */
+/* Frees the commands. Call gm_capture_stop_recording first. */
 void gm_capture_close(struct gm_capture *capture);
 
-/* Writes the system that is played, if it is somebody's own, to a file. */
+/* Saves the played system to a file if it is user-defined. */
 void gm_capture_save_system(struct gm_play *play);
-/* Saves the picture. */
+/* Saves the picture as PNG to the working directory. */
 void gm_capture_save(struct gm_play *play, enum gm_theme theme);
-/* Begins the movie, or ends it. */
+/* Starts the movie, or finishes it. */
 void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme);
-/* True with a sentence (GM_MESSAGE bytes) if there was a movie. */
+/* Finishes the movie. Returns true and fills sentence (GM_MESSAGE bytes) if there was one. */
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence);
-/* Takes a frame of the movie if one is due. */
+/* Records a frame of the movie if one is due. */
 void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *session);
-/* Tells the command lines of the view. */
+/* Sets the command lines for the current view. */
 void gm_capture_tell(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme);
 
-/* What the user can have done to a session that is played. */
+/* The orders that the user can give to a session. */
 
 enum gm_order_kind {
-    /* the clock starts anew after these */
-    GM_ORDER_PAUSE, /* or go on */
+    /* the clock restarts after these */
+    GM_ORDER_PAUSE, /* pauses, or resumes */
     GM_ORDER_FORWARD,
     GM_ORDER_BACK,
-    GM_ORDER_TURN,   /* time the other way */
-    GM_ORDER_VISIT,  /* the snapshots at `value` of model time gone through; amount: or a part up or down */
-    GM_ORDER_AHEAD,  /* run ahead to the time `text`, without shots */
-    GM_ORDER_HALT,   /* no longer */
-    GM_ORDER_SAVE,   /* the picture as a PNG; amount: its theme, also of GM_ORDER_RECORD and GM_ORDER_TELL */
-    GM_ORDER_SYSTEM, /* the system of one's own to a file */
-    GM_ORDER_RECORD, /* begin a movie of what is seen, or end it */
-    GM_ORDER_TOUR,   /* a step's agenda; amount: whether it waits at its begin */
-    GM_ORDER_RUN,    /* go on if paused */
-    /* it goes on */
-    GM_ORDER_SELECT, /* amount: up or down by one lane; 0: lane number `value` */
-    GM_ORDER_SWITCH, /* the selected lane to `scheme` */
-    GM_ORDER_FORK,   /* the selected lane, with `scheme` */
+    GM_ORDER_TURN,   /* reverses time */
+    GM_ORDER_VISIT,  /* shows the snapshots at `value` of the past in model time, or moves by `amount` */
+    GM_ORDER_AHEAD,  /* runs ahead to the time `text`, without shots */
+    GM_ORDER_HALT,   /* stops running ahead */
+    GM_ORDER_SAVE,   /* saves a PNG; amount: the theme, as for GM_ORDER_RECORD and GM_ORDER_TELL */
+    GM_ORDER_SYSTEM, /* saves the user-defined system to a file */
+    GM_ORDER_RECORD, /* starts a movie of the screen, or finishes it */
+    GM_ORDER_TOUR,   /* plays a tour's step; amount is 1 if it waits at its start */
+    GM_ORDER_RUN,    /* resumes if paused */
+    /* the clock continues after these */
+    GM_ORDER_SELECT, /* selects a lane: `amount` up or down, or if that is 0 number `value` */
+    GM_ORDER_SWITCH, /* switches the selected lane to `scheme` */
+    GM_ORDER_FORK,   /* copies the selected lane with `scheme` */
     GM_ORDER_ADD,
     GM_ORDER_REMOVE,
     GM_ORDER_OVERLAY,
-    GM_ORDER_TELL, /* the command lines of the view, with the next shot */
-    /* these may come together with a restart that is due */
-    GM_ORDER_SPEED,    /* amount: up or down by one */
-    GM_ORDER_MOVE,     /* a parameter to its next value; amount: up or down */
-    GM_ORDER_NUDGE,    /* the same, to a value near by */
-    GM_ORDER_STANDARD, /* a parameter to its default */
-    GM_ORDER_TYPE,     /* a parameter to `text` */
-    GM_ORDER_SLIDE,    /* a parameter to the part `value` of its range */
-    GM_ORDER_LOOK,  /* from a place x degrees further in azimuth, y in elevation, and `value` times as near */
-    GM_ORDER_POINT, /* start again from the point (x, y) of a state's panel, where the scene knows how */
+    GM_ORDER_TELL, /* sets the command lines of the view in the next shot */
+    /* these may be combined with a restart that is due */
+    GM_ORDER_SPEED,    /* changes the speed by `amount` */
+    GM_ORDER_MOVE,     /* moves a parameter `amount` values up or down */
+    GM_ORDER_NUDGE,    /* moves a parameter to a nearby value */
+    GM_ORDER_STANDARD, /* resets a parameter */
+    GM_ORDER_TYPE,     /* sets a parameter to `text` */
+    GM_ORDER_SLIDE,    /* sets a parameter to the part `value` of its range, 0 to 1 */
+    GM_ORDER_LOOK,     /* turns the camera by x, y degrees (azimuth, elevation), scales the zoom by `value` */
+    GM_ORDER_POINT,    /* restarts from the point (x, y) of a state's panel, if the scene supports it */
     GM_ORDER_RESTART,
 };
 
-/* A line that is typed: one byte more than a value may have, so that a longer one is refused, not cut. */
+/* size of a typed line in bytes; one more than a value may have, so that a longer one is refused */
 enum { GM_TYPED = GM_TEXT_SIZE + 1 };
 
 struct gm_order {
@@ -152,9 +152,9 @@ struct gm_order {
     double value, x, y;
     char text[GM_TYPED];
     const struct gm_parameter *row;
-    bool of_scheme; /* the row is one of the schemes' parameters */
+    bool of_scheme; /* the row is a parameter of the schemes */
     const struct gm_scheme *scheme;
-    const struct gm_tour *tour; /* outlives the worker */
+    const struct gm_tour *tour; /* the tour outlives the worker */
     size_t step;
 };
 

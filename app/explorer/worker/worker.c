@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The thread itself: its queue of orders and its two shots, and what it does in a round. */
+/* The worker's thread: its queue of orders, its two shots, and its round. */
 #include "app/explorer/worker/worker.h"
 
 #include <errno.h>
@@ -25,18 +25,18 @@ struct gm_worker {
     pthread_cond_t news;
     struct gm_order queue[QUEUE];
     size_t first, count;
-    bool wanted; /* a shot */
+    bool wanted; /* a shot is wanted */
     bool ready;  /* shots[filled] is finished and not yet taken */
     bool leave, orphan, failed;
-    bool recorded; /* a movie was asked for, at some time */
-    size_t owed;   /* files that were asked for and are not written yet */
-    int filled;    /* the shot that the thread fills; the screen has the other one */
+    bool recorded; /* a movie has been requested at some time */
+    size_t owed;   /* number of requested files not yet written */
+    int filled;    /* index of the shot that the thread fills; the screen has the other one */
     struct gm_shot shots[2];
 
-    /* the thread's own */
-    char *name; /* of the scene that is to be opened with so many schemes; NULL: the session was */
+    /* owned by the thread */
+    char *name; /* the scene to open with its first `schemes` schemes; NULL: the session is open */
     size_t schemes;
-    bool shown; /* a shot was taken: the first comes before the first step, which may take minutes */
+    bool shown; /* a shot was taken; the first precedes the first step, which may take minutes */
     struct gm_play play;
     struct gm_capture capture;
 };
@@ -45,11 +45,11 @@ static void announce(struct gm_worker *worker)
 {
     const uint64_t one = 1;
     if (write(worker->wake, &one, sizeof one) < 0) {
-        worker->leave = errno != EAGAIN; /* without a screen there is nothing to do */
+        worker->leave = errno != EAGAIN; /* the screen is gone */
     }
 }
 
-/* Called with the lock held; lets go of it while the shot is taken. */
+/* Called with the lock held; releases it while the shot is taken. */
 static void take_shot(struct gm_worker *worker)
 {
     struct gm_play *play = &worker->play;
@@ -83,7 +83,7 @@ static void take_shot(struct gm_worker *worker)
     announce(worker);
 }
 
-/* Called with the lock held: waits for news, at most until the next step is due. */
+/* Called with the lock held: waits for a signal, at most until the next step is due. */
 static void rest(struct gm_worker *worker)
 {
     const double pause = gm_play_pause(&worker->play);
@@ -127,7 +127,7 @@ static bool is_owed(const struct gm_order *order)
     return order->kind == GM_ORDER_SAVE || order->kind == GM_ORDER_SYSTEM;
 }
 
-/* Called with the lock held. */
+/* Called with the lock held; releases it while the order is carried out. */
 static void obey_next(struct gm_worker *worker)
 {
     const struct gm_order order = worker->queue[worker->first];
@@ -198,7 +198,7 @@ static void *work(void *self)
     return NULL;
 }
 
-/* A worker without a session or a thread; NULL with a sentence. */
+/* Returns a worker without session and thread, or NULL with a message when out of memory. */
 static struct gm_worker *make(int wake, char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
@@ -221,7 +221,7 @@ static struct gm_worker *make(int wake, char *message)
     return worker;
 }
 
-/* Starts the thread; the worker is released if there is none to be had. */
+/* Starts the thread and returns the worker. On failure releases it, fills message and returns NULL. */
 static struct gm_worker *start(struct gm_worker *worker, char *message)
 {
     const int error = gm_thread_start(&worker->thread, work, worker);

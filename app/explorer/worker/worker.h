@@ -4,36 +4,37 @@
 
 #include "app/explorer/worker/session.h"
 
-/* The thread that steps. It alone touches the lanes: orders go to it through a queue and finished shots come
-   back, so that a key never waits for a step and a step never for the terminal. When there is nothing to do
-   it sleeps without a deadline. */
+/* The thread that steps is the only one that touches the lanes. Orders reach it through a queue and
+   finished shots come back, so a key never waits for a step and a step never for the terminal. An idle
+   thread sleeps without a deadline. */
 
 struct gm_worker;
 
-/* Opens the lanes and starts the thread; `wake` is an eventfd that it writes to when a shot is finished.
-   `first` is obeyed before the first step; NULL: nothing is. NULL with a sentence (GM_MESSAGE bytes). */
+/* Opens the lanes and starts the thread. Returns the worker, which gm_worker_close frees; on failure fills
+   message (GM_MESSAGE bytes) and returns NULL. `wake` is an eventfd, written when a shot is finished.
+   `first` (may be NULL) is obeyed before the first step. */
 struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
                                  char *message);
-/* Writes the files that were asked for and finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of
-   the last file and of the movie, or is empty. */
+/* Writes the requested files, finishes a movie and frees the worker. `parting` (GM_MESSAGE bytes) receives
+   a report on them, or "". */
 void gm_worker_close(struct gm_worker *worker, char *parting);
 
-/* The same for a scene by its name, or that of a system or a room, with its first `schemes` schemes, that the
-   thread makes and opens itself: this never waits. A preview stops at the scene's own end. */
+/* Like gm_worker_open, for a scene, system or room by name, with its first `schemes` schemes. The thread
+   itself opens it, so this never waits. A preview stops at the scene's own end. */
 struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool preview, int wake,
                                        char *message);
-/* Whether opening failed; then with a sentence. */
+/* Returns true and fills message (GM_MESSAGE bytes) if opening failed. */
 bool gm_worker_failed(struct gm_worker *worker, char *message);
-/* Lets the thread end by itself, whenever that will be, unless it may be making a movie or owes a file: those are
-   finished first, and told of as by gm_worker_close. The worker is gone. */
+/* Releases the worker without waiting for its step. If a movie or a file is unfinished, acts like
+   gm_worker_close. */
 void gm_worker_abandon(struct gm_worker *worker, char *parting);
 
 void gm_worker_order(struct gm_worker *worker, struct gm_order order);
 
-/* Asks for a shot as soon as there is something new; the former one is handed back by this. */
+/* Asks for the next shot with changes, and returns the previous one to the thread. */
 void gm_worker_want(struct gm_worker *worker);
-/* The shot that was asked for, or NULL if it is not there yet. It may be read until the next one is asked
-   for; its picture may be laid out. */
+/* Returns the requested shot, or NULL if it is not finished. The caller may read it and lay out its
+   picture until it asks for the next one. */
 struct gm_shot *gm_worker_take(struct gm_worker *worker);
 
 #endif
