@@ -6,15 +6,15 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-/* Returns true if the address space is limited; what only saves time is then left out. */
+/* Returns true if the address space is limited: optional work is then left out. */
 static inline bool gm_address_space_is_limited(void)
 {
     struct rlimit space;
     return getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY;
 }
 
-/* Returns true if the system gives this number of bytes. Libraries that are refused memory seldom report it;
-   this allocation goes through the program's malloc, which notes the refusal. */
+/* Returns true if the system gives this number of bytes. Libraries seldom report a refusal of memory; the
+   program's malloc, called here, notes it. */
 static inline bool gm_address_space_has(size_t bytes)
 {
     void *volatile memory = malloc(bytes); /* volatile: the compiler must keep the allocation */

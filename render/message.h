@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Bytes of a message, with its final zero: a sentence that states the fault and may quote a path or another
+/* Bytes of a message with its final zero: a sentence that states the fault and may quote a path or a
    sentence. */
 enum { GM_MESSAGE = 512 };
 

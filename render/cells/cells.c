@@ -230,8 +230,8 @@ static int row_of(double y)
     return fabs(y) < 1e6 ? (int)floor(y / CELL_HEIGHT) : -1;
 }
 
-/* Returns the row of a label. Labels above a panel's data move up and labels below move down, so that they
-   leave the first and last row of the data free; labels beside it go where most of their height is. */
+/* Returns the row of a label. Labels above a panel's data move up and labels below move down, so that the
+   first and last row of the data stay free; labels beside it go where most of their height is. */
 static int label_row(const struct painter *painter, const struct gm_layout *layout,
                      const struct gm_label *label)
 {
@@ -282,7 +282,7 @@ static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, 
     return true;
 }
 
-/* Paints the marks as glyphs. Returns false when out of memory. */
+/* Paints the marks; false when out of memory. */
 static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout, enum gm_theme theme,
                          enum gm_blocks blocks, double scale)
 {

@@ -42,7 +42,7 @@ struct gm_subpixel {
 };
 
 struct gm_raster {
-    int width, height;     /* in sub-pixels */
+    int width, height;     /* size in sub-pixels */
     double unit_x, unit_y; /* surface units per sub-pixel */
     double scale;          /* surface units per pixel of a picture 720 high */
     bool sharp;            /* a sub-pixel is on or off (braille, ASCII), otherwise edges are smoothed */
@@ -75,7 +75,8 @@ bool gm_raster_is_place(struct gm_raster_place place);
 
 /* Covers a sub-pixel of the mask to at least `coverage` (0 to 1), if it is within the clip box. */
 void gm_raster_cover(struct gm_raster *raster, int x, int y, double coverage);
-/* Lays the mask over the raster in one colour and empties it. A mark that meets itself is so counted once. */
+/* Lays the mask over the raster in one colour and empties it, so that a mark that meets itself counts
+   once. */
 void gm_raster_settle(struct gm_raster *raster, struct gm_rgb colour, double alpha, enum gm_level level,
                       enum gm_role role);
 

@@ -104,7 +104,7 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
     }
 }
 
-/* Draws a piece; *length is the length so far, for the dash. */
+/* *length is the length so far, for the dash. */
 static void draw_piece(struct gm_raster *raster, struct piece piece, double width, enum gm_dash dash,
                        double *length)
 {

@@ -25,8 +25,7 @@ uint32_t gm_text_next(const char **text)
         code = code << 6 | (at[i] & 0x3F);
     }
     *text += more + 1;
-    static const uint32_t least[] = {0, 0x80, 0x800,
-                                     0x10000}; /* the least code point with this number of further bytes */
+    static const uint32_t least[] = {0, 0x80, 0x800, 0x10000}; /* the least code point of this length */
     return code < least[more] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000) ? 0xFFFD : code;
 }
 

@@ -47,8 +47,8 @@ struct gm_glyphs {
     struct glyph none;                  /* the letter when memory is short */
 };
 
-/* FreeType uses the program's memory, where a refusal is noted: a letter may be missing from the picture. */
-/* FreeType can report a refusal as something else: a module without memory as a missing one. */
+/* FreeType uses the program's allocators. A refusal is noted, since a letter may be missing from the picture,
+   and FreeType may report something else, such as a missing module. */
 static void *noted(FT_Memory memory, void *block)
 {
     struct gm_glyphs *glyphs = memory->user;
@@ -122,8 +122,8 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
    or, with errno ENOMEM, when out of memory. */
 static void find_fonts(const struct font_wanted wanted[GM_FONT_COUNT], char *files[GM_FONT_COUNT])
 {
-    /* a separate configuration: others may use the one of the process and fontconfig's global one; it is read
-       once for all fonts, since reading takes longer than matching */
+    /* a separate configuration, since others may use the global one; it is read once for all fonts, since
+       reading takes longer than matching */
     errno = 0;
     FcConfig *config = FcInitLoadConfigAndFonts();
     for (int i = 0; config && i < GM_FONT_COUNT; i++) {
@@ -272,7 +272,8 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
     return glyph;
 }
 
-/* Finds room in the atlas, on shelves as high as their highest letter. Returns false if there is no room. */
+/* Finds room on the atlas's shelves, which are as high as their highest letter. Returns false without
+   room. */
 static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *x, short *y)
 {
     if (width + BORDER > ATLAS_WIDTH) {

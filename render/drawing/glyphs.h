@@ -31,8 +31,8 @@ struct gm_letter {
     int x, y, width, height; /* the image, relative to the start of the baseline; y downwards */
     int atlas_x, atlas_y;
 };
-/* Gives the next letter and moves `text` and `pen` past it. Returns false at the end of the text; a letter
-   without an image has width 0. */
+/* Gives the next letter and advances `text` and `pen`. Returns false at the end; a letter without an image
+   has width 0. */
 bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,
                     struct gm_letter *letter);
 

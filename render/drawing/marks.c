@@ -39,7 +39,7 @@ static bool project(struct gm_painter *painter, const struct gm_axes *axes, cons
         return false;
     }
     const bool linear = axes->panel->x.scale != GM_LOG && axes->panel->y.scale != GM_LOG;
-    const double far = 1e7; /* here floats still have whole pixels */
+    const double far = 1e7; /* floats still resolve pixels here */
     for (size_t i = 0; i < mark->count; i++) {
         const double *p = mark->points + 2 * i;
         const double x = linear ? axes->x_origin + axes->x_factor * p[0] : gm_axes_x(axes, p[0]);

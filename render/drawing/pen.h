@@ -126,7 +126,7 @@ struct gm_metrics gm_painter_metrics(const struct gm_painter *painter);
 
 /* A page that is drawn with one pen in one look, as often as its picture changes. */
 
-/* Returns false on failure, with one sentence in message (GM_MESSAGE bytes) and errno (gm_glyphs_open). The
+/* Returns false on failure, with a sentence in message (GM_MESSAGE bytes) and errno (gm_glyphs_open). The
    caller closes the page in both cases. */
 bool gm_page_open(struct gm_painter *painter, const struct gm_pen *pen, void *self,
                   const struct gm_appearance *look, char *message);

@@ -13,9 +13,9 @@ struct gm_png_text {
     const char *key, *text;
 };
 
-/* Writes rgb (height rows of width * 3 bytes, top first) to path. A temporary name makes sure that a killed
-   program leaves no half file. dpi is the file's resolution in pixels per inch, 0: none. Returns false on
-   failure, with one sentence in message (GM_MESSAGE bytes). */
+/* Writes rgb (height rows of width * 3 bytes, top first) to path. A killed program leaves no half file. dpi
+   is the file's resolution in pixels per inch, 0: none. Returns false on failure, with one sentence in
+   message (GM_MESSAGE bytes). */
 bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message);
 
@@ -25,15 +25,13 @@ bool gm_png_write(const char *path, int width, int height, double dpi, const uns
 enum { GM_PNG_TEXTS_MOST = 1 << 22 };
 bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message);
 
-/* Reads the text of one key; the caller frees it. Returns NULL with a sentence on failure or without such a
-   text. */
+/* Returns the text of one key, which the caller frees; NULL with a sentence if there is no such text. */
 char *gm_png_read_text(const char *path, const char *key, char *message);
 
 /* Returns true if path is a whole PNG, with correct checksums, that holds this key with this text (ASCII). */
 bool gm_png_tells(const char *path, const char *key, const char *text);
 
-/* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first). Returns false with a
-   sentence on failure. */
+/* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first); false with a sentence. */
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
 
 /* PNG of numbered colours in memory, the shortest for terminals. */
@@ -68,19 +66,19 @@ void gm_inline_size(const struct gm_inline_place *place, enum gm_inline_kind kin
 
 struct gm_inline;
 
-/* Opens an encoder for one kind and place. The terminal takes no larger image at once than most_width x
-   most_height pixels (0: any size). Returns NULL when out of memory. */
+/* Opens an encoder. The terminal takes no larger image at once than most_width x most_height pixels (0: any
+   size). Returns NULL when out of memory. */
 struct gm_inline *gm_inline_open(enum gm_inline_kind kind, const struct gm_inline_place *place,
                                  int most_width, int most_height);
 void gm_inline_close(struct gm_inline *image);
 
-/* Encodes a picture of gm_inline_size, 3 bytes per pixel, top row first; all of it with `whole`, otherwise
-   the changes. *bytes belongs to the image until the next call; *size is 0 if nothing changed. The bytes
-   leave the cursor anywhere. Returns false when out of memory. */
+/* Encodes a picture of gm_inline_size, 3 bytes per pixel, top row first: all of it with `whole`, else the
+   changes. *bytes belongs to the image until the next call; *size is 0 without a change. The cursor may be
+   anywhere afterwards. Returns false when out of memory. */
 bool gm_inline_encode(struct gm_inline *image, const unsigned char *rgb, bool whole, const char **bytes,
                       size_t *size);
 
-/* Returns the bytes that remove such pictures from a screen; "" if text written over them does. */
+/* Returns the bytes that remove such pictures; "" if text written over them does. */
 const char *gm_inline_removal(enum gm_inline_kind kind);
 
 /* Sixels: pictures of up to 256 colours for terminals in the tradition of the VT340 (DEC, VT330/VT340

@@ -24,7 +24,7 @@ struct gm_inline {
     enum gm_inline_kind kind;
     struct gm_inline_place place;
     int width, height, most_width, most_height;
-    int unit_rows;         /* the height of a patch is a multiple of this number of cell rows */
+    int unit_rows;         /* patches are a multiple of this number of cell rows high */
     unsigned char *before; /* the picture that was sent last */
     bool sent;
     struct gm_sixel *sixel;

@@ -29,7 +29,7 @@ static unsigned char *put_chunk(unsigned char *at, const char *kind, const void 
     return at + size + CHUNK;
 }
 
-/* Returns the rows, each after its filter's number, in zlib's format. The caller frees them. */
+/* Returns the rows, each after its filter's number, in zlib's format; the caller frees them. */
 static unsigned char *pack(const uint8_t *pixels, size_t columns, size_t rows, size_t *size)
 {
     const size_t total = (columns + 1) * rows;

@@ -73,7 +73,7 @@ static void flush_bytes(png_structp png)
     (void)png;
 }
 
-/* Returns the rows, each after its filter's number (0: none), in zlib's format. The caller frees them. */
+/* Returns the rows, each after its filter's number (0: none), in zlib's format; the caller frees them. */
 static unsigned char *deflate_rows(int width, int height, const unsigned char *rgb, size_t *size)
 {
     size_t row = (size_t)width * 3;
@@ -151,13 +151,13 @@ static bool write_structure(struct stream *stream, const struct image *image)
         png_write_chunk(png, (png_const_bytep) "IDAT", image->packed + at,
                         left < LONGEST_CHUNK ? left : LONGEST_CHUNK);
     }
-    /* png_write_end would fail: it counts only the image data that libpng wrote */
+    /* png_write_end fails: libpng itself has written no image data */
     png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
     png_destroy_write_struct(&png, &info);
     return true;
 }
 
-/* Writes to the descriptor and closes it. Returns false with an errno or a reason in stream. */
+/* Writes to the descriptor and closes it. Returns false with an errno or a reason. */
 static bool write_descriptor(int descriptor, struct stream *stream, const struct image *image)
 {
     stream->file = fdopen(descriptor, "wb");

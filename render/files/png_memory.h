@@ -6,8 +6,8 @@
 
 /* The memory of libpng and libdeflate is the program's, where a refusal is noted. */
 
-/* The allocators for png_create_read_struct_2 and png_create_write_struct_2. Their pointer is an int that
-   becomes ENOMEM on a refusal, because libpng sometimes reports another reason. */
+/* The allocators for png_create_read_struct_2 and png_create_write_struct_2. Their pointer is an int that a
+   refusal sets to ENOMEM, because libpng may report another reason. */
 png_voidp gm_png_take(png_structp png, png_alloc_size_t size);
 void gm_png_give_back(png_structp png, png_voidp block);
 

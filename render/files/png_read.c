@@ -39,8 +39,7 @@ static char *copy_of(const void *bytes, size_t size)
     return text;
 }
 
-/* Returns a text packed in zlib's format; NULL if it is damaged or larger than the limit. The caller frees
-   it. */
+/* Returns a text packed in zlib's format, which the caller frees; NULL if it is damaged or too large. */
 static char *unpack(const unsigned char *packed, size_t size, size_t limit)
 {
     gm_deflate_prepare();
@@ -62,8 +61,8 @@ static char *unpack(const unsigned char *packed, size_t size, size_t limit)
     return text;
 }
 
-/* Returns the text after the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3). The caller
-   frees it; NULL if the chunk is damaged or the text too large. */
+/* Returns the text after the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3), which the
+   caller frees; NULL if the chunk is damaged or the text too large. */
 static char *text_of(const struct chunk *chunk, const char *type, size_t key)
 {
     const unsigned char *at = chunk->data + key + 1, *end = chunk->data + chunk->size;
@@ -136,11 +135,11 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
     return good;
 }
 
-/* Walks over the chunks. Returns false with a reason if the file is damaged. */
+/* Walks over the chunks. Returns false with a reason. */
 static bool find_texts(FILE *file, size_t left, struct search *search, char *reason)
 {
     unsigned char head[LENGTH + TYPE];
-    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of texts as they are in the file, whatever their keys */
+    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of all texts as they are in the file */
     for (long chunks = 0; left >= sizeof head + CHECKSUM && chunks < MOST_CHUNKS; chunks++) {
         if (fread(head, 1, sizeof head, file) != sizeof head) {
             break;

@@ -13,7 +13,7 @@ enum { GM_REGULAR_REASON = 96 }; /* bytes of a reason, the final zero among them
    reason, which completes "PATH could not be read: ". */
 FILE *gm_regular_open(const char *path, size_t most, size_t *size, char *reason);
 
-/* Returns the whole file and a final zero; the caller frees it. Returns NULL with a reason on failure. */
+/* Returns the whole file and a final zero, which the caller frees; NULL with a reason. */
 char *gm_regular_read(const char *path, size_t most, size_t *size, char *reason);
 
 #endif

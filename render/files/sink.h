@@ -16,7 +16,7 @@ struct gm_sink;
 struct gm_sink_settings {
     int width, height;
     double dpi;                      /* pixels per inch of a PNG; 0: none */
-    double fps;                      /* frames per second of a movie; the last frame stays for one second */
+    double fps;                      /* frames per second of a movie; its last frame stays for a second */
     int threads;                     /* encoders; 0: one per processor */
     const struct gm_png_text *texts; /* texts of every PNG; copied */
     size_t text_count;
@@ -39,8 +39,7 @@ extern int gm_sink_movie_patience;
 /* Returns an empty frame of width * height * 3 bytes to paint into; waits for one. NULL after a failure. */
 unsigned char *gm_sink_frame(struct gm_sink *sink);
 /* Passes the frame on, also on failure; `number` is its place in the sequence of PNGs (a movie has the order
-   in which frames are put). The texts of this frame, such as its time, are copied. Returns false after a
-   failure. */
+   of the calls). This frame's texts, such as its time, are copied. Returns false after a failure. */
 bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
                  size_t count);
 /* Copies a picture to `count` frames of a movie. Returns false after a failure. */
@@ -49,7 +48,7 @@ bool gm_sink_hold(struct gm_sink *sink, const unsigned char *rgb, long count);
    failure. */
 bool gm_sink_flush(struct gm_sink *sink);
 /* Finishes the frames that were put (keep) or gives the movie up (not keep; finished PNGs stay). Returns
-   false if any frame failed, with the sentence of the first failure. */
+   false with the sentence of the first failure. */
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message);
 
 /* A kind of sink defines what becomes of a frame; the queue is the same for all. */
@@ -61,11 +60,11 @@ struct gm_sink_kind {
     bool (*close)(void *self, bool keep, char *message);
 };
 
-/* Starts the workers. Takes self over, also on failure. Returns NULL with a sentence. */
+/* Takes self over, also on failure: then NULL with a sentence. */
 struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
                               char *message);
 
-/* Returns copies that belong to the caller; gm_texts_free frees them. */
+/* Returns copies for gm_texts_free. */
 struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count);
 void gm_texts_free(struct gm_png_text *texts, size_t count);
 

@@ -37,8 +37,8 @@ int gm_sink_movie_patience = 300000;
 enum {
     DYING = 5000,        /* milliseconds for ffmpeg to report why it has closed its standard input */
     IDLE = 1000,         /* milliseconds for an idle ffmpeg after an interrupt */
-    SLICE = 20,          /* milliseconds between two checks of that */
-    PIPE_SIZE = 1 << 20, /* bytes of the pipe, so that the two processes alternate less; a wish */
+    SLICE = 20,          /* milliseconds between two checks */
+    PIPE_SIZE = 1 << 20, /* bytes of the pipe: fewer changes between the two processes; a wish */
     PATH_SHOWN = 200,    /* characters of a path in a sentence */
     LOG_SHOWN = 160,
     MOST_WORDS = 48,
@@ -78,7 +78,7 @@ static void add(struct command *command, size_t count, const char *const *words)
     add(command, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *),                                \
         (const char *const[]){__VA_ARGS__})
 
-/* Starts a command. Without -xerror ffmpeg 5.1 fills a disk and calls that success. */
+/* Without -xerror ffmpeg 5.1 fills a disk and calls that success. */
 static struct command begin(void)
 {
     struct command command = {.count = 0};
@@ -111,16 +111,14 @@ static int start_ffmpeg(struct movie_sink *self, struct command *command, int in
     return error;
 }
 
-/* Returns true if ffmpeg has ended. It is not reaped yet, so its process group belongs to no other
-   process. */
+/* Returns true if ffmpeg has ended. It is not reaped, so its process group stays its own. */
 static bool has_ended(const struct movie_sink *self)
 {
     siginfo_t ended = {0};
     return waitid(P_PID, (id_t)self->ffmpeg, &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0;
 }
 
-/* Kills ffmpeg and all it started. Returns the wait status of an ffmpeg that had ended, -1 of one that
-   ran. */
+/* Kills ffmpeg and all it started. Returns its wait status; -1 if it ran. */
 static int end_ffmpeg(struct movie_sink *self)
 {
     const bool ended = has_ended(self);
@@ -146,9 +144,9 @@ static int64_t processor_time(const struct movie_sink *self)
 }
 
 struct wait {
-    int64_t begun, idle; /* in milliseconds: the start of the wait, and of ffmpeg's idle time */
-    int64_t used;        /* ffmpeg's CPU time at the start of its idle time */
-    int patience;        /* in milliseconds */
+    int64_t begun, idle; /* milliseconds: start of the wait, and of ffmpeg's idle time */
+    int64_t used;        /* CPU time at the start of the idle time */
+    int patience;        /* most milliseconds of the wait */
 };
 
 static struct wait begin_wait(const struct movie_sink *self, int patience)
@@ -185,7 +183,7 @@ static int await_ffmpeg(struct movie_sink *self, int patience)
     return end_ffmpeg(self);
 }
 
-/* Waits for room in the pipe. Returns true if ffmpeg takes data again. */
+/* Returns true if ffmpeg takes data again. */
 static bool await_room(struct movie_sink *self)
 {
     struct wait wait = begin_wait(self, gm_sink_movie_patience);
@@ -450,8 +448,7 @@ bool gm_sink_is_movie(const char *path)
     return find_format(path, &format);
 }
 
-/* Checks, before hours of simulation, everything that could go wrong after them. Returns false with a
-   sentence. */
+/* Checks at the start all that could fail after hours of simulation. */
 static bool open_files(struct movie_sink *self, const char *path, char *message)
 {
     struct stat status;

@@ -17,7 +17,7 @@ enum { COLOURS = 256, BAND = 6, SHIFT = 2, SIDE_BITS = 8 - SHIFT, CELLS = 1 << 3
 /* A cell of the grid of colours: the pixels in it. */
 struct cell {
     uint32_t count, sum[3];
-    uint8_t colour; /* the number of its colour in the palette */
+    uint8_t colour; /* number in the palette */
 };
 
 /* A set of colours: a part of the list of cells. */
@@ -82,7 +82,7 @@ static bool same(const unsigned char *a, const unsigned char *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Returns the number of pixels from x on that have the colour of the one at x. */
+/* Returns the number of pixels from x on with the colour of the one at x. */
 static int run_length(const unsigned char *line, int x, int width)
 {
     int end = x + 1;
@@ -160,7 +160,7 @@ static uint32_t cut(struct gm_sixel *sixel, const struct part *part)
     return low;
 }
 
-/* Returns the number of colours chosen; each cell stores the number of its colour. */
+/* Returns the number of colours; each cell stores its own. */
 static int choose_colours(struct gm_sixel *sixel)
 {
     int count = 1;
@@ -199,7 +199,7 @@ static int choose_colours(struct gm_sixel *sixel)
     return count;
 }
 
-/* Converts the pixels to numbers of the palette. Leaves the grid empty for the next picture. */
+/* Converts the pixels, and empties the grid for the next picture. */
 static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height)
 {
     uint8_t *to = sixel->pixels;
@@ -217,7 +217,7 @@ static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t 
 
 /* ---- bytes ---- */
 
-/* Makes room for `more` bytes. Returns false when out of memory. */
+/* Makes room for `more` bytes; false when out of memory. */
 static bool make_room(struct gm_sixel *sixel, size_t more)
 {
     if (sixel->length + more <= sixel->capacity) {

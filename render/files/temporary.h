@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Files are written to a temporary name in the same folder and renamed when complete, so that a killed
-   program leaves no half file under a name that the user chose. */
+   program leaves no half file under the user's name for it. */
 
 /* Returns true if path is free or an ordinary file, not a device, a pipe or a symbolic link (such as
    /dev/stdout): renaming would replace those by a file. */
@@ -17,13 +17,13 @@ bool gm_temporary_fits(const char *path);
 bool gm_temporary_can_replace(const char *path, char *message);
 
 /* Writes into a message (GM_MESSAGE) that the path cannot be written, and why; /dev/stdout is called standard
-   output. Returns false, so that a caller can return the result. */
+   output. Returns false, like gm_refuse. */
 bool gm_temporary_refuse(char *message, const char *path, const char *reason);
 
 /* Writes bytes to path, with a temporary name if path fits, otherwise directly. Returns 0 or an errno. */
 int gm_temporary_write(const char *path, const void *bytes, size_t size);
 
-/* Returns a name in path's folder that no other thread or process uses, with this ending. The caller frees
+/* Returns a name in path's folder that no other thread or process uses, with this ending; the caller frees
    it. */
 char *gm_temporary_name(const char *path, const char *ending);
 

@@ -4,9 +4,8 @@
 
 #include "render/gl/library.h"
 
-/* An OpenGL 3.3 core context without a screen. Painters draw into a framebuffer object, not to its surface.
-   Libraries are loaded when the first context is opened, so a program that paints nothing starts fast, and
-   runs without Mesa. */
+/* An OpenGL 3.3 core context without a screen. Painters draw into a framebuffer object. Libraries are loaded
+   when the first context is opened, so a program that paints nothing starts fast, and runs without Mesa. */
 
 enum gm_context_kind { GM_CONTEXT_OSMESA, GM_CONTEXT_EGL, GM_CONTEXT_KINDS };
 
@@ -15,7 +14,7 @@ enum { GM_CONTEXT_TAKES = 512 << 20 };
 
 struct gm_context;
 
-/* Loads the library of a kind for good. Returns false with the reason on failure. */
+/* Loads the library of a kind for good. Returns false with the reason. */
 bool gm_context_load(enum gm_context_kind kind, char *message, size_t size);
 
 /* Opens a context and makes it current. Returns NULL with the reason on failure. */

@@ -69,7 +69,7 @@ static void egl_close(void *self)
     free(egl);
 }
 
-/* Creates the context. Returns NULL, or the fault as a predicate of "EGL". */
+/* Returns NULL, or the fault as a predicate of "EGL". */
 static const char *context_create(struct egl *egl)
 {
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);

@@ -13,7 +13,7 @@ typedef void (*gm_library_function)(void);
    reason: "libEGL.so.1 is not installed", for the first name, or the loader's message. */
 void *gm_library_open(const char *const *names, char *message, size_t size);
 
-/* Functions to find by name; gm_library_find returns false if one is missing. */
+/* Functions to find by name: all of them, or false. */
 struct gm_library_symbol {
     const char *name;
     void *function; /* the address of a pointer to the function */

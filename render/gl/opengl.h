@@ -28,7 +28,7 @@ void gm_opengl_close(struct gm_opengl *opengl);
 bool gm_opengl_draw(struct gm_opengl *opengl, const struct gm_batch *batch, const struct gm_atlas *atlas,
                     unsigned char *rgba);
 
-/* The name of the painter: "OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */
+/* The painter: "OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */
 const char *gm_opengl_name(const struct gm_opengl *opengl);
 
 #endif

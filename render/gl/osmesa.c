@@ -9,7 +9,7 @@
 
 #include "render/gl/backend.h"
 
-enum { SIDE = 16 }; /* pixels on a side of the buffer that a context must have; nothing is drawn there */
+enum { SIDE = 16 }; /* side in pixels of the buffer that a context must have; nothing is drawn there */
 
 struct osmesa {
     OSMesaContext context;

@@ -18,8 +18,8 @@ struct gm_stream {
    compile. */
 bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, char *message);
 
-/* Draws everything into the bound framebuffer of width x height pixels. The glyph atlas must be bound to
-   texture unit 0, the colour maps to unit 1. Returns false on a GL error or when out of memory. */
+/* Draws everything into the bound framebuffer of width x height pixels. Texture unit 0 has the glyph atlas,
+   unit 1 the colour maps. Returns false on a GL error or when out of memory. */
 bool gm_stream_draw(struct gm_stream *stream, const struct gm_batch *batch, int width, int height);
 
 #endif

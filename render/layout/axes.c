@@ -199,9 +199,8 @@ static struct gm_key without_failure(const struct gm_label_list *list, const str
     return shown;
 }
 
-/* Breaks a key into lines of that width and returns their number. A key too wide for one line first loses the
-   names of its values. Then it takes more lines; the sample of its line goes last, since the colour
-   identifies it. */
+/* Breaks a key into lines of that width and returns their number. A key too long for one line first loses the
+   names of its values. Then it takes more lines; the sample of its line goes last, as it has the colour. */
 static size_t key_lines(const struct gm_label_list *list, const struct gm_key *key, double width,
                         const char **lines)
 {
@@ -482,7 +481,7 @@ static void add_note(const struct surroundings *around, const char *const *lines
 {
     struct gm_label_list *list = around->list;
     const struct gm_mark *mark = around->mark;
-    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* in lines */
+    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* shifts in lines */
     const size_t before = list->count;
     const double line = list->metrics->line[GM_TEXT_TICK], high = (double)made * line;
     const struct gm_box *data = &around->axes[around->own].box;

@@ -157,8 +157,8 @@ static size_t fork_front(const struct group *group, size_t index)
     return shared ? front : 0;
 }
 
-/* Returns the bytes up to a comma and blank with which all titles of states begin: the rest of the titles
-   identifies the states. A scheme that was replaced during the run stays before its successor. */
+/* Returns the bytes up to a comma and blank with which all titles of states begin: the rest identifies the
+   states. A scheme that was replaced during the run stays before its successor. */
 static size_t common_front(const struct group *group)
 {
     const char *first = group->frames[0].panel->title;
@@ -265,8 +265,8 @@ static size_t note_words(struct gm_label_list *list, const struct group *group, 
     return words;
 }
 
-/* Places the panels. A box narrower than its cell is in the middle of it, or, with `leftmost`, under the
-   picture's title. */
+/* Places the panels: boxes narrower than their cell in its middle, or, with `leftmost`, under the picture's
+   title. */
 static void place_group(struct gm_label_list *list, struct group *group, double overhang, bool leftmost)
 {
     const double scale = list->metrics->scale;

@@ -84,8 +84,8 @@ double gm_axes_y(const struct gm_axes *axes, double value);
    the middles of the cells. */
 double gm_image_value(const struct gm_mark *image, double across, double up);
 
-/* Returns true if boxes overlap. Neighbours in a line need air between them; lines may touch. Empty boxes
-   overlap nothing. */
+/* Returns true if boxes overlap. Neighbours in a line need air, lines may touch, and empty boxes overlap
+   nothing. */
 bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air);
 
 /* The labels of a layout under construction. A label is taken only if it is wholly on the surface and on no

@@ -66,7 +66,7 @@ static size_t few_ticks(double low, double high, int exponent, size_t max, doubl
     return 0;
 }
 
-/* Takes the first of the steps that gives at least three ticks. Returns their number; 0 if none does. */
+/* Takes the first of the steps that gives at least three ticks; returns 0 if none does. */
 static size_t first_step(double low, double high, const double *steps, size_t step_count, int exponent,
                          size_t max, double *values)
 {

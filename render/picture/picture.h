@@ -107,7 +107,7 @@ struct gm_panel {
     struct gm_axis x, y;
     bool equal;      /* one unit is equally long on both axes */
     bool axes;       /* axes, ticks and grid are drawn */
-    bool colour_bar; /* a colour bar for the first mesh or image */
+    bool colour_bar; /* colour bar of the first mesh or image */
     const char *colour_bar_label;
     struct gm_key *first_key, *last_key; /* shown on the note's line if the note is empty */
     struct gm_mark *first, *last;

@@ -156,7 +156,7 @@ const char *gm_canvas_backend(const struct gm_canvas *canvas)
 
 #ifdef __x86_64__
 /* Packs four pixels at a time with one shuffle, which also writes four bytes that the next ones overwrite.
-   Returns the number of pixels done. */
+   Returns how many. */
 __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char *rgba, unsigned char *rgb,
                                                              size_t count)
 {

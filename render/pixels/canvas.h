@@ -12,10 +12,10 @@
 
 struct gm_canvas;
 
-/* Chooses the painter of canvases that are opened from now on: "osmesa", "egl", "own", or "auto": OSMesa for
-   files, if it can be loaded, otherwise the rasteriser. NULL: the environment variable GEOMINT_PAINTER, or
-   auto. Returns false with a sentence (GM_MESSAGE bytes) if the painter does not exist or cannot be loaded.
-   No other thread may open a canvas meanwhile. */
+/* Chooses the painter of canvases opened from now on: "osmesa", "egl", "own", or "auto": OSMesa for files, if
+   it can be loaded, otherwise the rasteriser. NULL: the environment variable GEOMINT_PAINTER, or auto.
+   Returns false with a sentence (GM_MESSAGE bytes) if the painter does not exist or cannot be loaded. No
+   other thread may open a canvas meanwhile. */
 bool gm_canvas_choose(const char *painter, char *message);
 
 /* The first starts a thread with the slow part of opening the first canvas for a file. The second waits for

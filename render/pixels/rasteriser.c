@@ -315,7 +315,7 @@ static bool make_colours(struct gm_rasteriser *rasteriser)
     return rasteriser->colours != NULL;
 }
 
-/* Makes the groups and colours that calls of the batch need. Returns false when out of memory. */
+/* Makes the groups and colours for the batch; false when out of memory. */
 static bool prepare(struct gm_rasteriser *rasteriser, const struct gm_batch *batch)
 {
     const size_t size = sizeof *rasteriser->groups * (size_t)rasteriser->width * (size_t)rasteriser->height;

@@ -65,7 +65,7 @@ static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t 
     return true;
 }
 
-/* Returns the call for the current state, a new one if the last differs; NULL when out of memory. */
+/* Returns the call for the current state, a new one if the last differs, or NULL. */
 static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
 {
     if (batch->call_count > 0 && !indexed) {

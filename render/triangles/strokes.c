@@ -205,8 +205,7 @@ void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, f
     gm_batch_end(batch, 0);
 }
 
-/* Returns true if the line is convex: all turns have one sign, and they add up to one round, so that x rises
-   and falls once. */
+/* Returns true if all turns have one sign and add up to one round, so that x rises and falls once. */
 static bool convex(const struct gm_polyline *line)
 {
     const size_t n = line->count;

@@ -23,12 +23,12 @@ enum gm_program {
     GM_PROGRAM_COUNT,
 };
 
-/* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), with distances in pixels: a stroke's body has
-   along = 0, a round cap counts along from the end, a disc counts both from the centre. Text: (across, along)
-   is a place in the glyph atlas, in texels, and half is 1. Fields: across is the value from 0 to 1, along is
-   0, and half is the alpha. Images: (across, along) is the place in the image, from 0 to 1, half the alpha. */
+/* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), in pixels: a stroke's body has along = 0, a
+   round cap counts along from the end, a disc has both from the centre. Text: (across, along) is a place in
+   the glyph atlas, in texels; half is 1. Fields: across is the value from 0 to 1, along 0, half the alpha.
+   Images: (across, along) is the place in the image, from 0 to 1; half is the alpha. */
 struct gm_vertex {
-    float x, y; /* in pixels, downwards */
+    float x, y; /* place in pixels, y downwards */
     float across, along, half;
     /* a strip's colour; in fields and images the row of the colour map, 0 or 255, and three times 255 */
     uint8_t colour[4];
@@ -84,8 +84,8 @@ void gm_batch_once(struct gm_batch *batch);
 struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count);
 void gm_batch_end(struct gm_batch *batch, size_t unused);
 
-/* Returns room for vertices and the triangles among them (indices count from the first of these vertices);
-   NULL when out of memory. */
+/* Returns room for vertices and the triangles among them (indices count from the first of these); NULL when
+   out of memory. */
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
 
 /* Polylines and discs as triangles whose edges fade over a pixel. */

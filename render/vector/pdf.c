@@ -287,7 +287,7 @@ static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, stru
     }
 }
 
-/* Returns the whole file in memory; the caller frees it. NULL when out of memory. */
+/* Returns the whole file, which the caller frees; NULL when out of memory. */
 static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture,
                        const struct gm_png_text *texts, size_t count, size_t *size)
 {

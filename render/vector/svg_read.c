@@ -30,8 +30,7 @@ static void unescape(char *text)
     *to = '\0';
 }
 
-/* Returns the text of a key between two places; the caller frees it. NULL without such a text, or when out of
-   memory. */
+/* Returns the text of a key between two places, which the caller frees; NULL without it. */
 static char *text_of(const char *from, const char *to, const char *key)
 {
     char front[128];

@@ -11,9 +11,9 @@
 #include "render/picture/picture.h"
 
 /* Draws the picture as SVG 1.1: lines, shapes and texts, and fields of colours as images of pixels; *fields
-   is their number. The metadata contain the texts. A temporary name makes sure that a killed program leaves
-   no half file. Returns false on failure, with one sentence in message (GM_MESSAGE bytes) and errno: ENOMEM
-   also when a library was refused memory. */
+   is their number. The metadata contain the texts. A killed program leaves no half file. Returns false on
+   failure, with one sentence in message (GM_MESSAGE bytes) and errno: ENOMEM also when a library was refused
+   memory. */
 bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message);
 
@@ -21,24 +21,24 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
    missing key. Returns false with a sentence if the file cannot be read. */
 bool gm_svg_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message);
 
-/* Draws the picture as a page of PDF, with Cairo; arguments and failures as in gm_svg_write. Fonts are
-   embedded. The date is fixed, so that the same picture has the same bytes. */
+/* Draws the picture as a page of PDF, with Cairo: as gm_svg_write, with embedded fonts. The date is fixed, so
+   that the same picture has the same bytes. */
 bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message);
 
-/* Returns the name of the library: "Cairo 1.16.0". */
+/* Returns the library: "Cairo 1.16.0". */
 const char *gm_pdf_backend(void);
 
 /* A field of colours as pixels: each pixel has the colour of its interpolated value, which a few shapes of a
    drawing cannot show. */
 
-/* The colours of a map, and the number for none. */
+/* The colours of a map, and one number for none. */
 enum { GM_FIELD_COLOURS = 255, GM_FIELD_NONE = GM_FIELD_COLOURS };
 
 struct gm_field_image {
     int left, top, width, height; /* place on the surface, in its pixels */
-    int columns, rows;            /* size in pixels of the field: a multiple of width and height */
-    uint8_t *pixels;              /* numbers of colours, top row first; gm_field_image_close frees them */
+    int columns, rows;            /* size of the field, a multiple of width and height */
+    uint8_t *pixels;              /* numbers of colours, top row first, malloc'ed */
 };
 
 /* Paints the part of a mesh or an image in a rectangle {left, top, width, height} of the surface. A pixel of
