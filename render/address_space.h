@@ -6,18 +6,18 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-/* Whether it has a limit: what is only quicker is then left alone. */
+/* Returns true if the address space is limited: optional work is then left out. */
 static inline bool gm_address_space_is_limited(void)
 {
     struct rlimit space;
     return getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY;
 }
 
-/* Whether the system gives so many bytes. Libraries that are refused memory seldom say that it was memory:
-   asked for as much, the program's own malloc finds out, and notes it. */
+/* Returns true if the system gives this number of bytes. Libraries seldom report a refusal of memory; the
+   program's malloc, called here, notes it. */
 static inline bool gm_address_space_has(size_t bytes)
 {
-    void *volatile memory = malloc(bytes); /* volatile: nothing is done with it, but it is to be asked for */
+    void *volatile memory = malloc(bytes); /* volatile: the compiler must keep the allocation */
     const bool has = memory != NULL;
     free(memory);
     return has;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The clock on the wall, for pacing and for telling how long something took. */
+/* The wall clock, for pacing and for durations. */
 #include "render/clock.h"
 
 #include <time.h>

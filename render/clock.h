@@ -4,11 +4,12 @@
 
 #include <stdint.h>
 
-/* The clock on the wall since some moment; it never goes back. It paces and tells: no state depends on it. */
+/* The wall clock since an arbitrary moment; it never goes back. It serves pacing and reports: no state
+   depends on it. */
 double gm_clock_seconds(void);
 int64_t gm_clock_milliseconds(void);
 
-/* What this thread has used of a processor. */
+/* The CPU time of the calling thread, in seconds. */
 double gm_clock_processor_seconds(void);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sentence of a refusal: written once, by whoever knows what is wrong, for whoever says it. */
+/* The sentence of a refusal, written where the fault is detected. */
 #include "render/message.h"
 
 #include <stdarg.h>

@@ -4,11 +4,12 @@
 
 #include <stdbool.h>
 
-/* Bytes of a message, the final zero among them: a sentence that says what is wrong, and may quote a path or
-   another sentence. */
+/* Bytes of a message with its final zero: a sentence that states the fault and may quote a path or a
+   sentence. */
 enum { GM_MESSAGE = 512 };
 
-/* Writes the sentence into a message, cut to its size. Returns false, which is what a refusal returns. */
+/* Writes the sentence into a message, cut to its size. Returns false, so that a caller can return the
+   result. */
 __attribute__((format(printf, 2, 3))) bool gm_refuse(char *message, const char *format, ...);
 
 #endif

@@ -12,7 +12,7 @@ void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp)
     *sharp = blocks == GM_BRAILLE || blocks == GM_ASCII;
 }
 
-enum { PARTS = 8 }; /* the most sub-pixels a cell has; row by row */
+enum { PARTS = 8 }; /* the most sub-pixels per cell, stored row by row */
 
 struct block {
     struct gm_subpixel part[PARTS];
@@ -54,7 +54,7 @@ static unsigned parts_of_level(const struct block *block, int level)
     return set;
 }
 
-/* The role that most parts of a set have; of equals, the later. */
+/* Returns the role of most parts of a set; on a tie the later one. */
 static enum gm_role chief_role(const struct block *block, unsigned set)
 {
     int votes[GM_ROLE_COUNT] = {0};
@@ -78,12 +78,12 @@ static unsigned parts_of_role(const struct block *block, unsigned set, enum gm_r
     return kept;
 }
 
-/* What a glyph with one colour shows of a cell: lines before what is filled, and that before the grid. */
+/* The parts of a cell that a glyph with one colour shows: lines before areas, areas before the grid. */
 struct stencil {
     unsigned inked;  /* the parts that are drawn */
-    unsigned colour; /* those of them that give the colour */
+    unsigned colour; /* the drawn parts that give the colour */
     unsigned ground; /* the parts of fields and fills */
-    bool lines;      /* what is inked are lines or points */
+    bool lines;      /* the drawn parts are lines or points */
     enum gm_role role;
 };
 
@@ -121,7 +121,7 @@ static uint32_t quadrant_glyph(unsigned set)
     return glyphs[set];
 }
 
-/* Two colours for two or four parts: of all ways to divide them the one that is off least. */
+/* Fits two colours to two or four parts: of all divisions the one with the least error. */
 static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_cell *cell)
 {
     unsigned all = (1u << block->count) - 1, best = all;
@@ -165,8 +165,8 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
     }
 }
 
-/* Dots of one colour for lines; what is filled is painted in quarters, as is what runs beneath or beside it.
-   Where a line runs over it, that is the background. */
+/* Paints lines as dots of one colour, and areas in quarters. An area beneath a line becomes the
+   background. */
 static void braille(const struct block *block, const struct block *area, struct gm_rgb paper,
                     struct gm_cell *cell)
 {
@@ -193,7 +193,7 @@ static void braille(const struct block *block, const struct block *area, struct 
     cell->role = stencil.role;
 }
 
-/* A letter whose ink lies where the line runs: by the rows the line takes and by its slope. */
+/* Returns the letter whose ink is nearest to the line, from the line's rows and slope. */
 static uint32_t ascii_line(unsigned set)
 {
     int left = 0, right = 0, left_rows = 0, right_rows = 0, rows = 0, low = 3, high = 0;
@@ -241,7 +241,7 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
         int covered = parts_in(stencil.inked);
         cell->glyph = covered >= 4 ? '|' : covered >= 2 ? '-' : '.';
     } else {
-        /* by how much of the cell is covered and how strongly */
+        /* more coverage and more contrast give a darker glyph */
         static const char ramp[] = " .:-+*#@";
         long strength = 0, full = gm_rgb_distance(ink, paper);
         for (int i = 0; i < PARTS; i++) {
@@ -256,7 +256,7 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
     cell->role = stencil.role;
 }
 
-/* Reads a cell's parts, `across` of them in a row; whether any is not blank. */
+/* Reads a cell's parts, `across` per row. Returns true if one is not blank. */
 static bool take_block(struct block *block, const struct gm_raster *raster, int across, int column, int row)
 {
     const struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER);

@@ -9,11 +9,11 @@
 #include "render/cells/text.h"
 #include "render/layout/layout.h"
 
-/* A cell on the layout's surface. Twice as high as wide, like the cells of nearly every font, and divisible
+/* A cell on the layout's surface: twice as high as wide, like the cells of nearly every font, and divisible
    by the sub-pixels of every kind of block. */
 enum { CELL_WIDTH = 8, CELL_HEIGHT = 16 };
 
-/* Below this there is room for the states and one graph. */
+/* A smaller screen has room for the states and one graph. */
 enum { ROOMY_COLUMNS = 72, ROOMY_ROWS = 27 };
 
 static double measure(const void *self, enum gm_text_size size, const char *text)
@@ -44,8 +44,8 @@ static bool is_free(const struct painter *painter, int column, int row, int widt
     return true;
 }
 
-/* Writes a label. On cells texts move by up to half a cell, so what no longer fits is left out here even though the
-   layout had room for it. */
+/* Writes a label. Texts move by up to half a cell to whole cells. A label that no longer fits is left out,
+   although the layout had room for it. */
 static void paint_text(struct painter *painter, const struct gm_label *label, int row)
 {
     int width = gm_text_width(label->text, painter->ascii);
@@ -74,7 +74,7 @@ static void paint_text(struct painter *painter, const struct gm_label *label, in
     gm_cells_text(painter->cells, column, row, -1, label->text, &look);
 }
 
-/* Grid and axes as dots of the raster, beneath the marks: where dots are fine enough for a hairline. */
+/* Draws grid and axes as dots of the raster, beneath the marks; the dots must be as fine as a hairline. */
 static void paint_dotted_grid(struct gm_raster *raster, const struct gm_axes *axes)
 {
     const struct gm_box *box = &axes->box;
@@ -91,7 +91,7 @@ static void paint_dotted_grid(struct gm_raster *raster, const struct gm_axes *ax
     gm_marks_rule(raster, (const double[]){box->x, bottom, right, bottom}, GM_SECONDARY, 1);
 }
 
-/* Grid and axes as characters in the cells that the marks left blank: thinner than any block. */
+/* The arms of characters for grid and axes, in cells that the marks left blank: thinner than any block. */
 enum { RULE_LEFT = 1, RULE_RIGHT = 2, RULE_UP = 4, RULE_DOWN = 8 };
 
 static void rule_cell(const struct painter *painter, int column, int row, unsigned arms, enum gm_role role)
@@ -153,7 +153,7 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_axes 
     }
 }
 
-/* The points of a colour bar beyond whose ends values lie: in the cells of its ends. */
+/* Draws the tips of a colour bar, in the cells of its ends, if values lie beyond them. */
 static void paint_tips(const struct painter *painter, const struct gm_axes *axes)
 {
     static const uint32_t glyphs[2] = {0x25BC, 0x25B2}, letters[2] = {'v', '^'};
@@ -175,19 +175,19 @@ static void paint_tips(const struct painter *painter, const struct gm_axes *axes
     }
 }
 
-/* Whether a line goes around the polygon before it. */
+/* Returns true if a line goes around the polygon before it. */
 static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
 {
     return before && before->kind == GM_MARK_POLYGON && mark->kind == GM_MARK_LINE && mark->closed &&
            mark->count == before->count && mark->style.role == before->style.role;
 }
 
-/* What of the marks a raster takes. */
+/* The marks that a raster takes. */
 struct taking {
-    bool grid;     /* dotted, beneath the marks */
-    bool areas;    /* an outline counts as a part of what it surrounds */
-    bool outlines; /* what has an outline is not filled */
-    bool only;     /* only panels in which something is filled */
+    bool grid;     /* the grid is dotted, beneath the marks */
+    bool areas;    /* areas with their outlines */
+    bool outlines; /* shapes with an outline are not filled */
+    bool only;     /* panels without a filled shape are left out */
 };
 
 static bool is_filled(const struct gm_panel *panel)
@@ -230,8 +230,8 @@ static int row_of(double y)
     return fabs(y) < 1e6 ? (int)floor(y / CELL_HEIGHT) : -1;
 }
 
-/* The row of a label: what stands above a panel's data moves up and what stands below moves down, so that
-   neither comes to lie in the first or last row of the data; beside them it goes where most of it is. */
+/* Returns the row of a label. Labels above a panel's data move up and labels below move down, so that the
+   first and last row of the data stay free; labels beside it go where most of their height is. */
 static int label_row(const struct painter *painter, const struct gm_layout *layout,
                      const struct gm_label *label)
 {
@@ -259,7 +259,7 @@ static void paint_texts(struct painter *painter, const struct gm_layout *layout)
         const struct gm_label *label = &layout->labels[i];
         const int row =
             label->among_marks ? row_of(label->y + 0.5 * CELL_HEIGHT) : label_row(painter, layout, label);
-        /* letters do not turn in a terminal; the panel's title says what the axis is */
+        /* a terminal does not turn letters; the panel's title names the axis */
         if (!label->vertical) {
             paint_text(painter, label, row);
         }
@@ -282,7 +282,7 @@ static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, 
     return true;
 }
 
-/* Marks to glyphs. */
+/* Paints the marks; false when out of memory. */
 static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout, enum gm_theme theme,
                          enum gm_blocks blocks, double scale)
 {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* fmin and fmax are calls, because of what they do with NaN; no NaN comes here. */
+/* fmin and fmax are calls, because they handle NaN; no NaN comes here. */
 static double smaller(double a, double b)
 {
     return a < b ? a : b;
@@ -18,8 +18,8 @@ static double larger(double a, double b)
 
 /* ---- lines ---- */
 
-/* Lengths of stroke and gap in sub-pixels, alternately. Counted in sub-pixels rather than in units of the
-   picture because a dash must survive the coarsest raster. */
+/* Lengths of stroke and gap, alternately. They are in sub-pixels, not in units of the picture, because a dash
+   must survive the coarsest raster. */
 static const int dashes[GM_DASH_COUNT][6] = {
     [GM_SOLID] = {0},
     [GM_LONG_DASH] = {6, 3, 6, 3, 6, 3},
@@ -50,13 +50,13 @@ static bool dash_on(enum gm_dash dash, double length)
     return false;
 }
 
-/* A straight piece of a line, and which part of the whole piece is left of it. */
+/* A straight piece of a line, and the part of it that is left. */
 struct piece {
     double x0, y0, x1, y1;
-    double start, end; /* 0 to 1 */
+    double start, end; /* fractions of the whole piece, 0 to 1 */
 };
 
-/* Cuts a piece to the clip box widened by `margin`: Liang and Barsky. False: nothing is left. */
+/* Cuts a piece to the clip box widened by `margin` (Liang and Barsky). Returns false if nothing is left. */
 static bool clip_piece(const struct gm_raster *raster, double margin, struct piece *piece)
 {
     const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0;
@@ -84,7 +84,7 @@ static bool clip_piece(const struct gm_raster *raster, double margin, struct pie
     return low <= high;
 }
 
-/* The sub-pixels across a line of the given width at one place of its long direction. */
+/* Covers the sub-pixels across a line of the given width at one place of its long direction. */
 static void cover_across(struct gm_raster *raster, bool steep, int along, double middle, double width)
 {
     if (raster->sharp) {
@@ -104,7 +104,7 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
     }
 }
 
-/* *length is the way so far, for the dash. */
+/* *length is the length so far, for the dash. */
 static void draw_piece(struct gm_raster *raster, struct piece piece, double width, enum gm_dash dash,
                        double *length)
 {
@@ -140,7 +140,7 @@ static void draw_line(struct gm_raster *raster, const struct gm_axes *axes, cons
     for (size_t i = 0; i < count; i++) {
         struct gm_raster_place now = gm_raster_place(raster, axes, &mark->points[2 * (i % mark->count)]);
         if (gm_raster_is_place(before) && gm_raster_is_place(now)) {
-            /* what is nearer than a part of a sub-pixel adds nothing but work */
+            /* a point within a quarter of a sub-pixel adds only work */
             if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
                 continue;
             }
@@ -179,7 +179,7 @@ static void draw_points(struct gm_raster *raster, const struct gm_axes *axes, co
 
 /* ---- polygons ---- */
 
-/* Scan lines a sub-pixel, at most: the smoothness of a polygon's upper and lower edges. */
+/* Most scan lines per sub-pixel: the smoothness of a polygon's upper and lower edges. */
 enum { SCANS = 4 };
 
 struct crossing {
@@ -196,11 +196,11 @@ static int by_place(const void *a, const void *b)
     return (one->x > other->x) - (one->x < other->x);
 }
 
-/* A polygon's outline crossing the scan lines. */
+/* The crossings of a polygon's outline with the scan lines. */
 struct scan {
     struct crossing *crossings;
     size_t count, capacity;
-    int fine; /* scan lines a sub-pixel */
+    int fine; /* scan lines per sub-pixel */
     bool failed;
 };
 
@@ -389,7 +389,7 @@ static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, con
     }
 }
 
-/* ---- all of them, and what is around ---- */
+/* ---- all marks, and the axes ---- */
 
 bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark,
                    bool outline)

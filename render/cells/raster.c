@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The raster beneath the character cells: sub-pixels that know what they belong to. */
+/* The raster beneath the character cells: sub-pixels with the level and role of their mark. */
 #include "render/cells/grid.h"
 
 #include <math.h>
@@ -53,8 +53,8 @@ int gm_raster_clamp(double value, int low, int high)
 
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
 {
-    /* A sub-pixel belongs to the box when its middle does; the one past the end too, so that what lies on
-       the edge itself is seen. */
+    /* A sub-pixel belongs to the box if its middle does. The one after the end belongs too, so that a mark on
+       the edge is visible. */
     raster->clip_left = gm_raster_clamp(floor(box->x / raster->unit_x), 0, raster->width);
     raster->clip_top = gm_raster_clamp(floor(box->y / raster->unit_y), 0, raster->height);
     raster->clip_right = gm_raster_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
@@ -103,7 +103,7 @@ static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight,
 {
     at->colour = (struct gm_rgb){mix(at->colour.r, colour.r, weight), mix(at->colour.g, colour.g, weight),
                                  mix(at->colour.b, colour.b, weight)};
-    if (level == GM_LEVEL_PAPER) { /* too little of the mark to belong to it */
+    if (level == GM_LEVEL_PAPER) { /* the mark covers too little of it */
         return;
     }
     at->level = (uint8_t)(level == GM_LEVEL_LINE && at->level >= GM_LEVEL_FIELD ? GM_LEVEL_OVER : level);

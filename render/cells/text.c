@@ -25,7 +25,7 @@ uint32_t gm_text_next(const char **text)
         code = code << 6 | (at[i] & 0x3F);
     }
     *text += more + 1;
-    static const uint32_t least[] = {0, 0x80, 0x800, 0x10000}; /* which takes so many bytes more */
+    static const uint32_t least[] = {0, 0x80, 0x800, 0x10000}; /* the least code point of this length */
     return code < least[more] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000) ? 0xFFFD : code;
 }
 
@@ -77,7 +77,7 @@ static const struct spelling {
     uint32_t code;
     const char *letters;
 } spellings[] = {
-    /* in order of code, for bsearch */
+    /* sorted by code, for bsearch */
     {0x00A0, " "},     {0x00AB, "<<"},    {0x00B0, "deg"},   {0x00B1, "+-"},     {0x00B2, "^2"},
     {0x00B3, "^3"},    {0x00B7, "."},     {0x00B9, "^1"},    {0x00BB, ">>"},     {0x00BD, "1/2"},
     {0x00C5, "A"},     {0x00D7, "x"},     {0x00E4, "a"},     {0x00E9, "e"},      {0x00F6, "o"},
@@ -125,7 +125,7 @@ static bool is_raised(uint32_t code)
 /* The code points of a text as they are shown. */
 struct reader {
     const char *text;
-    const char *letters; /* what is left of a spelling */
+    const char *letters; /* the rest of a spelling */
     bool ascii, raised;
 };
 

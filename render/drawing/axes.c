@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
+/* The grid, axes and colour bar of a panel. Rules are upright and sharp: they begin and end on whole
+   pixels. */
 #include <math.h>
 
 #include "render/drawing/pen.h"
@@ -52,7 +53,7 @@ static void draw_axes(struct gm_painter *painter, const struct gm_axes *axes)
     }
 }
 
-/* Points at the ends of the bar beyond which there are values; they have the colours of the ends. */
+/* Draws tips at the ends of the bar beyond which there are values, in the colours of the ends. */
 static void draw_tips(struct gm_painter *painter, const struct gm_axes *axes, enum gm_colour_map map)
 {
     const struct gm_box bar = axes->colour_bar;

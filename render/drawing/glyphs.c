@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Letters by FreeType, kept in an atlas. */
+/* Letters, drawn by FreeType and stored in an atlas. */
 #include "render/drawing/glyphs.h"
 
 #include <errno.h>
@@ -17,8 +17,8 @@
 
 #include "render/cells/text.h"
 
-/* Letters are hinted upwards only and stand at quarters of a pixel sideways: stems keep their distances and
-   horizontal strokes are sharp. Large ones need no such care. */
+/* Letters are hinted only vertically and placed at quarters of a pixel: stems keep their distances and
+   horizontal strokes are sharp. Large letters need no such care. */
 enum { SHIFTS = 4, LARGE = 48 };
 
 enum { ATLAS_WIDTH = 1024, ATLAS_HIGHEST = 16384, BORDER = 1 };
@@ -33,24 +33,22 @@ struct glyph {
 };
 
 struct gm_glyphs {
-    struct FT_MemoryRec_ memory; /* of the library */
-    bool refused;                /* some of it, ever */
+    struct FT_MemoryRec_ memory; /* FreeType's allocator */
+    bool refused;                /* true once memory was refused */
     FT_Library library;
     FT_Face faces[GM_FONT_COUNT];
     char *files[GM_FONT_COUNT];
-    int sizes[GM_FONT_COUNT]; /* set at present */
-    struct glyph *table;      /* open addressing; its size is a power of two */
+    int sizes[GM_FONT_COUNT]; /* current heights, in pixels */
+    struct glyph *table;      /* open addressing; the size is a power of two */
     size_t table_size, count;
     unsigned char *pixels;
     int atlas_height, changed;
-    int shelf_x, shelf_y, shelf_height; /* where the next letter goes */
-    struct glyph none;                  /* when memory is short */
+    int shelf_x, shelf_y, shelf_height; /* the place of the next letter */
+    struct glyph none;                  /* the letter when memory is short */
 };
 
-/* The library's memory is the program's, where a refusal is noted: a letter may be missing from a picture for
-   want of it. */
-/* What FreeType reports of a refusal is not always that: a module that found no room is one that is
-   missing. */
+/* FreeType uses the program's allocators. A refusal is noted, since a letter may be missing from the picture,
+   and FreeType may report something else, such as a missing module. */
 static void *noted(FT_Memory memory, void *block)
 {
     struct gm_glyphs *glyphs = memory->user;
@@ -120,12 +118,12 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
     return file;
 }
 
-/* The installed fonts nearest to those wanted, their files malloc'ed; NULL where none is installed, or, with
-   errno ENOMEM, where there is no memory. */
+/* Finds the installed fonts nearest to the wanted ones. The caller frees files[]; NULL if none is installed,
+   or, with errno ENOMEM, when out of memory. */
 static void find_fonts(const struct font_wanted wanted[GM_FONT_COUNT], char *files[GM_FONT_COUNT])
 {
-    /* a configuration of our own: that of the process, and what fontconfig keeps for all, may be in use by
-       others; it is read once for all fonts, since that takes longer than looking */
+    /* a separate configuration, since others may use the global one; it is read once for all fonts, since
+       reading takes longer than matching */
     errno = 0;
     FcConfig *config = FcInitLoadConfigAndFonts();
     for (int i = 0; config && i < GM_FONT_COUNT; i++) {
@@ -229,7 +227,7 @@ static bool table_grow(struct gm_glyphs *glyphs)
     return true;
 }
 
-static _Atomic uint32_t lacking[GM_LACKING]; /* 0: none */
+static _Atomic uint32_t lacking[GM_LACKING]; /* code points; 0: free */
 
 static void note_lacking(uint32_t code)
 {
@@ -250,7 +248,7 @@ size_t gm_glyphs_lacking(uint32_t letters[GM_LACKING])
     return count;
 }
 
-/* The entry of a letter; its advance is known, its image perhaps not yet. */
+/* Returns the entry of a letter; the advance is set, the image perhaps not yet. */
 static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int height, uint32_t code,
                               int shift)
 {
@@ -274,7 +272,8 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
     return glyph;
 }
 
-/* Room in the atlas: letters stand on shelves as high as their highest. */
+/* Finds room on the atlas's shelves, which are as high as their highest letter. Returns false without
+   room. */
 static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *x, short *y)
 {
     if (width + BORDER > ATLAS_WIDTH) {

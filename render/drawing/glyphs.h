@@ -12,36 +12,37 @@ enum gm_font { GM_FONT_SANS, GM_FONT_BOLD, GM_FONT_MONO, GM_FONT_COUNT };
 
 struct gm_glyphs;
 
-/* NULL on failure, with one sentence in message and errno: ENOMEM, ENOENT where there is no font, EIO. */
+/* Returns NULL on failure, with one sentence in message and errno: ENOMEM, ENOENT without a font, EIO. */
 struct gm_glyphs *gm_glyphs_open(char *message, size_t size);
 void gm_glyphs_close(struct gm_glyphs *glyphs);
 
-/* Width of a text, and distances of a font's baseline from the top and bottom of its line; in pixels, for
-   letters of `height` pixels (the em). */
+/* The width of a text, and the distances of a font's baseline from the top and bottom of its line; in pixels,
+   for letters of `height` pixels (the em). */
 double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text);
 double gm_glyphs_ascent(struct gm_glyphs *glyphs, enum gm_font font, int height);
 double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height);
 
-/* The family's own name, such as "DejaVu Sans", and the file it was found in. */
+/* The name of the family, such as "DejaVu Sans", and the file of the font. */
 const char *gm_glyphs_family(const struct gm_glyphs *glyphs, enum gm_font font);
 const char *gm_glyphs_file(const struct gm_glyphs *glyphs, enum gm_font font);
 
-/* Letters of a text one by one, from `pen` (which moves on) on a baseline at 0. */
+/* A letter of a text, on a baseline at 0. */
 struct gm_letter {
-    int x, y, width, height; /* of its image, relative to the baseline's start; y downwards */
+    int x, y, width, height; /* the image, relative to the start of the baseline; y downwards */
     int atlas_x, atlas_y;
 };
-/* False at the end of the text; a letter without an image has width 0. */
+/* Gives the next letter and advances `text` and `pen`. Returns false at the end; a letter without an image
+   has width 0. */
 bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,
                     struct gm_letter *letter);
 
-/* The letters that were asked for of a font that has none, so that boxes stand for them, in any picture up to
-   now; how many there are, GM_LACKING at most. */
+/* Gives the letters that no font had, so that boxes replaced them, in all pictures so far. Returns their
+   number, at most GM_LACKING. */
 enum { GM_LACKING = 9 };
 size_t gm_glyphs_lacking(uint32_t letters[GM_LACKING]);
 
-/* The atlas: rows of `width` bytes. Rows from `changed` on have changed since the last call. It only grows
-   downwards, so that places in it stay valid. */
+/* The atlas: rows of `width` bytes. Rows from `changed` on have changed since the last call. It grows only
+   downwards, so places in it stay valid. */
 struct gm_atlas {
     const unsigned char *pixels;
     int width, height, changed, used;

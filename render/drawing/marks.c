@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines, points and polygons in pixels; the pen does the marks that have values. */
+/* Lines, points and polygons in pixels; the pen draws marks with values. */
 #include <math.h>
 
 #include "render/drawing/pen.h"
 
-/* Nobody sees a tenth of a pixel. */
+/* A tenth of a pixel is not visible. */
 static const float tolerance = 0.1f;
 
-/* Lines are cut this far outside of their panel, so that their ends are not seen. */
+/* Lines are cut this far outside of their panel, in pixels, to hide their ends. */
 static const float cut = 16.0f;
 
 /* Lengths drawn and left out, in widths of the line. */
@@ -23,7 +23,7 @@ static const struct {
     [GM_DASH_DOT_DOT] = {6, {4.0f, 2.5f, 0.0f, 2.5f, 0.0f, 2.5f}},
 };
 
-/* Marks may reach beyond the box by half their width, so that strokes along its edge keep theirs. */
+/* Clips marks to a box and half a mark's width, so that strokes along the edge stay whole. */
 static void clip_to(struct gm_painter *painter, const struct gm_box *box, double margin)
 {
     const int left = (int)floor(box->x - margin), top = (int)floor(box->y - margin);
@@ -31,7 +31,7 @@ static void clip_to(struct gm_painter *painter, const struct gm_box *box, double
                        (int)ceil(box->y + box->height + margin) - top);
 }
 
-/* The mark's points on the surface. False when memory is short. */
+/* Maps the mark's points to the surface. Returns false when out of memory. */
 static bool project(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_polyline *line = &painter->line;
@@ -39,7 +39,7 @@ static bool project(struct gm_painter *painter, const struct gm_axes *axes, cons
         return false;
     }
     const bool linear = axes->panel->x.scale != GM_LOG && axes->panel->y.scale != GM_LOG;
-    const double far = 1e7; /* where floats still have whole pixels */
+    const double far = 1e7; /* floats still resolve pixels here */
     for (size_t i = 0; i < mark->count; i++) {
         const double *p = mark->points + 2 * i;
         const double x = linear ? axes->x_origin + axes->x_factor * p[0] : gm_axes_x(axes, p[0]);
@@ -73,7 +73,7 @@ static struct gm_bounds bounds_of(const struct gm_axes *axes, float margin)
                               (float)(box->x + box->width) + margin, (float)(box->y + box->height) + margin};
 }
 
-/* Beyond this many dashes a line fills an area, and its dashes could not be told apart. */
+/* Returns false if the number of dashes is so large that they merge into an area. */
 static bool can_be_dashed(const struct gm_polyline *piece, const float *pattern, size_t parts)
 {
     const float most_dashes = 4000.0f;
@@ -93,7 +93,7 @@ static void draw_line(struct gm_painter *painter, const struct gm_axes *axes, co
     }
     struct gm_stroke stroke = {.width = width, .ink = ink_of(painter, style)};
     const size_t parts = dashes[style->dash].parts;
-    for (size_t i = 0; i < parts; i++) { /* thin lines need longer dashes to be told apart */
+    for (size_t i = 0; i < parts; i++) { /* thin lines need longer dashes to be distinct */
         stroke.pattern[i] =
             dashes[style->dash].lengths[i] * fmaxf(width, 1.2f * (float)fmax(painter->scale, 0.8));
     }
@@ -133,7 +133,7 @@ static void draw_polygon(struct gm_painter *painter, const struct gm_axes *axes,
     gm_polyline_simplify(line, tolerance);
     const struct gm_point first = line->points[0], last = line->points[line->count - 1];
     if (line->count > 1 && hypotf(first.x - last.x, first.y - last.y) < tolerance) {
-        line->count--; /* closed by repeating the first corner */
+        line->count--; /* the last corner repeats the first */
     }
     line->closed = true;
     painter->pen->fill(painter->self, line, ink_of(painter, &mark->style));
@@ -157,7 +157,7 @@ void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes)
         case GM_MARK_IMAGE:
             painter->pen->field(painter->self, axes, mark);
             break;
-        case GM_MARK_TEXT: /* after everything else: gm_paint_labels */
+        case GM_MARK_TEXT: /* drawn last, by gm_paint_labels */
             break;
         }
     }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A page: how large things are, and what is drawn in which order. */
+/* A page: sizes of letters and strokes, and the order of drawing. */
 #include "render/drawing/pen.h"
 
 #include <math.h>
 
-/* Letters and strokes follow the height, on narrow pages the width. */
+/* Letters and strokes scale with the height, on narrow pages with the width. */
 static void set_sizes(struct gm_painter *painter)
 {
     static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};

@@ -38,7 +38,7 @@ static bool inside(struct gm_bounds bounds, struct gm_point p)
     return p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom;
 }
 
-/* Narrows the part [*enter, *leave] of a segment to where start + t * step lies in [low, high]. */
+/* Narrows the part [*enter, *leave] of a segment to those t with start + t * step in [low, high]. */
 static bool narrow(float start, float step, float low, float high, float *enter, float *leave)
 {
     if (step == 0.0f) {
@@ -115,7 +115,7 @@ static struct gm_point minus(struct gm_point a, struct gm_point b)
     return (struct gm_point){a.x - b.x, a.y - b.y};
 }
 
-/* From a kept point on, all lines to later points must pass those between within the tolerance: they lie in
+/* All lines from a kept point to later points must pass the points between within the tolerance: they lie in
    a wedge that every point narrows. A point outside the wedge, or nearer than the one before, ends it. */
 void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
 {
@@ -126,7 +126,7 @@ void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
     size_t kept = 1;
     struct gm_point anchor = points[0], last = points[0];
     struct gm_point left = {0}, right = {0}; /* the wedge's sides, once it exists */
-    float reach = 0.0f;                      /* square of the distance of `last` */
+    float reach = 0.0f;                      /* square of the distance from the anchor to `last` */
     bool wedge = false;
     for (size_t i = 1; i < line->count; i++) {
         const struct gm_point point = points[i];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The labels of a layout, drawn. */
+/* Drawing the labels of a layout. */
 #include <math.h>
 
 #include "render/drawing/pen.h"
 
-/* The font of a label, and what the layout measures it with: titles are bold, and the clock, in letters of
-   equal width, is as large as the title. */
+/* Returns the width of a label in its font: titles are bold, and the clock, in letters of equal width, is as
+   large as the title. */
 static double measure(const void *self, enum gm_text_size size, const char *text)
 {
     const struct gm_painter *painter = self;
@@ -65,7 +65,7 @@ static void draw_label(struct gm_painter *painter, const struct gm_label *label)
     painter->pen->text(painter->self, &writing, label->text);
 }
 
-/* A plate of translucent paper, so that a text among the marks can be read on anything. */
+/* Draws translucent paper, so that a text among the marks is legible on anything. */
 static void draw_plate(struct gm_painter *painter, const struct gm_label *label)
 {
     const int letters = painter->letters[label->size];

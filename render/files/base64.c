@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Base64, as terminals and pages of HTML want their pictures. */
+/* Base64, the encoding of pictures for terminals and HTML. */
 #include "render/files/images.h"
 
 size_t gm_base64_size(size_t size)

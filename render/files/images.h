@@ -6,79 +6,79 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* PNG files: written whole or not at all, and read for what they tell of themselves. */
+/* PNG files: written whole or not at all; their texts can be read again. */
 
 /* A key and a text of a PNG's text chunks (UTF-8 goes to iTXt). */
 struct gm_png_text {
     const char *key, *text;
 };
 
-/* Writes rgb (height rows of width * 3 bytes, top first) to path, by way of a temporary name, so that a
-   killed program leaves no half file. It tells that it has dpi pixels an inch, 0: nothing of the kind. False
-   on failure, with one sentence in message (GM_MESSAGE bytes). */
+/* Writes rgb (height rows of width * 3 bytes, top first) to path. A killed program leaves no half file. dpi
+   is the file's resolution in pixels per inch, 0: none. Returns false on failure, with one sentence in
+   message (GM_MESSAGE bytes). */
 bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message);
 
-/* Reads the first text of each of these keys, in one walk over the chunks that unpacks nothing else: texts[i]
-   is malloc'ed, NULL where there is none. All of them together have at most GM_PNG_TEXTS_MOST bytes. False
-   with a sentence, and no text, if the file is no whole PNG, or no file but a device or a pipe. */
+/* Reads the first text of each of these keys, in one walk over the chunks that unpacks nothing else. The
+   caller frees texts[i], which is NULL for a missing key; together they have at most GM_PNG_TEXTS_MOST bytes.
+   Returns false with a sentence, and no text, if the file is damaged, a device or a pipe. */
 enum { GM_PNG_TEXTS_MOST = 1 << 22 };
 bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message);
 
-/* The same for one key: NULL with a sentence also where the file holds no such text. */
+/* Returns the text of one key, which the caller frees; NULL with a sentence if there is no such text. */
 char *gm_png_read_text(const char *path, const char *key, char *message);
 
-/* Whether path is a whole PNG, every chunk's checksum right, that holds this key with this text (ASCII). */
+/* Returns true if path is a whole PNG, with correct checksums, that holds this key with this text (ASCII). */
 bool gm_png_tells(const char *path, const char *key, const char *text);
 
-/* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first). False with a sentence. */
+/* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first); false with a sentence. */
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
 
-/* PNG of numbered colours in memory, the shortest that terminals are sent. */
+/* PNG of numbered colours in memory, the shortest for terminals. */
 
 enum { GM_PALETTE = 256 };
 
-/* A PNG in memory of pixels that are numbers of colours (rows of `columns` bytes, top first), of which
-   palette[] has red, green, blue and opacity; malloc'ed, its bytes in *size. NULL when memory is short. */
+/* Returns a PNG in memory and its bytes in *size. Pixels are numbers of colours (rows of `columns` bytes, top
+   first); palette[] has red, green, blue and opacity. The caller frees it; NULL when out of memory. */
 unsigned char *gm_palette_png(const uint8_t *pixels, int columns, int rows,
                               const uint8_t palette[GM_PALETTE][4], size_t *size);
 
-/* The characters that so many bytes become, padded. */
+/* Returns the characters that `size` bytes become, padded. */
 size_t gm_base64_size(size_t size);
 
-/* Writes bytes in base64 (RFC 4648), gm_base64_size characters without an end. */
+/* Writes bytes in base64 (RFC 4648), gm_base64_size characters without a final zero. */
 void gm_base64(const unsigned char *bytes, size_t size, char *text);
 
-/* Pictures of pixels among the text of a terminal, as the bytes it is sent. A picture fills whole character
-   cells; of one that was sent before only the parts that changed are sent again. */
+/* Pictures of pixels among the text of a terminal, as bytes to send. A picture fills whole character cells.
+   After the first picture only the parts that changed are sent. */
 
 enum gm_inline_kind { GM_INLINE_NONE, GM_INLINE_KITTY, GM_INLINE_SIXEL, GM_INLINE_COUNT };
 
 struct gm_inline_place {
-    int column, row;             /* of its upper left cell, from 0 on */
-    int columns, rows;           /* the cells that it fills */
-    int cell_width, cell_height; /* in pixels */
+    int column, row;             /* the upper left cell, from 0 on */
+    int columns, rows;           /* number of cells that it fills */
+    int cell_width, cell_height; /* size of a cell, in pixels */
 };
 
-/* The picture's size in pixels there. Sixels come in bands of six rows, so up to five rows of pixels above
-   the last cells' end stay blank. */
+/* The size in pixels of a picture at a place. Sixels come in bands of six rows, so up to five rows of pixels
+   above the last cells' end stay blank. */
 void gm_inline_size(const struct gm_inline_place *place, enum gm_inline_kind kind, int *width, int *height);
 
 struct gm_inline;
 
-/* For one kind and place. The terminal takes no larger image at once than most_width x most_height pixels (0:
-   of any size). NULL when memory is short. */
+/* Opens an encoder. The terminal takes no larger image at once than most_width x most_height pixels (0: any
+   size). Returns NULL when out of memory. */
 struct gm_inline *gm_inline_open(enum gm_inline_kind kind, const struct gm_inline_place *place,
                                  int most_width, int most_height);
 void gm_inline_close(struct gm_inline *image);
 
-/* Encodes a picture of gm_inline_size, 3 bytes a pixel, top row first. `whole` sends all of it, whatever was
-   sent before. *bytes belongs to the image until the next call; *size is 0 if nothing changed. The bytes
-   leave the cursor anywhere. False when memory is short. */
+/* Encodes a picture of gm_inline_size, 3 bytes per pixel, top row first: all of it with `whole`, else the
+   changes. *bytes belongs to the image until the next call; *size is 0 without a change. The cursor may be
+   anywhere afterwards. Returns false when out of memory. */
 bool gm_inline_encode(struct gm_inline *image, const unsigned char *rgb, bool whole, const char **bytes,
                       size_t *size);
 
-/* What removes such pictures from a screen; "" where text written over them does. */
+/* Returns the bytes that remove such pictures; "" if text written over them does. */
 const char *gm_inline_removal(enum gm_inline_kind kind);
 
 /* Sixels: pictures of up to 256 colours for terminals in the tradition of the VT340 (DEC, VT330/VT340
@@ -86,12 +86,12 @@ const char *gm_inline_removal(enum gm_inline_kind kind);
 
 struct gm_sixel;
 
-/* NULL when memory is short. */
+/* Returns NULL when out of memory. */
 struct gm_sixel *gm_sixel_open(void);
 void gm_sixel_close(struct gm_sixel *sixel);
 
 /* Encodes width x height pixels of 3 bytes each, `stride` bytes from row to row. *bytes belongs to the
-   encoder until the next call. False when memory is short. */
+   encoder until the next call. Returns false when out of memory. */
 bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
                      const char **bytes, size_t *size);
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kitty's images are numbered tiles, compressed: those that changed are replaced one by one. libchafa 1.12
- * sends four bytes a pixel, not compressed and as one image without a number, 4.7 MB for each picture of 1020
- * x 860.
+/* Kitty's images are numbered and compressed tiles; a tile that changed is replaced. libchafa 1.12 sends four
+ * bytes per pixel, not compressed and as one image without a number, 4.7 MB for each picture of 1020 x 860.
  *
- * Sixels that lie over others leave no trace of them, so the one rectangle around all changes is sent. */
+ * Sixels cover older ones without a trace, so the one rectangle around all changes is sent. */
 #include "render/files/images.h"
 
 #include <libdeflate.h>
@@ -16,21 +15,21 @@ enum {
     SIXEL = 6,
     TILE_COLUMNS = 24, /* cells of a Kitty tile, about square */
     TILE_ROWS = 12,
-    FIRST_NUMBER = 7100, /* of the tiles: other programs' images in the same terminal stay what they are */
+    FIRST_NUMBER = 7100, /* first number of the tiles: other programs' images in the same terminal stay */
     CHUNK = 4096,        /* characters of base64 in one sequence, as Kitty's protocol bounds it */
-    LEVEL = 1,           /* of zlib: a higher one costs more time than the bytes it saves */
+    LEVEL = 1,           /* level of zlib: a higher one costs more time than the bytes it saves */
 };
 
 struct gm_inline {
     enum gm_inline_kind kind;
     struct gm_inline_place place;
     int width, height, most_width, most_height;
-    int unit_rows;         /* a patch is so many cell rows high, or a multiple */
+    int unit_rows;         /* patches are a multiple of this number of cell rows high */
     unsigned char *before; /* the picture that was sent last */
     bool sent;
     struct gm_sixel *sixel;
     struct libdeflate_compressor *compressor;
-    unsigned char *raw, *packed; /* a tile, and that compressed */
+    unsigned char *raw, *packed; /* a tile, raw and compressed */
     size_t packed_size;
     char *out;
     size_t length, capacity;
@@ -80,7 +79,7 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_inline *i
 
 /* ---- sizes ---- */
 
-/* Rows of cells after which rows of cells and bands of sixels end together. */
+/* Returns the rows of cells after which rows of cells and bands of sixels end together. */
 static int sixel_unit(int cell_height)
 {
     for (int rows = 1; rows < SIXEL; rows++) {
@@ -153,7 +152,7 @@ void gm_inline_close(struct gm_inline *image)
 
 /* ---- what changed ---- */
 
-/* The patch's rectangle in pixels; the last rows of cells may be cut. */
+/* Gives the patch's rectangle in pixels; the last rows of cells may be cut. */
 static void pixels_of(const struct gm_inline *image, const struct patch *patch, int *x, int *y, int *width,
                       int *height)
 {
@@ -176,7 +175,7 @@ static bool differs(const struct gm_inline *image, const unsigned char *rgb, con
     return false;
 }
 
-/* The smallest patch of whole units that holds everything that changed; no columns if nothing did. */
+/* Returns the smallest patch of whole units that holds all changes; no columns if nothing changed. */
 static struct patch changed_part(const struct gm_inline *image, const unsigned char *rgb)
 {
     const struct gm_inline_place *place = &image->place;
@@ -229,7 +228,7 @@ static void put_sixel(struct gm_inline *image, const unsigned char *rgb, const s
     put(image, bytes, size);
 }
 
-/* Cuts what the terminal would not take at once. */
+/* Sends a patch in pieces that the terminal takes at once. */
 static void put_sixels(struct gm_inline *image, const unsigned char *rgb, const struct patch *whole)
 {
     int columns = image->most_width / image->place.cell_width;
@@ -247,7 +246,7 @@ static void put_sixels(struct gm_inline *image, const unsigned char *rgb, const 
 
 /* ---- Kitty ---- */
 
-/* Up to CHUNK characters of it. */
+/* Writes at most CHUNK characters of base64. */
 static void put_base64(struct gm_inline *image, const unsigned char *bytes, size_t size)
 {
     char text[CHUNK];
@@ -255,9 +254,9 @@ static void put_base64(struct gm_inline *image, const unsigned char *bytes, size
     put(image, text, gm_base64_size(size));
 }
 
-/* A tile under a number of its own replaces the one that was there before. q=2: the terminal answers nothing;
-   C=1: the cursor stays. Not below the text (z < 0): Kitty 0.26 with llvmpipe then leaves old letters in all
-   of its window, on a wrong ground. */
+/* A tile replaces the previous one with its number. q=2: the terminal answers nothing; C=1: the cursor stays.
+   The tile is not below the text (z < 0): Kitty 0.26 with llvmpipe then leaves old letters in all of its
+   window, on a wrong ground. */
 static void put_tile(struct gm_inline *image, const unsigned char *rgb, const struct patch *patch, int number)
 {
     int x, y, width, height;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG with a palette, for images within drawings. Its rows are differences to the row above: the fields of
-   colours that are drawn so are smooth. */
+/* PNG with a palette, for images within drawings. The rows are differences to the row above, because the
+   fields of colours are smooth. */
 #include "render/files/images.h"
 #include "render/files/png_memory.h"
 
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEVEL = 9, CHUNK = 12 /* bytes of a chunk beside its own */, HEAD = 13, FILTER_UP = 2 };
+enum { LEVEL = 9, CHUNK = 12 /* bytes of a chunk besides its data */, HEAD = 13, FILTER_UP = 2 };
 
 static void put_number(unsigned char *at, uint32_t number)
 {
@@ -17,7 +17,7 @@ static void put_number(unsigned char *at, uint32_t number)
     }
 }
 
-/* The place behind it. */
+/* Returns the place after the chunk. */
 static unsigned char *put_chunk(unsigned char *at, const char *kind, const void *bytes, size_t size)
 {
     put_number(at, (uint32_t)size);
@@ -29,7 +29,7 @@ static unsigned char *put_chunk(unsigned char *at, const char *kind, const void 
     return at + size + CHUNK;
 }
 
-/* The rows, each after its filter's number, in zlib's format; malloc'ed. */
+/* Returns the rows, each after its filter's number, in zlib's format; the caller frees them. */
 static unsigned char *pack(const uint8_t *pixels, size_t columns, size_t rows, size_t *size)
 {
     const size_t total = (columns + 1) * rows;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG files: written beside their place and moved there, and their texts read again. */
+/* PNG files: written to a temporary name and renamed. */
 #include "render/files/images.h"
 #include "render/files/png_memory.h"
 
@@ -43,11 +43,11 @@ static void ignore_warning(png_structp png, png_const_charp text)
     (void)text;
 }
 
-/* What libpng's callbacks need, on the way in or out. */
+/* The state of libpng's callbacks while it reads or writes. */
 struct stream {
     FILE *file;
     int error;       /* errno of the call that failed, 0 if none did */
-    char reason[96]; /* in words, where libpng found the fault */
+    char reason[96]; /* libpng's message, if libpng found the fault */
 };
 
 static void note_error(png_structp png, png_const_charp text)
@@ -67,13 +67,13 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t size)
     }
 }
 
-/* fclose reports what is left in the buffer */
+/* fclose reports failures of what is left in the buffer */
 static void flush_bytes(png_structp png)
 {
     (void)png;
 }
 
-/* The rows, each after its filter's number (0: none), in zlib's format; malloc'ed. */
+/* Returns the rows, each after its filter's number (0: none), in zlib's format; the caller frees them. */
 static unsigned char *deflate_rows(int width, int height, const unsigned char *rgb, size_t *size)
 {
     size_t row = (size_t)width * 3;
@@ -114,14 +114,14 @@ static bool is_ascii(const char *text)
 
 struct image {
     int width, height;
-    double dpi; /* 0: not told */
+    double dpi; /* pixels per inch; 0: none */
     const unsigned char *packed;
     size_t packed_size;
     png_text *texts;
     int text_count;
 };
 
-/* Nothing here but the two structures outlives the jump out of libpng's errors. */
+/* Only the two structures outlive the jump out of libpng's errors. */
 static bool write_structure(struct stream *stream, const struct image *image)
 {
     png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning,
@@ -151,13 +151,13 @@ static bool write_structure(struct stream *stream, const struct image *image)
         png_write_chunk(png, (png_const_bytep) "IDAT", image->packed + at,
                         left < LONGEST_CHUNK ? left : LONGEST_CHUNK);
     }
-    /* not png_write_end, which knows of no image data but its own */
+    /* png_write_end fails: libpng itself has written no image data */
     png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
     png_destroy_write_struct(&png, &info);
     return true;
 }
 
-/* Writes to the descriptor and closes it; an errno, or 0 with the reason in stream. */
+/* Writes to the descriptor and closes it. Returns false with an errno or a reason. */
 static bool write_descriptor(int descriptor, struct stream *stream, const struct image *image)
 {
     stream->file = fdopen(descriptor, "wb");
@@ -207,7 +207,7 @@ static bool write_aside(const char *path, struct stream *stream, const struct im
 
 static bool write_and_rename(const char *path, struct stream *stream, const struct image *image)
 {
-    /* who ends the process on a signal would leave a half file; packing, which takes long, is over */
+    /* a signal that ends the process would leave a half file; packing, which takes long, is over */
     sigset_t ends, unblocked;
     sigemptyset(&ends);
     sigaddset(&ends, SIGINT);

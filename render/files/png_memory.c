@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program's allocators, as libpng and libdeflate want them. */
+/* The program's allocators, with the interfaces of libpng and libdeflate. */
 #include "render/files/png_memory.h"
 
 #include <errno.h>

@@ -6,12 +6,12 @@
 
 /* The memory of libpng and libdeflate is the program's, where a refusal is noted. */
 
-/* For png_create_read_struct_2 and png_create_write_struct_2, whose pointer for them is an int: ENOMEM goes
-   there, because libpng takes a refusal now and then for something else. */
+/* The allocators for png_create_read_struct_2 and png_create_write_struct_2. Their pointer is an int that a
+   refusal sets to ENOMEM, because libpng may report another reason. */
 png_voidp gm_png_take(png_structp png, png_alloc_size_t size);
 void gm_png_give_back(png_structp png, png_voidp block);
 
-/* Before the first allocation of libdeflate's. */
+/* Must be called before libdeflate's first allocation. */
 void gm_deflate_prepare(void);
 
 #endif

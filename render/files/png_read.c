@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading PNG: the texts of any file, the pixels of one of ours. Files are not trusted. */
+/* Reading PNG: the texts of any file, the pixels of one that geomint wrote. Files are not trusted. */
 #include "render/files/images.h"
 #include "render/files/png_memory.h"
 
@@ -23,7 +23,7 @@ enum {
     MOST_CHUNKS = 1 << 20, /* libpng writes one for 8 kB of pixels */
 };
 
-/* A chunk's data, and what is left of the bytes that texts may have. */
+/* A chunk's data, and the bytes that texts may still have. */
 struct chunk {
     const unsigned char *data;
     size_t size, limit;
@@ -39,7 +39,7 @@ static char *copy_of(const void *bytes, size_t size)
     return text;
 }
 
-/* A text packed in zlib's format; NULL if it is damaged or larger than the room. */
+/* Returns a text packed in zlib's format, which the caller frees; NULL if it is damaged or too large. */
 static char *unpack(const unsigned char *packed, size_t size, size_t limit)
 {
     gm_deflate_prepare();
@@ -61,21 +61,21 @@ static char *unpack(const unsigned char *packed, size_t size, size_t limit)
     return text;
 }
 
-/* The text behind the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3); malloc'ed, NULL if
-   the chunk is damaged or the text too large. */
+/* Returns the text after the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3), which the
+   caller frees; NULL if the chunk is damaged or the text too large. */
 static char *text_of(const struct chunk *chunk, const char *type, size_t key)
 {
     const unsigned char *at = chunk->data + key + 1, *end = chunk->data + chunk->size;
     bool packed = type[0] == 'z';
     if (packed || type[0] == 'i') {
-        const ptrdiff_t front = packed ? 1 : 2; /* the method; of iTXt the flag before it */
+        const ptrdiff_t front = packed ? 1 : 2; /* the method; in iTXt the flag before it */
         if (end - at < front || at[front - 1] != 0 || (!packed && at[0] > 1)) {
             return NULL;
         }
         packed = packed || at[0] == 1;
         at += front;
     }
-    for (int i = 0; i < 2 && type[0] == 'i'; i++) { /* the language, the translated key */
+    for (int i = 0; i < 2 && type[0] == 'i'; i++) { /* skips the language and the translated key */
         const unsigned char *zero = memchr(at, 0, (size_t)(end - at));
         if (!zero) {
             return NULL;
@@ -89,14 +89,14 @@ static char *text_of(const struct chunk *chunk, const char *type, size_t key)
     return size > chunk->limit || memchr(at, 0, size) ? NULL : copy_of(at, size);
 }
 
-/* The texts that are looked for. */
+/* The texts to find. */
 struct search {
     const char *const *keys;
     char **texts;
     size_t count, limit;
 };
 
-/* The index of a chunk's key among those that are still looked for; their number if it is none of them. */
+/* Returns the index of a chunk's key among those still missing; their number if it is not among them. */
 static size_t wanted(const struct search *search, const unsigned char *data, size_t size)
 {
     size_t i = 0;
@@ -109,7 +109,7 @@ static size_t wanted(const struct search *search, const unsigned char *data, siz
     return i;
 }
 
-/* Reads a chunk of text, of which the file has `length` bytes and a checksum left. */
+/* Reads a chunk of text; `length` bytes and a checksum are left of it in the file. */
 static bool take_text(FILE *file, const char *type, size_t length, struct search *search, char *reason)
 {
     errno = 0;
@@ -135,11 +135,11 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
     return good;
 }
 
-/* Walks over the chunks. */
+/* Walks over the chunks. Returns false with a reason. */
 static bool find_texts(FILE *file, size_t left, struct search *search, char *reason)
 {
     unsigned char head[LENGTH + TYPE];
-    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of texts as they are in the file, wanted or not */
+    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of all texts as they are in the file */
     for (long chunks = 0; left >= sizeof head + CHECKSUM && chunks < MOST_CHUNKS; chunks++) {
         if (fread(head, 1, sizeof head, file) != sizeof head) {
             break;
@@ -208,7 +208,7 @@ char *gm_png_read_text(const char *path, const char *key, char *message)
     return text;
 }
 
-/* Whether a tEXt chunk's data are this key and this text. */
+/* Returns true if a tEXt chunk's data are this key and this text. */
 static bool is_text(const unsigned char *data, size_t size, const char *key, const char *text)
 {
     const size_t front = strlen(key) + 1, length = strlen(text);
@@ -253,8 +253,8 @@ static void ignore_warning(png_structp png, png_const_charp text)
     (void)text;
 }
 
-/* Nothing here but the two structures outlives the jump out of libpng's errors. libpng's simple reader has
-   memory of its own, of which no refusal is told. */
+/* Only the two structures outlive the jump out of libpng's errors. libpng's simple reader has its own memory
+   and reports no refusal. */
 static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
 {
     png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
@@ -297,7 +297,7 @@ bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, ch
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
-    int error = 0; /* errno, where memory is short */
+    int error = 0; /* errno, when memory is short */
     const bool good = file && read_pixels(file, width, height, rgb, &error, reason);
     if (file) {
         fclose(file);

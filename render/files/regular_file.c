@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Opening what is read: regular files alone. */
+/* Opening files to read: regular files alone. */
 #include "render/files/regular_file.h"
 
 #include <errno.h>
@@ -37,8 +37,8 @@ static bool check(const struct stat *status, size_t most, char *reason)
 FILE *gm_regular_open(const char *path, size_t most, size_t *size, char *reason)
 {
     struct stat status;
-    /* looked at first, because opening a device can already move it; without waiting, because it may have
-       become a pipe since */
+    /* checked first, because opening a device can already move it; opened without waiting, because it may
+       have become a pipe since */
     if (stat(path, &status) != 0) {
         explain(reason, errno);
         return NULL;

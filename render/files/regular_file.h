@@ -5,15 +5,15 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Files that are read: regular ones alone, so that nobody waits for a FIFO or reads a device without end. */
+/* Files to read: regular ones alone, so that no read waits for a FIFO or reads a device without end. */
 
 enum { GM_REGULAR_REASON = 96 }; /* bytes of a reason, the final zero among them */
 
-/* Opens a regular file of at most `most` bytes for reading and sets *size, in bytes. NULL with a reason,
-   which completes "PATH could not be read: ". */
+/* Opens a regular file of at most `most` bytes for reading and sets *size, in bytes. Returns NULL with a
+   reason, which completes "PATH could not be read: ". */
 FILE *gm_regular_open(const char *path, size_t most, size_t *size, char *reason);
 
-/* The whole file with a zero behind it; malloc'ed. NULL with a reason. */
+/* Returns the whole file and a final zero, which the caller frees; NULL with a reason. */
 char *gm_regular_read(const char *path, size_t most, size_t *size, char *reason);
 
 #endif

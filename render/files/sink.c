@@ -10,10 +10,10 @@
 #include "render/address_space.h"
 #include "render/files/thread.h"
 
-/* A frame waits in `queue` from put until a worker takes it, and in `idle` when nobody has use for it. There
-   are `limit` frames in all, made when first asked for: put never waits, gm_sink_frame does. */
+/* A frame is in `queue` from put until a worker takes it, and in `idle` while it is unused. There are at most
+   `limit` frames, made at need: put never waits, gm_sink_frame does. */
 
-enum { STACK = 8 << 20 /* bytes, of a thread */ };
+enum { STACK = 8 << 20 /* bytes of a thread's stack */ };
 
 struct job {
     unsigned char *frame;
@@ -27,11 +27,11 @@ struct gm_sink {
     void *self;
     size_t frame_size;
     pthread_mutex_t lock;
-    pthread_cond_t work;   /* for workers: a job, or the end */
-    pthread_cond_t vacant; /* for gm_sink_frame: an idle frame, or a failure */
+    pthread_cond_t work;   /* signals workers: a job, or the end */
+    pthread_cond_t vacant; /* signals gm_sink_frame: an idle frame, or a failure */
     size_t limit, made, idle_count, queued, head;
-    unsigned char **frames, **idle; /* all that were made; those that are free */
-    struct job *queue;              /* a ring of `limit` */
+    unsigned char **frames, **idle; /* all frames made; the unused ones */
+    struct job *queue;              /* a ring of `limit` jobs */
     bool closing, dropping, failed;
     int worker_count;
     pthread_t *workers;
@@ -61,7 +61,7 @@ struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count)
     return copy;
 }
 
-/* The first failure is the one that is told. Called with the lock held. */
+/* Notes the first failure, the only one reported. The caller holds the lock. */
 static void note_failure(struct gm_sink *sink, const char *message)
 {
     if (!sink->failed) {
@@ -138,7 +138,7 @@ static bool start_workers(struct gm_sink *sink, int workers)
         sink->worker_count++;
     }
     if (sink->worker_count == 0) {
-        gm_address_space_has(STACK); /* notes what pthread_create does not tell: whether it was memory */
+        gm_address_space_has(STACK); /* notes whether it was memory, which pthread_create does not report */
     }
     return sink->worker_count > 0;
 }

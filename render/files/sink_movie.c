@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames go to ffmpeg's standard input; what it says goes to a file, since nobody would empty a pipe. On 300
+/* Frames go to ffmpeg's standard input; its messages go to a file, which needs no reader. Measured on 300
    plots of 1280x720, two cores, ffmpeg 5.1 (seconds, megabytes of file, of memory):
 
        mp4    libx264 veryfast, crf 18                        2.7     .60    172   (medium: 3.8, .64)
@@ -35,11 +35,11 @@ extern char **environ;
 int gm_sink_movie_patience = 300000;
 
 enum {
-    DYING = 5000,        /* milliseconds for ffmpeg to say why it has closed its standard input */
-    IDLE = 1000,         /* for one that does nothing, if the user wants to leave */
-    SLICE = 20,          /* between two looks at that */
-    PIPE_SIZE = 1 << 20, /* fewer changes between the two processes; a wish */
-    PATH_SHOWN = 200,    /* of a path in a sentence */
+    DYING = 5000,        /* milliseconds for ffmpeg to report why it has closed its standard input */
+    IDLE = 1000,         /* milliseconds for an idle ffmpeg after an interrupt */
+    SLICE = 20,          /* milliseconds between two checks */
+    PIPE_SIZE = 1 << 20, /* bytes of the pipe: fewer changes between the two processes; a wish */
+    PATH_SHOWN = 200,    /* characters of a path in a sentence */
     LOG_SHOWN = 160,
     MOST_WORDS = 48,
 };
@@ -53,8 +53,8 @@ struct movie_sink {
     int width, height;
     double fps;
     char *path, *log;
-    char *temporary;        /* the movie until it is complete */
-    char *frames, *palette; /* of a GIF: what the first pass leaves to the second */
+    char *temporary;        /* the name of the movie until it is complete */
+    char *frames, *palette; /* the files between the two passes of a GIF */
     int log_descriptor, input;
     pid_t ffmpeg; /* 0 if it does not run */
     const volatile sig_atomic_t *interruptions;
@@ -86,8 +86,8 @@ static struct command begin(void)
     return command;
 }
 
-/* An errno, 0 if ffmpeg runs. It is a process group of its own, so that an interrupt from the keyboard is
-   geomint's to handle. */
+/* Returns an errno, 0 if ffmpeg runs. ffmpeg has its own process group, so that geomint handles an interrupt
+   from the keyboard. */
 static int start_ffmpeg(struct movie_sink *self, struct command *command, int input)
 {
     posix_spawn_file_actions_t actions;
@@ -111,14 +111,14 @@ static int start_ffmpeg(struct movie_sink *self, struct command *command, int in
     return error;
 }
 
-/* It stays to be reaped, so that its process group is nobody else's. */
+/* Returns true if ffmpeg has ended. It is not reaped, so its process group stays its own. */
 static bool has_ended(const struct movie_sink *self)
 {
     siginfo_t ended = {0};
     return waitid(P_PID, (id_t)self->ffmpeg, &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0;
 }
 
-/* Its wait status; -1 if it ran. Nothing that it started outlives it. */
+/* Kills ffmpeg and all it started. Returns its wait status; -1 if it ran. */
 static int end_ffmpeg(struct movie_sink *self)
 {
     const bool ended = has_ended(self);
@@ -130,9 +130,9 @@ static int end_ffmpeg(struct movie_sink *self)
     return ended ? status : -1;
 }
 
-/* ---- waiting for it ---- */
+/* ---- waiting for ffmpeg ---- */
 
-/* What ffmpeg has used of the processors, in nanoseconds; -1 if the system does not tell. */
+/* Returns the CPU time of ffmpeg, in nanoseconds; -1 if it is not available. */
 static int64_t processor_time(const struct movie_sink *self)
 {
     clockid_t clock;
@@ -144,9 +144,9 @@ static int64_t processor_time(const struct movie_sink *self)
 }
 
 struct wait {
-    int64_t begun, idle; /* in milliseconds: when it was begun, since when ffmpeg does nothing */
-    int64_t used;        /* processor time at that moment */
-    int patience;        /* in milliseconds */
+    int64_t begun, idle; /* milliseconds: start of the wait, and of ffmpeg's idle time */
+    int64_t used;        /* CPU time at the start of the idle time */
+    int patience;        /* most milliseconds of the wait */
 };
 
 static struct wait begin_wait(const struct movie_sink *self, int patience)
@@ -172,7 +172,7 @@ static bool is_in_vain(const struct movie_sink *self, struct wait *wait)
            (interruptions == 1 && now - wait->idle > IDLE);
 }
 
-/* Its wait status; -1 if it did not end by itself. */
+/* Returns the wait status; -1 if ffmpeg did not end by itself. */
 static int await_ffmpeg(struct movie_sink *self, int patience)
 {
     enum { NAP = 5 };
@@ -183,13 +183,13 @@ static int await_ffmpeg(struct movie_sink *self, int patience)
     return end_ffmpeg(self);
 }
 
-/* Whether ffmpeg takes data again. */
+/* Returns true if ffmpeg takes data again. */
 static bool await_room(struct movie_sink *self)
 {
     struct wait wait = begin_wait(self, gm_sink_movie_patience);
     struct pollfd room = {.fd = self->input, .events = POLLOUT};
     while (poll(&room, 1, SLICE) == 0) {
-        /* another process may have its input, and not read it */
+        /* another process may hold ffmpeg's input, and not read it */
         if (has_ended(self) || is_in_vain(self, &wait)) {
             return false;
         }
@@ -197,9 +197,9 @@ static bool await_room(struct movie_sink *self)
     return true;
 }
 
-/* ---- what it says ---- */
+/* ---- the log of ffmpeg ---- */
 
-/* The last line of the log that tells a reason, "" if there is none. */
+/* Gives the last line of the log that has a reason, or "". */
 static void read_reason(const struct movie_sink *self, char *reason, size_t size)
 {
     char tail[4096];
@@ -270,7 +270,7 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
     return true;
 }
 
-/* The second pass of a GIF, when all colours are known. */
+/* Makes the second pass of a GIF, with the palette of all frames. */
 static bool make_gif(struct movie_sink *self, char *message)
 {
     struct command command = begin();
@@ -289,7 +289,7 @@ static bool make_gif(struct movie_sink *self, char *message)
     return status == 0 || tell(self, status, message);
 }
 
-/* Whether the file begins as one of its format does. */
+/* Returns true if the file begins with the bytes of its format. */
 static bool is_movie(const struct movie_sink *self)
 {
     static const struct {
@@ -366,12 +366,12 @@ static int first_pass(struct movie_sink *self, int input)
 {
     char size[32], rate[32], filters[256];
     snprintf(size, sizeof size, "%dx%d", self->width, self->height);
-    /* a fraction, as a decimal point depends on the locale */
+    /* a fraction, since a decimal point depends on the locale */
     snprintf(rate, sizeof rate, "%ld/1000", lround(self->fps * 1000));
     long still = lround(self->fps) - 1;
 
-    /* 4:2:0 has even sides: the last row and column are doubled. Without a matrix players guess one by
-       size. */
+    /* 4:2:0 needs even sides: the last row and column are doubled. Without a matrix players guess one from
+       the size. */
     int odd_width = self->width % 2, odd_height = self->height % 2;
     int used = 0;
     if (odd_width || odd_height) {
@@ -448,7 +448,7 @@ bool gm_sink_is_movie(const char *path)
     return find_format(path, &format);
 }
 
-/* Everything that could go wrong after hours of simulation and can be known now. */
+/* Checks at the start all that could fail after hours of simulation. */
 static bool open_files(struct movie_sink *self, const char *path, char *message)
 {
     struct stat status;

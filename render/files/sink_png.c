@@ -9,10 +9,10 @@
 
 enum { MOST_WORKERS = 64, MOST_DIGITS = 64 };
 
-/* A pattern is taken apart instead of being handed to printf: the folder's name is the user's. */
+/* The pattern is parsed and not given to printf, because the user may have put a % into the folder's name. */
 struct png_sink {
     char *pattern;
-    size_t before, after; /* where the conversion begins and ends in it; both 0 if there is none */
+    size_t before, after; /* start and end of the conversion in the pattern; both 0 without one */
     bool zeros;
     int digits;
     int width, height;
@@ -80,7 +80,7 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
 static bool close_png(void *argument, bool keep, char *message)
 {
     struct png_sink *self = argument;
-    (void)keep; /* finished files stay, others have no name yet */
+    (void)keep; /* finished files stay, the others have no name yet */
     (void)message;
     gm_texts_free(self->texts, self->text_count);
     free(self->pattern);
@@ -118,7 +118,7 @@ struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_setti
     find_conversion(self);
     int workers = settings->threads > 0 ? settings->threads : count_processors();
     if (self->after == 0) {
-        workers = 1; /* of several frames of one name the last must win */
+        workers = 1; /* of several frames with one name the last must win */
     }
     return gm_sink_start(&kind, self, workers < MOST_WORKERS ? workers : MOST_WORKERS,
                          (size_t)settings->width * (size_t)settings->height * 3, message);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The colours: those that occur are counted in a grid of 64^3, and the set of them is cut in two, again and
- * again, always the part with the greatest sum of squared deviations, through its mean. So the paper and
- * every line's own colour are kept, whatever their share, and shades of a field are spaced evenly.
+/* The colours of a picture are counted in a grid of 64^3. Their set is cut in two again and again: always the
+ * part with the greatest sum of squared deviations, through its mean. So the colours of the paper and of
+ * every line are kept, whatever their share, and shades of a field are spaced evenly.
  *
  * libchafa 1.12, tried first, chose 23 colours for a picture of two lanes: a red circle became orange, the
  * mean error was five times as large, the time the same. */
@@ -17,15 +17,15 @@ enum { COLOURS = 256, BAND = 6, SHIFT = 2, SIDE_BITS = 8 - SHIFT, CELLS = 1 << 3
 /* A cell of the grid of colours: the pixels in it. */
 struct cell {
     uint32_t count, sum[3];
-    uint8_t colour; /* that was chosen for it */
+    uint8_t colour; /* number in the palette */
 };
 
 /* A set of colours: a part of the list of cells. */
 struct part {
     uint32_t first, end;
     double deviation; /* the greatest of the three channels' sums of squared deviations */
-    int channel;      /* that has it */
-    double mean;      /* of this channel */
+    int channel;      /* the channel that has it */
+    double mean;      /* the mean of this channel */
 };
 
 struct gm_sixel {
@@ -34,7 +34,7 @@ struct gm_sixel {
     size_t used_count;
     struct part parts[COLOURS];
     uint8_t palette[COLOURS][3];
-    /* the picture in colours of the palette, and for each of them a band's sixels */
+    /* the picture in numbers of the palette, and for each of them a band's sixels */
     uint8_t *pixels, *bands;
     size_t pixel_room, band_room;
     char *out;
@@ -82,7 +82,7 @@ static bool same(const unsigned char *a, const unsigned char *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* How many pixels from x on have the colour of the one at x. */
+/* Returns the number of pixels from x on with the colour of the one at x. */
 static int run_length(const unsigned char *line, int x, int width)
 {
     int end = x + 1;
@@ -144,7 +144,7 @@ static void measure(const struct gm_sixel *sixel, struct part *part)
     }
 }
 
-/* Cuts a part at its mean; the second half begins where this returns. */
+/* Cuts a part at its mean. Returns the start of the second half. */
 static uint32_t cut(struct gm_sixel *sixel, const struct part *part)
 {
     uint32_t low = part->first, high = part->end;
@@ -160,7 +160,7 @@ static uint32_t cut(struct gm_sixel *sixel, const struct part *part)
     return low;
 }
 
-/* Returns how many colours there are; each cell knows its own. */
+/* Returns the number of colours; each cell stores its own. */
 static int choose_colours(struct gm_sixel *sixel)
 {
     int count = 1;
@@ -192,14 +192,14 @@ static int choose_colours(struct gm_sixel *sixel)
                 sum[channel] += cell->sum[channel];
             }
         }
-        for (int channel = 0; channel < 3; channel++) { /* in percents, as sixels have them */
+        for (int channel = 0; channel < 3; channel++) { /* in percent, the unit of sixels */
             sixel->palette[i][channel] = (uint8_t)((double)sum[channel] / (double)all * (100.0 / 255) + 0.5);
         }
     }
     return count;
 }
 
-/* Leaves the grid empty for the next picture. */
+/* Converts the pixels, and empties the grid for the next picture. */
 static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height)
 {
     uint8_t *to = sixel->pixels;
@@ -217,7 +217,7 @@ static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t 
 
 /* ---- bytes ---- */
 
-/* Room for so many bytes more. */
+/* Makes room for `more` bytes; false when out of memory. */
 static bool make_room(struct gm_sixel *sixel, size_t more)
 {
     if (sixel->length + more <= sixel->capacity) {
@@ -259,7 +259,7 @@ static void put_run(struct gm_sixel *sixel, uint8_t bits, int count)
     }
 }
 
-/* One colour of a band, from the first to the last column that has it. */
+/* Writes one colour of a band, from the first to the last column that has it. */
 static void put_line(struct gm_sixel *sixel, unsigned colour, const uint8_t *bits, int first, int last)
 {
     sixel->out[sixel->length++] = '#';
@@ -336,7 +336,7 @@ bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t st
     count_colours(sixel, rgb, stride, width, height);
     int colours = choose_colours(sixel);
     map_pixels(sixel, rgb, stride, width, height);
-    /* square pixels; what is not drawn stays as it was */
+    /* square pixels; pixels that are not drawn stay as they were */
     sixel->length = (size_t)sprintf(sixel->out, "\033P0;1;0q\"1;1;%d;%d", width, height);
     for (int i = 0; i < colours; i++) {
         sixel->length += (size_t)sprintf(sixel->out + sixel->length, "#%d;2;%d;%d;%d", i,

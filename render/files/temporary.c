@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files that are written beside their place and renamed when they are complete. */
+/* Files that are written to a temporary name and renamed when they are complete. */
 #include "render/files/temporary.h"
 
 #include <dirent.h>
@@ -27,13 +27,13 @@ bool gm_temporary_can_replace(const char *path, char *message)
     return gm_temporary_fits(path) || gm_refuse(message, "%.360s is no file that can be replaced", path);
 }
 
-enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
+enum { NAME_SHOWN = 180 }; /* the name is cut, since it may already be as long as the file system allows */
 
-/* The names that are in use; whoever exchanges one has it for itself. */
+/* The names in use; the thread that exchanges one owns it. */
 enum { HELD = 64 };
 static _Atomic(char *) held[HELD];
 
-/* In the place of a file that is not there: it was renamed, or was never made. */
+/* Stores the name, instead of one whose file does not exist: it was renamed, or never made. */
 static void hold(const char *name)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -64,7 +64,7 @@ char *gm_temporary_name(const char *path, const char *ending)
     const char *name = slash ? slash + 1 : path;
     int folder = (int)(name - path);
     char *temporary = NULL;
-    /* a leading "./" keeps other programs from seeing an option in "-a" or a protocol in "a:b" */
+    /* a leading "./" prevents other programs from reading an option in "-a" or a protocol in "a:b" */
     if (asprintf(&temporary, "%s%.*s.%.*s.%ld.%u%s", path[0] == '/' ? "" : "./", folder, path, NAME_SHOWN,
                  name, (long)getpid(), atomic_fetch_add(&counter, 1), ending) < 0) {
         errno = ENOMEM;

@@ -4,11 +4,11 @@
 
 #include "render/gl/library.h"
 
-/* A way to get an OpenGL context without a screen; `self` is what its open returned. The libraries are never
+/* A way to get an OpenGL context without a screen; `self` is the result of open. The libraries are never
    unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
 struct gm_backend {
-    void *(*load)(char *message, size_t size);                /* its library, or NULL */
-    void *(*open)(void *library, char *message, size_t size); /* current on return, or NULL */
+    void *(*load)(char *message, size_t size);                /* the library, or NULL */
+    void *(*open)(void *library, char *message, size_t size); /* the context, made current, or NULL */
     void (*close)(void *self);
     bool (*use)(void *self);
     void (*release)(void *self);

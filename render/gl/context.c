@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An OpenGL context without a screen, by OSMesa or EGL, whose libraries are loaded only when one is
-   wanted. */
+/* An OpenGL context without a screen, from OSMesa or EGL. Their libraries are loaded when the first context
+   is opened. */
 #include "render/gl/context.h"
 
 #include <signal.h>
@@ -86,7 +86,7 @@ gm_library_function gm_context_find(const struct gm_context *context, const char
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
 enum { CRASHES = sizeof crashes / sizeof crashes[0] };
-/* made before they are needed: a crash is no time to format */
+/* written in advance: the handler of a crash must not format */
 static char sentence[GM_MESSAGE];
 static int exit_status;
 
@@ -105,7 +105,7 @@ static void make_sentence(void)
     const int length =
         snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
     const size_t used = (size_t)length;
-    exit_status = limited ? 5 : 3; /* not enough memory; no file was written */
+    exit_status = limited ? 5 : 3; /* 5: not enough memory; 3: no file was written */
     if (limited) {
         snprintf(sentence + used, sizeof sentence - used, "; its address space is limited to %.0f MB.\n",
                  (double)space.rlim_cur / 1e6);
@@ -114,7 +114,7 @@ static void make_sentence(void)
     }
 }
 
-static bool answers; /* not in somebody else's program */
+static bool answers; /* false inside another program */
 
 void gm_context_answer_crashes(void)
 {

@@ -4,34 +4,33 @@
 
 #include "render/gl/library.h"
 
-/* An OpenGL 3.3 core context without a screen. It has no surface of its own worth drawing to: painters draw
-   into a framebuffer object. Libraries are loaded when the first context is opened, so that a program which
-   paints nothing starts fast, and runs where Mesa has neither. */
+/* An OpenGL 3.3 core context without a screen. Painters draw into a framebuffer object. Libraries are loaded
+   when the first context is opened, so a program that paints nothing starts fast, and runs without Mesa. */
 
 enum gm_context_kind { GM_CONTEXT_OSMESA, GM_CONTEXT_EGL, GM_CONTEXT_KINDS };
 
-/* Bytes of the address space, by Mesa and what it loads. */
+/* Bytes of address space that Mesa and its libraries take. */
 enum { GM_CONTEXT_TAKES = 512 << 20 };
 
 struct gm_context;
 
-/* Loads the library of a kind, which stays. False with the reason. */
+/* Loads the library of a kind for good. Returns false with the reason. */
 bool gm_context_load(enum gm_context_kind kind, char *message, size_t size);
 
-/* Opens a context and makes it current. NULL on failure, with the reason. */
+/* Opens a context and makes it current. Returns NULL with the reason on failure. */
 struct gm_context *gm_context_open(enum gm_context_kind kind, char *message, size_t size);
 void gm_context_close(struct gm_context *context);
 
-/* Makes the context current in the calling thread, in which no other one is; and current in none. */
+/* The first makes the context current in the calling thread, which has no other one; the second in none. */
 bool gm_context_use(const struct gm_context *context);
 void gm_context_release(const struct gm_context *context);
 
-/* A GL function; NULL if there is none of that name. */
+/* Returns a GL function, or NULL if the name does not exist. */
 gm_library_function gm_context_find(const struct gm_context *context, const char *name);
 
-/* Of a program, which says so once, for all contexts: between the two others a crash ends it with one
-   sentence on standard error: Mesa dies of memory that it is refused (exit status 5). Nothing changes where
-   there are handlers already. One thread at a time. */
+/* A program calls answer_crashes once, for all contexts. A crash between guard and unguard then ends it with
+   one sentence on standard error, and exit status 5 if memory is limited: Mesa crashes when memory is
+   refused. Existing handlers stay. One thread at a time. */
 void gm_context_answer_crashes(void);
 void gm_context_guard(void);
 void gm_context_unguard(void);

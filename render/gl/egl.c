@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* EGL on Mesa's surfaceless platform: no screen, no window, no X server is asked. */
+/* EGL on Mesa's surfaceless platform, without a screen, a window or an X server. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Without the window system's headers. */
+/* The window system's headers are left out. */
 #define EGL_NO_X11
 #define MESA_EGL_NO_X11_HEADERS
 #include <EGL/egl.h>
@@ -69,7 +69,7 @@ static void egl_close(void *self)
     free(egl);
 }
 
-/* Which call failed, or NULL. */
+/* Returns NULL, or the fault as a predicate of "EGL". */
 static const char *context_create(struct egl *egl)
 {
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);

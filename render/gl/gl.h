@@ -73,7 +73,7 @@ struct gm_gl {
 #undef GM_GL_MEMBER
 };
 
-/* The name of the first function that is missing, or NULL. */
+/* Returns the name of the first function that is missing, or NULL. */
 const char *gm_gl_load(struct gm_gl *gl, const struct gm_context *context);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the loader says of a library that it does not open, in one sentence. */
+/* Shared libraries, and the reason why one cannot be opened. */
 #include "render/gl/library.h"
 
 #include <dlfcn.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #ifdef RTLD_DEEPBIND
-/* Whether memory is the C library's own, not that of a sanitizer or of another allocator, which stand before it. */
+/* Returns true if malloc is the C library's, not a sanitizer's or another allocator's that precedes it. */
 static bool has_own_memory(void)
 {
     void *library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
@@ -19,9 +19,9 @@ static bool has_own_memory(void)
     return self && self == dlsym(RTLD_DEFAULT, "malloc");
 }
 
-/* Mesa and LLVM look 20 000 symbols up while they are loaded: in the program's forty libraries first, if nobody says
-   that their own are to be asked before, which takes a third off. It cannot be said where memory is given by
-   somebody else: what the C library allocates for them they would give back to another allocator. */
+/* Mesa and LLVM look up 20 000 symbols while they are loaded. With RTLD_DEEPBIND their own libraries are
+   searched before the program's forty, which saves a third of the time. With another allocator it is not
+   possible: they would pass it blocks that the C library has allocated. */
 static int binding(void)
 {
     return has_own_memory() ? RTLD_DEEPBIND : 0;
@@ -41,8 +41,8 @@ void *gm_library_open(const char *const *names, char *message, size_t size)
         if (library) {
             return library;
         }
-        /* "NAME: cannot open shared object file: No such file or directory"; of a library that it needs, or
-           with another reason, it is there and of no use */
+        /* "NAME: cannot open shared object file: No such file or directory". With another name or reason the
+           library exists but cannot be used. */
         const char *reason = dlerror();
         const bool missing =
             strncmp(reason, names[i], strlen(names[i])) == 0 && strstr(reason, strerror(ENOENT)) != NULL;

@@ -9,11 +9,11 @@
 
 typedef void (*gm_library_function)(void);
 
-/* Opens the first of these libraries that is there (a list that ends with NULL), or says why there is none:
-   "libEGL.so.1 is not installed", of the first name, or what the loader has against one that is. */
+/* Opens the first of these libraries that exists; the list ends with NULL. On failure returns NULL with the
+   reason: "libEGL.so.1 is not installed", for the first name, or the loader's message. */
 void *gm_library_open(const char *const *names, char *message, size_t size);
 
-/* Finds functions by name; all of them, or false. */
+/* Functions to find by name: all of them, or false. */
 struct gm_library_symbol {
     const char *name;
     void *function; /* the address of a pointer to the function */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangles by OpenGL, and the pixels read back. */
+/* Triangles drawn with OpenGL, and the pixels read back. */
 #include "render/gl/opengl.h"
 
 #include <pthread.h>
@@ -12,11 +12,11 @@
 #include "render/gl/stream.h"
 #include "render/message.h"
 
-enum { MAP_STEPS = 16 * 255 + 1 /* as the rasteriser */, MAP_ROWS = 2 };
+enum { MAP_STEPS = 16 * 255 + 1 /* as in the rasteriser */, MAP_ROWS = 2 };
 
-/* What the pictures of a kind share: to make it takes longer than to draw one. */
+/* The state that all pictures of a kind share: setting it up takes longer than drawing one. */
 struct engine {
-    struct gm_context *context; /* NULL: not yet */
+    struct gm_context *context; /* NULL until it is opened */
     struct gm_gl gl;
     struct gm_stream stream;
     char name[GM_MESSAGE];
@@ -29,7 +29,7 @@ struct gm_opengl {
     enum gm_theme theme;
     GLuint framebuffer, colour_buffer, stencil_buffer;
     GLuint atlas, maps;
-    int atlas_height; /* of the texture */
+    int atlas_height; /* rows of the atlas texture */
 };
 
 static bool framebuffer_open(struct gm_opengl *opengl, char *message)
@@ -192,8 +192,8 @@ static bool draw_alone(struct gm_opengl *opengl, const struct gm_batch *batch, c
     return drawn;
 }
 
-/* Mesa's software contexts of one process are not safe from each other: two threads that paint at once crash
-   in libOSMesa 22.3. So all canvases take turns. */
+/* Mesa's software contexts of one process are not thread-safe: two threads that paint at once crash in
+   libOSMesa 22.3. So all canvases take turns. */
 static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
 
 static void take_turn(void)
@@ -211,8 +211,8 @@ static void end_turn(const struct engine *engine)
     pthread_mutex_unlock(&turn);
 }
 
-/* Whether OpenGL is where it was set up: its threads are not in a process that was forked off afterwards, which would
-   wait for them for ever. False with a sentence. */
+/* Returns true in the process that has set OpenGL up. A process forked from it has none of its threads and
+   would hang; returns false with a sentence there. */
 static bool is_here(char *message)
 {
     static pid_t set_up_in;
@@ -222,7 +222,7 @@ static bool is_here(char *message)
                      "A process that was forked from one that had painted by OpenGL cannot paint by it.");
 }
 
-/* Makes the engine current, which is opened when it is first wanted. */
+/* Makes the engine current; the first call opens it. */
 static bool use_alone(struct engine *engine, char *message)
 {
     return is_here(message) &&
@@ -239,7 +239,7 @@ bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size)
 
 void gm_opengl_set_up(enum gm_context_kind kind)
 {
-    char message[GM_MESSAGE]; /* the first picture meets the same reason, and tells it */
+    char message[GM_MESSAGE]; /* not reported: the first picture fails for the same reason */
     take_turn();
     use_alone(&engines[kind], message);
     end_turn(&engines[kind]);
@@ -287,7 +287,7 @@ bool gm_opengl_draw(struct gm_opengl *opengl, const struct gm_batch *batch, cons
     take_turn();
     const bool drawn = draw_alone(opengl, batch, atlas, rgba);
     if (!drawn) {
-        gm_address_space_has(GM_CONTEXT_TAKES); /* notes a refusal that was Mesa's */
+        gm_address_space_has(GM_CONTEXT_TAKES); /* notes Mesa's refusal of memory */
     }
     end_turn(opengl->engine);
     return drawn;

@@ -9,7 +9,7 @@
 
 #include "render/gl/backend.h"
 
-enum { SIDE = 16 }; /* of the buffer that a context must have; nothing is drawn there */
+enum { SIDE = 16 }; /* side in pixels of the buffer that a context must have; nothing is drawn there */
 
 struct osmesa {
     OSMesaContext context;
@@ -43,7 +43,7 @@ static void osmesa_close(void *self)
     free(osmesa);
 }
 
-/* OSMesa crashes of a driver that it does not know, as one for a graphics card. */
+/* OSMesa crashes with a driver that it does not know, such as one for a graphics card. */
 static void *osmesa_load(char *message, size_t size)
 {
     static const char *const libraries[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};

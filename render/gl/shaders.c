@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The programs that run on the vertices of a frame. */
+/* The shaders of a frame. */
 #include "render/gl/shaders.h"
 
-/* The first row of pixels in memory is the top of the picture, so y is not turned round. */
+/* The first row of pixels in memory is the top of the picture, so y is not inverted. */
 static const char vertex_source[] = "#version 330 core\n"
                                     "uniform vec2 scale;\n"
                                     "in vec2 place;\n"
@@ -29,8 +29,8 @@ static const char fragment_head[] =
     "}\n"
     "float covered() { return clamp(edge.z + 0.5 - length(edge.xy), 0.0, 1.0); }\n";
 
-/* All read the whole of edge and ink, factors that are 1 and terms that are 0 among them: llvmpipe compiles what sets
-   triangles up once for each choice of components, 4 ms that no cache on disk saves. */
+/* All shaders read all of edge and ink, with factors of 1 and terms of 0 if need be: llvmpipe compiles the
+   setup of triangles once for each choice of components, 4 ms that no cache on disk saves. */
 static const char *const fragment_sources[GM_PROGRAM_COUNT] = {
     [GM_PROGRAM_INK] = "void main() { pixel = vec4(ink.rgb, ink.a * covered()); }\n",
     [GM_PROGRAM_CORE] = "void main() { if (covered() < 1.0) discard; pixel = ink; }\n",
@@ -69,11 +69,11 @@ static bool link_program(const struct gm_gl *gl, GLuint program, const char *fra
 
 bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height)
 {
-    static const char *const samplers[] = {"glyphs", "maps", "image"}; /* in order of texture units */
+    static const char *const samplers[] = {"glyphs", "maps", "image"}; /* sorted by texture unit */
     const bool is_new = programs[program] == 0;
     const GLuint made = programs[program] = is_new ? gl->CreateProgram() : programs[program];
     const bool linked = !is_new || link_program(gl, made, fragment_sources[program]);
-    gl->UseProgram(made); /* an error of GL where it is not linked, which all later uses repeat */
+    gl->UseProgram(made); /* a program that is not linked gives a GL error here and in all later uses */
     for (int unit = 0; is_new && linked && unit < 3; unit++) {
         const GLint location = gl->GetUniformLocation(made, samplers[unit]);
         if (location >= 0) {

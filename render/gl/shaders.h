@@ -5,10 +5,10 @@
 #include "render/gl/gl.h"
 #include "render/triangles/triangles.h"
 
-/* The programs of a batch (struct gm_vertex says what its vertices mean). */
+/* The programs of a batch (struct gm_vertex defines its vertices). */
 
-/* Uses the program, made when it is first wanted (most pictures need few of the five), for a picture of so many
-   pixels. False if this OpenGL cannot compile it. */
+/* Uses the program for a picture of width x height pixels. The first use compiles it, since most pictures
+   need few of the five. Returns false if this OpenGL cannot compile it. */
 bool gm_shaders_use(const struct gm_gl *gl, GLuint *programs, enum gm_program program, int width, int height);
 
 #endif

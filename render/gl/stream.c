@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The calls of a batch, as those of OpenGL. */
+/* The calls of a batch as calls of OpenGL. */
 #include "render/gl/stream.h"
 
 #include <stdlib.h>
@@ -33,7 +33,7 @@ bool gm_stream_open(struct gm_stream *stream, const struct gm_gl *gl, char *mess
     return true;
 }
 
-/* A texture that no image of this frame uses yet; 0 when memory is short. */
+/* Returns a texture that no image of this frame uses yet; 0 when out of memory. */
 static GLuint next_texture(struct gm_stream *stream)
 {
     const struct gm_gl *gl = stream->gl;
@@ -55,13 +55,13 @@ static GLuint next_texture(struct gm_stream *stream)
     return texture;
 }
 
-/* Binds the values of an image to the present texture unit. False when memory is short. */
+/* Binds the values of an image to the current texture unit. Returns false when out of memory. */
 static bool bind_image(struct gm_stream *stream, const struct gm_mark *mark)
 {
     const struct gm_gl *gl = stream->gl;
     GLint most = 1;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    /* Every stride-th value of images that are larger than a texture may be. */
+    /* An image larger than the largest texture is reduced to every stride-th value. */
     const size_t limit = (size_t)most, row_stride = (mark->rows - 1) / limit + 1,
                  column_stride = (mark->columns - 1) / limit + 1;
     const size_t rows = (mark->rows - 1) / row_stride + 1, columns = (mark->columns - 1) / column_stride + 1;
@@ -121,7 +121,7 @@ static void set_stencil(const struct gm_gl *gl, const struct gm_draw_call *call)
     }
 }
 
-/* Numbers of groups come round after ONCE_BITS of them: old marks in the stencil must go first. */
+/* Numbers of groups repeat after ONCE_BITS of them: old marks in the stencil must go first. */
 static void forget_groups(const struct gm_gl *gl)
 {
     gl->Disable(GL_SCISSOR_TEST);
@@ -157,7 +157,7 @@ bool gm_stream_draw(struct gm_stream *stream, const struct gm_batch *batch, int 
         }
         if (i == 0 || call[-1].program != call->program) {
             gm_shaders_use(gl, stream->programs, call->program, width,
-                           height); /* or GL has an error to tell */
+                           height); /* a failure leaves a GL error */
         }
         gl->Scissor(call->scissor[0], call->scissor[1], call->scissor[2], call->scissor[3]);
         set_stencil(gl, call);

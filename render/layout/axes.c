@@ -32,7 +32,7 @@ static double step_of(enum gm_scale scale, const double *values, size_t count)
     return scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
 }
 
-/* The widest tick label an axis may get, whatever number of ticks it will have room for. */
+/* Returns the widest tick label that an axis may get with any number of ticks. */
 static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm)
 {
     if (calm) {
@@ -102,14 +102,15 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
     return border;
 }
 
-/* Room a label takes along an axis. */
+/* Returns the room of a label along an axis. */
 static double extent(const struct gm_label_list *list, bool across, const char *text)
 {
     return across ? gm_labels_width(list, GM_TEXT_TICK, text) + 8.0 * list->metrics->scale
                   : 1.2 * list->metrics->line[GM_TEXT_TICK];
 }
 
-/* As many ticks as there is room for, with their labels. surface = origin + factor * value. */
+/* Places the most ticks that have room, with their labels; surface = origin + factor * value. Returns their
+   number. */
 static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis, double origin,
                           double factor, bool across, struct gm_tick *ticks)
 {
@@ -119,7 +120,7 @@ static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis
         const double step = step_of(axis->scale, values, count);
         bool fits = count > 0;
         for (size_t k = 0; k < count; k++) {
-            const size_t i = factor > 0.0 ? k : count - 1 - k; /* along the surface */
+            const size_t i = factor > 0.0 ? k : count - 1 - k; /* order along the surface */
             char text[64];
             gm_tick_format(axis->scale, values[i], step, text, sizeof text);
             const double value = axis->scale == GM_LOG ? log10(values[i]) : values[i];
@@ -148,14 +149,14 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
                                  .x = across ? ticks[i].position : at,
                                  .y = across ? at : ticks[i].position - half,
                                  .anchor = anchor};
-        if (!gm_labels_add(list, label) && across && i == 0) { /* the other axis has one in the corner */
+        if (!gm_labels_add(list, label) && across && i == 0) { /* the other axis has a label in the corner */
             label.anchor = GM_ANCHOR_LEFT;
             gm_labels_add(list, label);
         }
     }
 }
 
-/* Where a title begins that is so wide: with the box, or as far before it as its room needs. */
+/* Returns the start of a title of this width: at the box, or as far before it as its room needs. */
 static double title_start(const struct gm_fill *fill, double width)
 {
     return fmax(fill->title_left, fmin(fill->box.x, fill->title_left + fill->title_width - width));
@@ -169,7 +170,7 @@ static const char *key_text(const struct gm_label_list *list, const struct gm_ke
     return gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name);
 }
 
-/* The distance of keys in a line: a smaller one where all of them then fit into it. */
+/* Returns the distance of keys in a line: half of it if all of them then fit into the line. */
 static double key_gap(const struct gm_label_list *list, const struct gm_panel *panel, double width)
 {
     const double gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
@@ -180,8 +181,8 @@ static double key_gap(const struct gm_label_list *list, const struct gm_panel *p
     return all > width ? 0.5 * gap : gap;
 }
 
-/* The key without ", blow-up at t = 3" or ", lost: ..." as far as it is wider than a line: first without
-   when, then without what; the panels that have room tell it, and in the explorer the list of lanes. */
+/* Returns a key that is wider than a line without " at t = 3", and, if still too wide, without ", blow-up" or
+   ", lost: ...". Panels with room show both, and so does the explorer's list of lanes. */
 static struct gm_key without_failure(const struct gm_label_list *list, const struct gm_key *key, double width)
 {
     struct gm_key shown = *key;
@@ -198,8 +199,8 @@ static struct gm_key without_failure(const struct gm_label_list *list, const str
     return shown;
 }
 
-/* A key in lines of that width. Where it has no room in one what its values are called gives way; then it
-   goes on below, and the piece of its line, which its colour stands for, gives way last. */
+/* Breaks a key into lines of that width and returns their number. A key too long for one line first loses the
+   names of its values. Then it takes more lines; the sample of its line goes last, as it has the colour. */
 static size_t key_lines(const struct gm_label_list *list, const struct gm_key *key, double width,
                         const char **lines)
 {
@@ -226,8 +227,8 @@ static size_t key_lines(const struct gm_label_list *list, const struct gm_key *k
     return count;
 }
 
-/* Keys side by side, each behind a piece of its line, from (x, y) on in as many lines as they take, which is
-   returned. Without `out` they are only counted. */
+/* Sets keys side by side, each after a sample of its line, from (x, y) on. Returns the number of lines;
+   without `out` it only counts them. */
 static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
                        double width, struct gm_label_list *out)
 {
@@ -262,7 +263,7 @@ size_t gm_key_lines(const struct gm_label_list *list, const struct gm_panel *pan
     return set_keys(list, panel, 0.0, 0.0, width, NULL);
 }
 
-/* How wide the keys are in one line, or the line that they fill. */
+/* Returns the width of the keys in one line, or of the line that they fill. */
 static double keys_width(const struct gm_label_list *list, const struct gm_panel *panel, double width)
 {
     const double gap = key_gap(list, panel, width);
@@ -348,7 +349,7 @@ static void label_axes(struct gm_label_list *list, struct gm_axes *axes, enum gm
                                     .vertical = true});
 }
 
-/* Whether values lie beyond the ends of the bar: those of any panel, for one bar may speak for all. */
+/* Checks if values lie beyond the ends of the bar, in any panel with its colours: one bar may serve all. */
 static void find_beyond(const struct gm_picture *picture, const struct gm_mark *field, bool beyond[2])
 {
     for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
@@ -401,7 +402,7 @@ void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct
     *axes = (struct gm_axes){.panel = panel, .box = box};
     axes->x_factor = box.width / (x_high - x_low);
     axes->y_factor = -box.height / (y_high - y_low);
-    /* The middle of the range is the middle of the box, also where equal axes show more than the range. */
+    /* The middle of the range is the middle of the box, even if equal axes show more than the range. */
     if (panel->equal) {
         axes->x_factor = fmin(axes->x_factor, -axes->y_factor);
     }
@@ -426,13 +427,13 @@ void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct
     }
 }
 
-/* Whether a box stands on the data or the colour bar of a frame. */
+/* Returns true if a box overlaps the data or the colour bar of a frame. */
 static bool stands_on(const struct gm_box *box, const struct gm_axes *axes)
 {
     return gm_boxes_overlap(box, &axes->box, 0.0) || gm_boxes_overlap(box, &axes->colour_bar, 0.0);
 }
 
-/* `air` is what a label's ground covers around it. */
+/* `air` is the margin that a label covers around it. */
 static bool is_free(const struct gm_axes *axes, size_t count, size_t own, const struct gm_box *box,
                     double air)
 {
@@ -443,7 +444,7 @@ static bool is_free(const struct gm_axes *axes, size_t count, size_t own, const 
     return is_free;
 }
 
-/* What a note stands among: the labels so far and the axes of all panels, one of which is its own. */
+/* The surroundings of a note: the labels so far and the axes of all panels, with the index of its own. */
 struct surroundings {
     struct gm_label_list *list;
     const struct gm_axes *axes;
@@ -451,7 +452,7 @@ struct surroundings {
     const struct gm_mark *mark;
 };
 
-/* A line of a note, its top at y: where its anchor says, or with `within` moved into the frame. */
+/* Adds a line of a note, its top at y: at its anchor, or with `within` moved into the frame. */
 static bool add_line(const struct surroundings *around, const char *text, double x, double y, bool within)
 {
     struct gm_label_list *list = around->list;
@@ -459,7 +460,7 @@ static bool add_line(const struct surroundings *around, const char *text, double
     const struct gm_mark *mark = around->mark;
     const struct gm_box *data = &around->axes[around->own].box;
     const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, text);
-    const double air = 0.3 * line; /* to the edge of the surface */
+    const double air = 0.3 * line; /* distance to the edge of the surface */
     const double left =
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
     const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
@@ -473,14 +474,14 @@ static bool add_line(const struct surroundings *around, const char *text, double
                                                  .among_marks = true});
 }
 
-/* Adds the lines of a note whose anchor is at (x, y), moved together off the edges of the frame and a little
-   where that makes all of them free, or none. */
+/* Adds the lines of a note with its anchor at (x, y), or none. They move together off the edges of the frame,
+   and a little further until all are free. */
 static void add_note(const struct surroundings *around, const char *const *lines, size_t made, double x,
                      double y)
 {
     struct gm_label_list *list = around->list;
     const struct gm_mark *mark = around->mark;
-    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* in lines */
+    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* shifts in lines */
     const size_t before = list->count;
     const double line = list->metrics->line[GM_TEXT_TICK], high = (double)made * line;
     const struct gm_box *data = &around->axes[around->own].box;
@@ -488,7 +489,7 @@ static void add_note(const struct surroundings *around, const char *const *lines
     for (size_t i = 0; i < made; i++) {
         widest = fmax(widest, gm_labels_width(list, GM_TEXT_TICK, lines[i]));
     }
-    if (mark->anchor == GM_ANCHOR_LEFT) { /* one below the other, where the widest has room */
+    if (mark->anchor == GM_ANCHOR_LEFT) { /* the lines are left-aligned, so that the widest has room */
         x = fmin(x, list->metrics->width - widest - 0.3 * line);
     }
     bool placed = false;
@@ -496,7 +497,7 @@ static void add_note(const struct surroundings *around, const char *const *lines
     for (size_t k = 0; k < tries && !placed; k++) {
         double top = y - 0.5 * high + shifts[k / 2] * line;
         if (!mark->fixed && high <= data->height) {
-            const double below = 0.2 * line; /* letters: the rest of a line's foot is empty */
+            const double below = 0.2 * line; /* the foot of a line of letters is empty */
             top = fmax(data->y, fmin(top, data->y + data->height - high + below));
         }
         list->count = before;
@@ -509,9 +510,8 @@ static void add_note(const struct surroundings *around, const char *const *lines
     list->count = placed ? list->count : before;
 }
 
-/* A note that is wider than the room on its side of the place goes on in a second line, where all of it then
-   fits there, or at least into the frame: otherwise it would stand across the frame's edge. One that is too
-   wide for that as well is left out. */
+/* A note that is wider than the room on its side of the anchor is broken into two lines, if these fit there
+   or at least into the frame: one line would cross the frame's edge. A note too wide for both is left out. */
 void gm_axes_note(struct gm_label_list *list, const struct gm_axes *panel_axes, size_t count, size_t own,
                   const struct gm_mark *mark)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colour maps are smooth curves through a few points of the OKLab space (B. Ottosson, A perceptual color
-   space for image processing, 2020) whose lightness is linear along the map, so that equal steps of the
+   space for image processing, 2020). The lightness is linear along the map, so that equal differences of the
    value look equal and a printout in grey keeps their order. */
 #include <math.h>
 #include <threads.h>
@@ -13,13 +13,13 @@ struct knot {
     double lightness, chroma, hue; /* hue in degrees */
 };
 
-/* From black through violet, red and orange to a pale yellow. */
+/* Black through violet, red and orange to a pale yellow. */
 static const struct knot sequential[KNOTS] = {
     {0.130, 0.020, 285.0}, {0.270, 0.120, 290.0}, {0.410, 0.170, 322.0}, {0.550, 0.195, 358.0},
     {0.690, 0.185, 25.0},  {0.830, 0.135, 65.0},  {0.970, 0.085, 102.0},
 };
 
-/* Blue and orange about a middle that recedes into the paper of either theme. */
+/* Blue and orange around a middle that recedes into the paper of either theme. */
 static const struct knot diverging[GM_THEME_COUNT][KNOTS] = {
     [GM_THEME_LIGHT] = {{0.370, 0.130, 262.0},
                         {0.560, 0.125, 250.0},
@@ -105,6 +105,6 @@ static void make_tables(void)
 struct gm_rgb gm_colour_map_at(enum gm_colour_map map, enum gm_theme theme, double x)
 {
     call_once(&tables_made, make_tables);
-    const double clamped = x > 0.0 ? fmin(x, 1.0) : 0.0; /* also for a NaN */
+    const double clamped = x > 0.0 ? fmin(x, 1.0) : 0.0; /* 0 for NaN */
     return tables[map][theme][(int)(clamped * (TABLE_SIZE - 1) + 0.5)];
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Labels that keep off each other: one is taken only where there is room. */
+/* Labels that do not overlap: a label is taken only if it has room. */
 #include "render/layout/panel.h"
 
 #include <stdio.h>
@@ -41,7 +41,7 @@ bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
           box.y + box.height <= metrics->height + rounding)) {
         return false;
     }
-    /* what runs along an axis is no neighbour in the line of its ticks */
+    /* a text along an axis may touch the line of its ticks */
     const double air = label.vertical ? 0.0 : 4.0 * metrics->scale;
     for (size_t i = 0; i < list->count; i++) {
         if (gm_boxes_overlap(&box, &list->boxes[i], air)) {
@@ -59,7 +59,7 @@ static bool continues_character(char byte)
     return ((unsigned char)byte & 0xc0) == 0x80;
 }
 
-/* The first `length` bytes of text, shortened with an ellipsis. */
+/* Returns the first `length` bytes of text, shortened with an ellipsis. */
 static const char *ellipsised(const struct gm_label_list *list, const char *text, size_t length)
 {
     while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' ')) {
@@ -68,7 +68,7 @@ static const char *ellipsised(const struct gm_label_list *list, const char *text
     return gm_picture_text(list->picture, "%.*s…", (int)length, text);
 }
 
-/* Half of a formula says something else: what a bracket opens is cut nowhere within. */
+/* Returns true if no bracket is open: half of a formula would have another meaning. */
 static bool is_closed(const char *text)
 {
     long open = 0;
@@ -78,15 +78,15 @@ static bool is_closed(const char *text)
     return open <= 0;
 }
 
-/* The longest front of a text that fits and says something whole: a sentence or a name before its formula, or
-   up to a comma or a bracket what is at least so wide. NULL if there is none. */
+/* Returns the longest front of a text that fits and is complete: a sentence, a name before its formula, or a
+   part before a comma or a bracket that is at least `least` wide. NULL without one. */
 static const char *whole_front(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                                double least, double width)
 {
     static const struct {
         const char *text;
-        size_t kept;    /* bytes of it */
-        bool short_too; /* what stands before it says enough, however short it is */
+        size_t kept;    /* bytes of it that remain */
+        bool short_too; /* the part before it is enough, however short */
     } breaks[] = {{"  ", 0, true},  {". ", 1, true},  {"; ", 0, true},
                   {", ", 0, false}, {" (", 0, false}, {": ", 0, false}};
     const char *longest = NULL;
@@ -109,7 +109,7 @@ static bool is_digit(char byte)
     return byte >= '0' && byte <= '9';
 }
 
-/* A word with a figure in it is not cut: its start says something else. */
+/* Moves a cut before a word with a figure: the start of a number is another number. */
 static size_t before_cut_number(const char *text, size_t length)
 {
     size_t start = length, end = length;
@@ -126,7 +126,7 @@ static size_t before_cut_number(const char *text, size_t length)
     return number && length < end ? start : length;
 }
 
-/* As many letters of a text as fit with an ellipsis; "" if none do. */
+/* Returns the most letters of a text that fit with an ellipsis; "" if none do. */
 static const char *cut(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                        double width)
 {
@@ -163,7 +163,7 @@ const char *gm_labels_whole(struct gm_label_list *list, enum gm_text_size size, 
     return front ? front : "";
 }
 
-/* Whether the first word of a text tells a number. */
+/* Returns true if the first word of a text is a number. */
 static bool is_number(const char *text)
 {
     static const char minus[] = "−";
@@ -184,7 +184,7 @@ size_t gm_before_number(const char *text)
     return text[at] ? at : 0;
 }
 
-/* The first words of those before a text's number, and the number. */
+/* Returns the first of the words before a text's number, and the number. */
 static const char *some_words(const struct gm_label_list *list, const char *text, size_t words)
 {
     const size_t front = gm_before_number(text), digits = strcspn(text + front, " ");
@@ -215,7 +215,7 @@ const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_si
     for (size_t at = 0; at < front; at += strcspn(text + at, " ") + 1) {
         all++;
     }
-    /* what follows the number goes before what stands ahead of it */
+    /* words after the number give way before those ahead of it */
     for (*words = *words > all ? all + 1 : *words;; --*words) {
         const char *shown = *words > all ? text : some_words(list, text, *words);
         if (gm_labels_width(list, size, shown) <= width) {
@@ -234,7 +234,7 @@ void gm_name_without_keys(const char *name, char *text, size_t size)
     text[0] = '\0';
     for (const char *part = name; part && used < size;) {
         const char *next = strstr(part, between), *value = strstr(part, equals);
-        const bool key = value != NULL && value == part + strcspn(part, ", "); /* one word is */
+        const bool key = value != NULL && value == part + strcspn(part, ", "); /* a key is one word */
         value = key ? value + strlen(equals) : part;
         used += (size_t)snprintf(text + used, size - used, "%s%.*s", part == name ? "" : between,
                                  (int)(next ? (size_t)(next - value) : strlen(value)), value);
@@ -251,10 +251,10 @@ size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, 
             lines[count++] = gm_labels_shorten(list, size, text, width);
             break;
         }
-        const char *end = NULL; /* of the longest line that fits */
+        const char *end = NULL; /* the end of the longest line that fits */
         for (const char *blank = strchr(text, ' '); blank; blank = strchr(blank + 1, ' ')) {
             if (blank[1] == '=' || (blank > text && blank[-1] == '=')) {
-                continue; /* a value stands beside its key */
+                continue; /* a value stays with its key */
             }
             const char *line = gm_picture_text(list->picture, "%.*s", (int)(blank - text), text);
             if (gm_labels_width(list, size, line) > width) {
@@ -275,7 +275,7 @@ size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, 
 
 bool gm_lines_are_whole(const char *const *lines, size_t count, const char *text)
 {
-    size_t shown = count > 0 ? count - 1 : 0; /* a blank at each end of a line but the last */
+    size_t shown = count > 0 ? count - 1 : 0; /* blanks at the ends of lines are left out */
     for (size_t i = 0; i < count; i++) {
         shown += strlen(lines[i]);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where everything of a picture goes on a surface of given size. */
+/* The layout of a picture on a surface of given size. */
 #include "render/layout/layout.h"
 
 #include <math.h>
@@ -12,28 +12,27 @@
 static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0, header_gap = 18.0,
                     column_gap = 26.0, row_gap = 22.0, group_gap = 44.0;
 
-/* Share of the width that the column of graphs takes beside states. */
+/* The part of the width for a column of graphs beside states. */
 static const double graph_share = 0.3, terse_graph_share = 0.38;
 
-/* Share of the height that a row of graphs under states has at least, and how many times as wide as high it
-   is at most. */
+/* The least part of the height for a row of graphs under states, and its greatest width in heights. */
 static const double row_share = 0.36, flattest_row = 9.0;
 
-/* How much it counts whether states fill their area, beside how large they are. */
+/* The weight of how well states fill their area, against their size. */
 static const double fill_power = 0.25;
 
-/* A graph is as wide as this many heights where nothing else decides, and never narrower than that. */
+/* The usual width of a graph in heights, and the least. */
 static const double graph_aspect = 1.75, graph_narrowest = 1.0;
 
 /* Panels of one place, in a grid over an area. */
 struct group {
-    struct gm_axes *frames; /* only their panels are set beforehand */
+    struct gm_axes *frames; /* the frames; only their panels are set at first */
     size_t count;
     enum gm_place place;
     struct gm_box area;
-    size_t wanted; /* columns; 0: any number */
+    size_t wanted; /* requested columns; 0: any number */
     size_t columns, rows;
-    size_t title_lines; /* of each panel's title; 0 counts as 1 */
+    size_t title_lines; /* lines of each panel's title; 0 counts as 1 */
     enum gm_detail detail;
 };
 
@@ -51,7 +50,7 @@ static bool names_x(const struct group *group, size_t i)
            strcmp(group->frames[i].panel->x.label, group->frames[below].panel->x.label) != 0;
 }
 
-/* A colour bar that all share stands beside the grid: border->bar. */
+/* A common colour bar is next to the grid: border->bar. */
 static double cell_width(const struct group *group, const struct gm_border *border, double gap)
 {
     const double gaps = (double)(group->columns - 1) * gap;
@@ -63,7 +62,7 @@ static double cell_height(const struct group *group, double gap)
     return fmax(0.0, (group->area.height - (double)(group->rows - 1) * gap) / (double)group->rows);
 }
 
-/* Every panel of a group has the borders of the neediest, so that their boxes are equal and in line. */
+/* Returns the border of the neediest panel for all, so that their boxes are equal and in line. */
 static struct gm_border common_border(const struct gm_label_list *list, const struct group *group, bool calm)
 {
     struct gm_border border = {0};
@@ -102,7 +101,7 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
     return border;
 }
 
-/* Width by height of a panel's data; 0 if it takes any. */
+/* Returns width by height of a panel's data; 0 if it takes any. */
 static double aspect_of(const struct gm_panel *panel)
 {
     double x_low, x_high, y_low, y_high;
@@ -111,7 +110,8 @@ static double aspect_of(const struct gm_panel *panel)
     return panel->equal ? (x_high - x_low) / (y_high - y_low) : 0.0;
 }
 
-/* How large the data of the group's panels are with its present grid and detail, by the side of a square. */
+/* Returns the size of the data of the group's panels with the current grid and detail: the side of a
+   square. */
 static double data_size(const struct gm_label_list *list, const struct group *group)
 {
     const double scale = list->metrics->scale;
@@ -128,7 +128,7 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
     return fmin(width / sqrt(aspect), height * sqrt(aspect));
 }
 
-/* Whether a title of the group's states is wider than that in letters of a size. */
+/* Returns true if a title of the group's states is wider than that in letters of a size. */
 static bool titles_too_long(const struct gm_label_list *list, const struct group *group,
                             enum gm_text_size size, double width)
 {
@@ -144,7 +144,8 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* The bytes of a title before "then" that another title begins with, too: two forks of one scheme differ behind them. */
+/* Returns the bytes of a title before "then" if another title begins with them: two forks of one scheme
+   differ after them. */
 static size_t fork_front(const struct group *group, size_t index)
 {
     const char *title = group->frames[index].panel->title, *then = strstr(title, ", then ");
@@ -156,8 +157,8 @@ static size_t fork_front(const struct group *group, size_t index)
     return shared ? front : 0;
 }
 
-/* The bytes up to a comma and blank with which the titles of all states begin: what the others of them say
-   tells them apart. The scheme that another one took over from stays before it. */
+/* Returns the bytes up to a comma and blank with which all titles of states begin: the rest identifies the
+   states. A scheme that was replaced during the run stays before its successor. */
 static size_t common_front(const struct group *group)
 {
     const char *first = group->frames[0].panel->title;
@@ -176,8 +177,8 @@ static size_t common_front(const struct group *group)
     return length;
 }
 
-/* Whether a title of the group's states, without what all begin with, is cut in so many lines of that
-   width. */
+/* Returns true if a title of the group's states, without the common front, does not fit into `most` lines of
+   that width. */
 static bool titles_are_cut(struct gm_label_list *list, const struct group *group, size_t most, double width)
 {
     const size_t skip = common_front(group);
@@ -191,14 +192,13 @@ static bool titles_are_cut(struct gm_label_list *list, const struct group *group
     return false;
 }
 
-/* Chooses the grid that makes the panels largest, and how much they show besides their data. A hole in the
-   grid costs its share: what is compared stands best in one row. A title that is cut or left out costs too,
-   and goes on below where the lines take less than that. Returns how good the best grid is, in units of the
-   surface. */
+/* Chooses the grid that makes the panels largest, and their details. A hole in the grid costs its share,
+   because a comparison is best in one row. A title that is cut or left out costs too; it is broken into lines
+   if that costs less. Returns the worth of the best grid, in units of the surface. */
 static double choose_grid(struct gm_label_list *list, struct group *group, size_t most_columns)
 {
     const double cut_titles = 0.7;
-    /* a graph says little without its ticks, so that it may be smaller before they go */
+    /* ticks matter most in a graph, so it may become smaller before they go */
     const double least = (group->place == GM_PLACE_GRAPH ? 2.5 : 4.5) * list->metrics->line[GM_TEXT_TICK];
     const double scale = list->metrics->scale;
     double best = -INFINITY;
@@ -222,7 +222,7 @@ static double choose_grid(struct gm_label_list *list, struct group *group, size_
             for (int detail = GM_DETAIL_ALL; detail <= GM_DETAIL_DATA; detail++, loss *= 0.8) {
                 trial.detail = (enum gm_detail)detail;
                 const double size = data_size(list, &trial);
-                /* that they have names is worth more than the rest */
+                /* names of the panels are worth more than the rest */
                 if (size < (detail == GM_DETAIL_NO_TICKS ? 0.6 : 1.0) * least && detail < GM_DETAIL_DATA) {
                     continue;
                 }
@@ -242,14 +242,15 @@ static double choose_grid(struct gm_label_list *list, struct group *group, size_
     return best;
 }
 
-/* A panel whose data need not fill its box exactly: equal axes without ticks show more than their range. */
+/* Returns true if a panel's data need not fill its box: equal axes without ticks show more than their
+   range. */
 static bool expands(const struct gm_panel *panel)
 {
     return !panel->axes && !panel->colour_bar && gm_panel_field(panel) == NULL;
 }
 
-/* How many words before its number have room in the note of panel i and in all that tell another number of the
-   same: such notes are shortened alike. */
+/* Returns the words before its number that have room in the note of panel i and in all notes with the same
+   front: such notes are shortened alike. */
 static size_t note_words(struct gm_label_list *list, const struct group *group, size_t i, double width)
 {
     const char *note = group->frames[i].panel->note;
@@ -264,7 +265,8 @@ static size_t note_words(struct gm_label_list *list, const struct group *group, 
     return words;
 }
 
-/* Boxes narrower than their cell stand in its middle, or, with `leftmost`, under the picture's title. */
+/* Places the panels: boxes narrower than their cell in its middle, or, with `leftmost`, under the picture's
+   title. */
 static void place_group(struct gm_label_list *list, struct group *group, double overhang, bool leftmost)
 {
     const double scale = list->metrics->scale;
@@ -273,7 +275,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     for (size_t i = 0; i < group->count; i++) {
         bars = bars || group->frames[i].panel->colour_bar;
     }
-    if (!bars) { /* the last tick label may hang over into the margin or the gap */
+    if (!bars) { /* the last tick label may extend into the margin or the gap */
         border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
     }
     const double column = cell_width(group, &border, column_gap * scale),
@@ -318,10 +320,10 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     }
 }
 
-/* The picture's title takes no more of the height than that. */
+/* The greatest part of the height for the picture's title. */
 static const double title_share = 0.18;
 
-/* Title, subtitle and clock; returns where they end. */
+/* Places title, subtitle and clock. Returns where they end. */
 static double place_header(struct gm_label_list *list, const struct gm_picture *picture, double margin)
 {
     const struct gm_metrics *metrics = list->metrics;
@@ -366,7 +368,7 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
     return y + (header ? header_gap * scale : 0.0);
 }
 
-/* The caption's lines along the bottom; returns where they start. */
+/* Places the caption's lines along the bottom. Returns where they start. */
 static double place_caption(struct gm_label_list *list, const struct gm_picture *picture, double margin)
 {
     const struct gm_metrics *metrics = list->metrics;
@@ -378,7 +380,7 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height) {
         count = 0;
     }
-    if (count == 0 || strstr(lines[count - 1], "…")) { /* half a sentence says nothing */
+    if (count == 0 || strstr(lines[count - 1], "…")) { /* half a sentence is useless */
         return bottom;
     }
     bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
@@ -394,7 +396,7 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
 
 enum { MOST_TOLD = 12 };
 
-/* The paragraphs that are told, below everything; returns where they start. */
+/* Places the picture's paragraphs, below everything. Returns where they start. */
 static double place_told(struct gm_label_list *list, const struct gm_picture *picture, double margin)
 {
     static const double most_share = 0.4;
@@ -425,7 +427,7 @@ static double place_told(struct gm_label_list *list, const struct gm_picture *pi
     return top - header_gap * metrics->scale;
 }
 
-/* Gives the panels of a place their frames, the graphs after the states. */
+/* Gives frames to the panels of a place. Returns their number. */
 static size_t collect(const struct gm_picture *picture, enum gm_place place, size_t most,
                       struct gm_axes *axes)
 {
@@ -438,7 +440,7 @@ static size_t collect(const struct gm_picture *picture, enum gm_place place, siz
     return count;
 }
 
-/* Graphs in a row beside a single row of states are as high as they are. */
+/* Makes graphs in a row beside a single row of states as high as the states. */
 static void align_graphs(const struct gm_label_list *list, const struct group *states, struct group *graphs)
 {
     const struct gm_border border = common_border(list, graphs, false);
@@ -452,8 +454,8 @@ static void align_graphs(const struct gm_label_list *list, const struct group *s
     graphs->area.height = bottom - top;
 }
 
-/* Where there is little room, and more height than a page has, the graph goes below the states if they are
-   larger so: a part of the height is the states'. */
+/* On a small surface that is not wide, the graph goes below the states if they become larger. The states then
+   have below_share of the height. */
 static const double below_share = 0.56, narrow_aspect = 1.3, below_gain = 1.1;
 
 static void try_below(struct gm_label_list *list, const struct gm_box *area, struct group *states,
@@ -475,7 +477,8 @@ static void try_below(struct gm_label_list *list, const struct gm_box *area, str
     }
 }
 
-/* The height that the states need of their area with their present grid; all of it where they take any. */
+/* Returns the height that the states need of their area with the current grid; all of it without equal
+   axes. */
 static double height_needed(const struct gm_label_list *list, const struct group *states)
 {
     const double scale = list->metrics->scale;
@@ -494,7 +497,8 @@ static double height_needed(const struct gm_label_list *list, const struct group
     return fmin(needed, states->area.height);
 }
 
-/* The width that the states need of their area with their present grid; all of it where they take any. */
+/* Returns the width that the states need of their area with the current grid; all of it without equal
+   axes. */
 static double width_needed(const struct gm_label_list *list, const struct group *states)
 {
     const double scale = list->metrics->scale;
@@ -517,7 +521,7 @@ static double width_needed(const struct gm_label_list *list, const struct group 
     return fmin(needed, states->area.width);
 }
 
-/* Flat states may have the whole width, and the graphs a row under them: all the height that they leave. */
+/* Gives flat states the whole width, and the graphs a row under them with the rest of the height. */
 static void try_row_below(struct gm_label_list *list, const struct gm_box *area, struct group *states,
                           struct group *graphs)
 {
@@ -530,7 +534,7 @@ static void try_row_below(struct gm_label_list *list, const struct gm_box *area,
     }
     const double worth_beside = choose_grid(list, &beside, beside.count),
                  worth_below = choose_grid(list, &below, below.count);
-    /* what states leave empty at their sides or above and below counts */
+    /* space that states leave empty counts */
     const double fill_beside = height_needed(list, &beside) / beside.area.height,
                  fill_below = width_needed(list, &below) / below.area.width;
     if (below.detail <= beside.detail &&
@@ -543,7 +547,7 @@ static void try_row_below(struct gm_label_list *list, const struct gm_box *area,
     }
 }
 
-/* Graphs beside states that are high and not wide get the width that is left. */
+/* Gives graphs beside states that are high and narrow the width that is left. */
 static void widen_graphs(const struct gm_label_list *list, struct group *states, struct group *graphs)
 {
     const double spare = states->area.width - width_needed(list, states);
@@ -552,7 +556,8 @@ static void widen_graphs(const struct gm_label_list *list, struct group *states,
     graphs->area.width += spare;
 }
 
-/* How many graphs a terse picture shows: one, or as many as have room side by side, beside states. */
+/* Returns the number of graphs of a terse picture: one, or, beside states, as many as have room side by
+   side. */
 static size_t terse_count(const struct group *graphs, bool beside)
 {
     const double narrowest = 1.5, room = graphs->area.width / (narrowest * graphs->area.height);
@@ -562,8 +567,8 @@ static size_t terse_count(const struct group *graphs, bool beside)
     return room > 1.0 ? (size_t)fmin(room, (double)graphs->count) : 1;
 }
 
-/* Texts among the marks come last: one that meets another label or stands over the edge of its panel moves a
-   little, and is left out where that does not help. */
+/* Places texts among the marks last. A text that meets another label or the edge of its panel moves a little;
+   if that does not help it is left out. */
 static void place_notes(struct gm_label_list *list, const struct gm_axes *axes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -575,7 +580,7 @@ static void place_notes(struct gm_label_list *list, const struct gm_axes *axes, 
     }
 }
 
-/* How many labels a picture may have at most. */
+/* Returns the greatest number of labels of a picture. */
 static size_t most_labels(const struct gm_picture *picture)
 {
     size_t most = 8 + MOST_TOLD;
@@ -600,7 +605,7 @@ static size_t count_panels(const struct gm_picture *picture)
     return count;
 }
 
-/* Shares the area between states and graphs: beside each other, or where that serves both better, below. */
+/* Divides the area between states and graphs: beside each other, or below if that is better for both. */
 static void divide(struct gm_label_list *list, const struct gm_box *area, struct group *states,
                    struct group *graphs)
 {

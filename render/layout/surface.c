@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From an axis to the surface, and boxes that meet. */
+/* The map from an axis to the surface, and overlaps of boxes. */
 #include "render/layout/panel.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ double gm_axes_y(const struct gm_axes *axes, double value)
     return frame_coordinate(&axes->panel->y, axes->y_origin, axes->y_factor, value);
 }
 
-/* Towards zero, and within the bounds; NaN is the lower one. */
+/* Rounds towards zero, within the bounds; NaN becomes the lower one. */
 static int clamp(double value, int low, int high)
 {
     return value > low ? (value < high ? (int)value : high) : low;

@@ -2,10 +2,10 @@
 /* Colours for paper and for a screen. */
 #include "render/layout/appearance.h"
 
-/* The lanes' colours were searched for: as far as possible from each other (CIEDE2000) as people with normal
-   vision, protanopia and deuteranopia see them (simulated after Machado, Oliveira & Fernandes, 2009), with a
-   contrast of 3 (light) or 4.5 (dark) to the paper, and well away from ink and from the initial state's red.
-   The first four stay near the hues blue, orange, green, pink. The least difference of any two is 17.8
+/* The lanes' colours come from a search. They are as far as possible from each other (CIEDE2000) for people
+   with normal vision, protanopia and deuteranopia (simulated after Machado, Oliveira & Fernandes, 2009), with
+   a contrast of 3 (light) or 4.5 (dark) to the paper, and well away from ink and from the initial state's
+   red. The first four stay near the hues blue, orange, green, pink. The least difference of any two is 17.8
    (light) and 18.6 (dark). */
 static const struct gm_rgb roles[GM_THEME_COUNT][GM_ROLE_COUNT] =
     {

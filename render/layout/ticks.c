@@ -14,7 +14,7 @@
 /* A tick may lie outside its range by this share of a step: bounds are rarely exact multiples. */
 static const double slack = 1e-6;
 
-/* Beyond this many decades a log axis shows powers of ten alone. */
+/* A log axis with more decades shows powers of ten alone. */
 static const double few_decades = 1.5;
 
 void gm_axis_shown(const struct gm_axis *axis, double *low, double *high)
@@ -26,13 +26,13 @@ void gm_axis_shown(const struct gm_axis *axis, double *low, double *high)
     *high = good ? axis->high : 1.0;
 }
 
-/* mantissa * 10^exponent, as exact as can be. */
+/* Returns mantissa * 10^exponent, as exact as can be. */
 static double scaled(double mantissa, int exponent)
 {
     return exponent < 0 ? mantissa / pow(10.0, -exponent) : mantissa * pow(10.0, exponent);
 }
 
-/* How many multiples of step lie in the range; their first is *first. */
+/* Returns the number of multiples of step in the range; the first is *first. */
 static double multiples(double low, double high, double step, double *first)
 {
     *first = ceil(low / step - slack);
@@ -53,7 +53,7 @@ static size_t fill_multiples(double low, double high, double mantissa, int expon
     return (size_t)count;
 }
 
-/* One or two ticks, where no step gives three. */
+/* Gives one or two ticks, if no step gives three. */
 static size_t few_ticks(double low, double high, int exponent, size_t max, double *values)
 {
     static const double steps[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
@@ -66,7 +66,7 @@ static size_t few_ticks(double low, double high, int exponent, size_t max, doubl
     return 0;
 }
 
-/* The first of the steps that gives at least three ticks; 0 if none does. */
+/* Takes the first of the steps that gives at least three ticks; returns 0 if none does. */
 static size_t first_step(double low, double high, const double *steps, size_t step_count, int exponent,
                          size_t max, double *values)
 {
@@ -93,7 +93,7 @@ static size_t ticks_linear(double low, double high, size_t max, double *values)
     const size_t further_count = sizeof further / sizeof *further;
     const double span = high - low;
     if (span < 64.0 * DBL_EPSILON * fmax(fabs(low), fabs(high)) || !isfinite(span)) {
-        return 0; /* such values would all have the same label */
+        return 0; /* the labels of such values would be equal */
     }
     const int exponent = (int)floor(log10(span / (double)max));
     size_t count = first_step(low, high, familiar, familiar_count, exponent, max, values);
@@ -101,7 +101,7 @@ static size_t ticks_linear(double low, double high, size_t max, double *values)
         return count > 0 ? count : few_ticks(low, high, exponent, max, values);
     }
 
-    /* Less familiar steps where the others leave too few ticks, or where both ends of the axis get one. */
+    /* Less familiar steps, if the others give too few ticks, or if both ends of the axis then have one. */
     for (size_t i = 0; i < further_count; i++) {
         double others[GM_TICK_MAX];
         const size_t other = fill_multiples(low, high, further[i], exponent, max, others);
@@ -141,7 +141,7 @@ static size_t ticks_pi(double low, double high, size_t max, double *values)
     return count;
 }
 
-/* Values mantissa * 10^k for the given mantissas. Returns 0 where there are more than max. */
+/* Gives values mantissa * 10^k for the given mantissas. Returns their number; 0 if it exceeds max. */
 static size_t fill_mantissas(double low, double high, const double *mantissas, size_t mantissa_count,
                              size_t max, double *values)
 {
@@ -200,7 +200,7 @@ static size_t ticks_log(double low, double high, size_t max, double *values)
     if (decades < few_decades) {
         return ticks_linear(low, high, max, values);
     }
-    if (few > 0) { /* written over meanwhile */
+    if (few > 0) { /* the values were overwritten */
         return fill_mantissas(low, high, one, 1, max, values);
     }
     return 0;
@@ -280,7 +280,7 @@ static void put_power(struct writer *writer, int exponent)
     }
 }
 
-/* How many decimals a multiple of step needs. */
+/* Returns the decimals that a multiple of step needs. */
 static int decimals_of(double step)
 {
     for (int decimals = 0; decimals < 15; decimals++) {
@@ -292,7 +292,7 @@ static int decimals_of(double step)
     return 15;
 }
 
-/* mantissa x 10^n; the mantissa 1 is left out. */
+/* Writes mantissa x 10^n without a mantissa of 1. */
 static void put_scientific(struct writer *writer, double value, double step)
 {
     int exponent = (int)floor(log10(fabs(value)) + 1e-9);
@@ -366,7 +366,7 @@ static void format_log(struct writer *writer, double value, double step)
         return;
     }
     const int leading = (int)floor(exponent + 1e-9);
-    /* As many digits as the value has: ticks are round, but those of a narrow range are not one digit. */
+    /* All digits of the value: ticks are round, but in a narrow range they have more than one digit. */
     const int digits = 1 + decimals_of(scaled(value, -leading));
     if (leading < -2 || leading > 4) {
         put_scientific(writer, value, scaled(1.0, leading + 1 - digits));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Level lines of a linear function on triangles. Where a level crosses a triangle there is one segment, from
-   one of its edges to another; segments that share an edge are joined, so that a painter gets whole lines
-   (joined smoothly, dashed along their length). "Above" includes the level itself, so that a level through
-   a vertex still crosses two edges of a triangle or none. */
+/* Level lines of a linear function on triangles. A level that crosses a triangle gives one segment, from one
+   of its edges to another. Segments that share an edge are joined, so that a painter gets whole lines (joined
+   smoothly, dashed along their length). "Above" includes the level itself, so that a level through a vertex
+   still crosses two edges of a triangle or none. */
 #include "render/picture/picture.h"
 
 #include <math.h>
@@ -11,20 +11,20 @@
 
 enum { NONE = -1 };
 
-struct crossing { /* of an edge of the mesh by the level */
-    int from, to; /* the edge's vertices, from < to; from = NONE: a free place of the table */
+struct crossing { /* a crossing of an edge of the mesh by the level */
+    int from, to; /* the edge's vertices, from < to; from = NONE: a free entry */
     int segments[2];
 };
 
 struct segment {
-    size_t ends[2]; /* places of crossings in the table */
+    size_t ends[2]; /* indices of crossings in the table */
     bool used;
 };
 
 struct level {
     const double *points, *values;
     double value;
-    struct crossing *table; /* open addressing; its size is a power of two */
+    struct crossing *table; /* open addressing; the size is a power of two */
     size_t table_size;
     struct segment *segments;
     size_t segment_count;
@@ -68,7 +68,7 @@ static size_t crossing_find(const struct level *level, int from, int to)
 
 static void segment_add(struct level *level, const int *triangle)
 {
-    /* The odd vertex out: both edges that leave it cross the level. */
+    /* The odd vertex: both edges from it cross the level. */
     const bool sides[3] = {above(level, triangle[0]), above(level, triangle[1]), above(level, triangle[2])};
     const int odd = sides[1] == sides[2] ? 0 : sides[0] == sides[2] ? 1 : 2;
     struct segment *segment = &level->segments[level->segment_count];
@@ -78,7 +78,7 @@ static void segment_add(struct level *level, const int *triangle)
         int *slots = level->table[segment->ends[k]].segments;
         if (slots[0] == NONE) {
             slots[0] = (int)level->segment_count;
-        } else if (slots[1] == NONE) { /* an edge of more than two triangles: the line simply ends there */
+        } else if (slots[1] == NONE) { /* an edge of more than two triangles: the line ends there */
             slots[1] = (int)level->segment_count;
         }
     }
@@ -106,8 +106,8 @@ static int next_segment(const struct level *level, size_t place)
     return NONE;
 }
 
-/* Follows the line from a crossing on; returns its number of points (the last one equals the first on a
-   closed line, whose end is told by *last). */
+/* Follows the line from a crossing on to *last. Returns its number of points; the last one equals the first
+   on a closed line. */
 static size_t follow(struct level *level, size_t place, double *line, size_t *last)
 {
     size_t count = 0;
@@ -135,7 +135,7 @@ static void emit(struct gm_picture *picture, struct gm_panel *panel, struct gm_s
                  const double *line, size_t count, bool closed)
 {
     if (closed && count > 1) {
-        count--; /* the last point is the first again */
+        count--; /* the last point repeats the first */
     }
     if (count > 1) {
         gm_mark_line(picture, panel, style, line, count, closed && count > 2);
@@ -146,7 +146,7 @@ static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struc
                        struct level *level, double *line)
 {
     size_t last;
-    /* Lines with ends first, so that what is left is closed. */
+    /* Lines with ends come first, so that the rest is closed. */
     for (size_t i = 0; i < level->table_size; i++) {
         const struct crossing *crossing = &level->table[i];
         if (crossing->from != NONE && crossing->segments[1] == NONE && next_segment(level, i) != NONE) {
@@ -163,7 +163,7 @@ static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struc
     }
 }
 
-/* The values on a triangle: a level crosses it where low < level <= high. */
+/* The values on a triangle: a level with low < level <= high crosses it. */
 struct span {
     double low, high;
 };
@@ -187,7 +187,7 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
                          const double *points, const double *values, size_t count, const int *triangles,
                          size_t triangle_count, const double *levels, size_t level_count)
 {
-    /* Vertices are far apart in memory: they are visited once, not again for every level. */
+    /* Vertices are far apart in memory, so they are visited once, not for every level. */
     struct span *spans = gm_picture_memory(picture, triangle_count * sizeof *spans);
     if (!spans) {
         return;

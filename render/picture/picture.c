@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A picture's memory, and how panels and marks come into it. */
+/* A picture's memory, and its panels and marks. */
 #include "render/picture/picture.h"
 
 #include <math.h>
@@ -17,9 +17,9 @@ struct chunk {
 };
 
 struct gm_picture_store {
-    struct chunk *chunk; /* the newest; the others are full */
-    size_t total;        /* size of all chunks */
-    /* What callers get when memory is short: they may write to it, nobody reads it. */
+    struct chunk *chunk; /* the newest chunk; the others are full */
+    size_t total;        /* bytes of all chunks */
+    /* the results when memory is short: callers may write to them, and they are never read */
     struct gm_panel spare_panel;
     struct gm_mark spare_mark;
 };
@@ -91,7 +91,7 @@ void gm_picture_close(struct gm_picture *picture)
 void gm_picture_clear(struct gm_picture *picture)
 {
     struct gm_picture_store *arena = picture->arena;
-    /* Several chunks become one, so that frames of one kind soon need no allocation at all. */
+    /* Several chunks become one, so that frames of one kind soon allocate nothing. */
     if (arena->chunk && arena->chunk->next) {
         chunks_close(arena->chunk);
         arena->chunk = chunk_open(arena->total, NULL);
@@ -219,7 +219,7 @@ static bool point_drawable(const struct gm_panel *panel, const double *point)
     return drawable(&panel->x, point[0]) && drawable(&panel->y, point[1]);
 }
 
-/* Copies the points that can be drawn; returns how many. */
+/* Copies the points that can be drawn. Returns their number. */
 static size_t points_copy(const struct gm_panel *panel, double *to, const double *points, size_t count)
 {
     size_t kept = 0;
@@ -257,7 +257,7 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
         return spare(picture);
     }
 
-    /* A closed line with a gap is one that starts after the gap. */
+    /* A closed line with a gap becomes an open one that starts after the gap. */
     size_t start = 0;
     for (size_t i = 0; closed && i < count; i++) {
         if (!point_drawable(panel, points + 2 * i)) {
@@ -266,7 +266,7 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
         }
     }
     struct gm_mark *first = NULL;
-    size_t kept = 0, piece = 0; /* where the present piece starts in the copy */
+    size_t kept = 0, piece = 0; /* start of the current piece in the copy */
     for (size_t k = 0; k <= count; k++) {
         const double *point = points + 2 * ((start + k) % count);
         const bool good = k < count && point_drawable(panel, point);
@@ -333,7 +333,7 @@ static void mark_set_map(struct gm_mark *mark, enum gm_colour_map map, double lo
 
 static const struct gm_style opaque = {.role = GM_INK, .alpha = 1.0, .width = 1.0};
 
-/* Takes a value into account that the colours are to show. */
+/* Notes if a value lies beyond the range of the colours. */
 static void mark_reach(struct gm_mark *mark, double value)
 {
     const double slack = 0.01 * (mark->high - mark->low);

@@ -6,11 +6,11 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* A picture is plain data: panels with axes and marks, in the units of the model. It knows no pixels, no
-   colours and no fonts; painters (GL, terminal, data) turn it into what is seen. It lives in an arena that
-   gm_picture_clear empties: one picture is drawn again for every frame. */
+/* A picture is plain data: panels with axes and marks, in the units of the model. Pixels, colours and fonts
+   belong to the painters (GL, terminal, data). It lives in an arena that gm_picture_clear empties: one
+   picture is redrawn for every frame. */
 
-/* What a colour means; a theme says what it is. */
+/* The meaning of a colour; a theme defines the colour. */
 enum gm_role {
     GM_PAPER,
     GM_INK,
@@ -41,19 +41,19 @@ enum gm_dash gm_lane_dash(size_t lane);
 struct gm_style {
     enum gm_role role;
     double alpha; /* 0 to 1 */
-    double width; /* of a line, or diameter of a point, in pixels of a picture 720 high */
+    double width; /* width of a line or diameter of a point, in pixels of a picture 720 high */
     enum gm_dash dash;
 };
 
 enum gm_colour_map { GM_MAP_SEQUENTIAL, GM_MAP_DIVERGING }; /* perceptually uniform colour maps */
 
 enum gm_mark_kind {
-    GM_MARK_LINE, /* points joined; closed if style says so */
+    GM_MARK_LINE, /* points joined; also to the first if `closed` */
     GM_MARK_POINTS,
     GM_MARK_POLYGON, /* filled, even-odd */
     GM_MARK_MESH,    /* triangles coloured by a value at each vertex */
     GM_MARK_IMAGE,   /* a grid of values over a rectangle */
-    GM_MARK_TEXT,    /* near points[0], opaque; left out where it has no room beside other labels */
+    GM_MARK_TEXT,    /* near points[0], opaque; left out without room beside other labels */
 };
 
 enum gm_anchor { GM_ANCHOR_LEFT, GM_ANCHOR_CENTRE, GM_ANCHOR_RIGHT };
@@ -70,26 +70,26 @@ struct gm_mark {
     size_t rows, columns;
     enum gm_colour_map map;
     double low, high;  /* the values at the ends of the colour map */
-    bool below, above; /* some values lie beyond these, by a hundredth of the range at least */
+    bool below, above; /* some values lie beyond low or high, by a hundredth of the range at least */
     const char *text;
     enum gm_anchor anchor;
-    bool fixed; /* a text that belongs to its place: it does not move to find room */
+    bool fixed; /* a text stays at its place and does not move to find room */
     struct gm_mark *next;
 };
 
 enum gm_scale { GM_LINEAR, GM_LOG, GM_PI /* linear, ticks at fractions of pi */ };
 
 struct gm_axis {
-    const char *label; /* with its unit; "" for none */
+    const char *label; /* name and unit; "" for none */
     enum gm_scale scale;
     double low, high;    /* the range shown, low < high; positive on a log axis */
-    const double *ticks; /* in rising order, where they stand if they have room; NULL: at round values */
+    const double *ticks; /* rising values of ticks, used if they have room; NULL: round values */
     size_t tick_count;
     double least_tick,
-        largest_tick; /* where the axis goes beyond what there is; equal: they stand anywhere */
+        largest_tick; /* range of ticks on an axis longer than the data; equal: the whole axis */
 };
 
-/* Where a panel stands: states share a grid on the left, graphs stand on the right. */
+/* The place of a panel: states share a grid on the left, graphs are on the right. */
 enum gm_place { GM_PLACE_STATE, GM_PLACE_GRAPH };
 
 /* The name of a line in its colour, with its dash, under a panel's title. */
@@ -107,14 +107,14 @@ struct gm_panel {
     struct gm_axis x, y;
     bool equal;      /* one unit is equally long on both axes */
     bool axes;       /* axes, ticks and grid are drawn */
-    bool colour_bar; /* of the first mesh or image */
+    bool colour_bar; /* colour bar of the first mesh or image */
     const char *colour_bar_label;
-    struct gm_key *first_key, *last_key; /* on the note's line, where the note is empty */
+    struct gm_key *first_key, *last_key; /* shown on the note's line if the note is empty */
     struct gm_mark *first, *last;
     struct gm_panel *next;
 };
 
-/* What somebody tells about a picture, as a lecturer would. */
+/* A paragraph of text about a picture, as in a lecture. */
 struct gm_paragraph {
     const char *text;
     enum gm_role role;
@@ -125,23 +125,24 @@ struct gm_picture {
     const char *title, *subtitle;
     const char *clock;               /* top right */
     const char *caption;             /* a sentence along the bottom; "" for none */
-    const struct gm_paragraph *told; /* told_count paragraphs below all else, in place of the caption */
-    size_t told_count, told_lines;   /* with room for so many lines at least: what is above stands still */
-    size_t state_columns;            /* of the grid of states; 0: as many as make them largest */
-    bool graphs_below;               /* graphs may stand in a row under the states, if these are larger so */
+    const struct gm_paragraph *told; /* told_count paragraphs below all else, instead of the caption */
+    size_t told_count, told_lines; /* least number of lines for them, so that the panels above do not move */
+    size_t state_columns;          /* columns of the grid of states; 0: as many as make them largest */
+    bool graphs_below; /* graphs may be in a row under the states, if the states are then larger */
     struct gm_panel *first, *last;
     struct gm_picture_store *arena;
 };
 
-/* An empty picture; NULL when memory is short. Memory that runs short later makes marks disappear,
+/* Returns an empty picture; NULL when out of memory. Memory that runs short later makes marks disappear,
    never a crash. */
 struct gm_picture *gm_picture_open(void);
 void gm_picture_close(struct gm_picture *picture);
 void gm_picture_clear(struct gm_picture *picture);
 
-/* Memory of the picture's arena, aligned for doubles; lives until the next clear. NULL when short. */
+/* Returns memory of the picture's arena, aligned for doubles, until the next clear. NULL when out of
+   memory. */
 void *gm_picture_memory(struct gm_picture *picture, size_t size);
-/* A formatted text in the arena. */
+/* Returns a formatted text in the arena. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -150,13 +151,13 @@ gm_picture_text(struct gm_picture *picture, const char *format, ...);
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title);
 
-/* Adds a name to the panel's keys; for lines whose names nothing else tells. */
+/* Adds a name to the panel's keys, for a line without another label. */
 void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                   const char *name);
 
-/* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis; so
-   a NaN never reaches a painter. The panel's axes are set before its marks. A mark that is not shown (no
-   points, no memory) may be written to all the same; of a line with breaks the first piece is returned. */
+/* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis, so
+   that a NaN never reaches a painter. The panel's axes must be set before its marks. A mark that is not shown
+   (no points, no memory) may still be written to. The first piece of a line with breaks is returned. */
 struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                              const double *points, size_t count, bool closed);
 struct gm_mark *gm_mark_points(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
@@ -171,14 +172,14 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
 struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
                               double low, double high, const double corners[4], const double *values,
                               size_t rows, size_t columns);
-/* Lines of equal value of a triangle mesh, at `levels`. */
+/* Adds the lines of equal value of a triangle mesh, at `levels`. */
 void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                          const double *points, const double *values, size_t count, const int *triangles,
                          size_t triangle_count, const double *levels, size_t level_count);
 
-/* Widens [*low, *high] to hold value (ignored unless finite). Start with an empty range: low > high. */
+/* Widens [*low, *high] to hold value (ignored unless finite). An empty range begins with low > high. */
 void gm_range_add(double *low, double *high, double value);
-/* Widens a range to calm round bounds, so that axes move in rare steps. Empty ranges become [0, 1]. */
+/* Widens a range to round bounds, so that axes change in rare steps. Empty ranges become [0, 1]. */
 void gm_range_round(double *low, double *high, enum gm_scale scale);
 
 #endif

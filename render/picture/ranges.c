@@ -19,7 +19,7 @@ void gm_range_add(double *low, double *high, double value)
     *high = fmax(*high, value);
 }
 
-/* The smallest of 1, 2, 5 times a power of ten that is not below value > 0. */
+/* Returns the smallest of 1, 2, 5 times a power of ten that is not below value > 0. */
 static double round_up(double value)
 {
     const double power = pow(10.0, floor(log10(value)));
@@ -31,8 +31,8 @@ static double round_up(double value)
                                                  : 10.0);
 }
 
-/* Bounds at multiples of a round step of about a quarter of the range. Rounding may widen the range so far
-   that its step is the next larger one: repeated until that ends, so that rounding twice changes nothing. */
+/* Widens to multiples of a round step of about a quarter of the range. If the wider range has the next larger
+   step, this is repeated, so that rounding twice changes nothing. */
 static void round_linear(double *low, double *high, double unit)
 {
     if (*low == *high) {
@@ -55,7 +55,7 @@ static void round_linear(double *low, double *high, double unit)
     *high = fmax(*high, b * unit);
 }
 
-/* 1, 2, 5 times powers of ten up to two decades, whole decades beyond. */
+/* Widens to 1, 2, 5 times powers of ten up to two decades, to whole decades beyond. */
 static void round_log(double *low, double *high)
 {
     if (!(*low > 0.0)) {

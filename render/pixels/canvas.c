@@ -51,8 +51,8 @@ bool gm_canvas_choose(const char *painter, char *message)
     return true;
 }
 
-/* What paints a picture that is live, or that is not. Where the address space is limited Mesa, which takes hundreds of
-   MB of it, waits for ever for a thread that it is refused. */
+/* Returns the painter of a live picture, or of a file. If the address space is limited, Mesa, which takes
+   hundreds of MB of it, can wait without end for a thread that it is refused. */
 static enum choice painter_of(bool live)
 {
     char reason[GM_MESSAGE];
@@ -78,7 +78,7 @@ static void *set_up(void *nothing)
 
 void gm_canvas_expect(void)
 {
-    /* a thread's stack and its share of the heap would be taken from Mesa, where there is little */
+    /* a thread's stack and its share of the heap would leave Mesa too little of a limited address space */
     expected = expected || (chosen != OWN && !gm_address_space_is_limited() &&
                             gm_thread_start(&setting_up, set_up, NULL) == 0);
 }
@@ -155,8 +155,8 @@ const char *gm_canvas_backend(const struct gm_canvas *canvas)
 }
 
 #ifdef __x86_64__
-/* Four pixels at a time by one shuffle, which also writes four bytes that the next ones overwrite; how many
-   pixels are done. */
+/* Packs four pixels at a time with one shuffle, which also writes four bytes that the next ones overwrite.
+   Returns how many. */
 __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char *rgba, unsigned char *rgb,
                                                              size_t count)
 {
@@ -170,7 +170,7 @@ __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char
 }
 #endif
 
-/* Elsewhere as three words; the shifts are those of processors whose low byte comes first. */
+/* Packs the other pixels as three words; the shifts need a processor with the low byte first. */
 static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t count)
 {
     size_t i = 0;

@@ -6,36 +6,37 @@
 #include "render/message.h"
 #include "render/picture/picture.h"
 
-/* The painter of pixels: pictures to rows of bytes, without a screen. One canvas has one look, whose title outlives
-   it, and is used by one thread at a time. The program's own rasteriser draws (render/pixels/rasteriser.h), with the
-   same bits everywhere where the fonts are the same, or OpenGL (render/gl/opengl.h). */
+/* The painter of pixels: pictures to rows of bytes, without a screen. A canvas has one look, whose title
+   outlives it, and is used by one thread at a time. The rasteriser (render/pixels/rasteriser.h) draws the
+   same bits on every machine with the same fonts. The alternative is OpenGL (render/gl/opengl.h). */
 
 struct gm_canvas;
 
-/* Chooses what paints on canvases that are opened from now on: "osmesa", "egl", "own", or "auto", which is OSMesa for
-   files, where it can be loaded, and else the rasteriser. NULL: as the environment variable GEOMINT_PAINTER says, and
-   auto where it says nothing. False with a sentence (GM_MESSAGE bytes) where there is no such painter, or it cannot be
-   loaded. No other thread is to open a canvas meanwhile. */
+/* Chooses the painter of canvases opened from now on: "osmesa", "egl", "own", or "auto": OSMesa for files, if
+   it can be loaded, otherwise the rasteriser. NULL: the environment variable GEOMINT_PAINTER, or auto.
+   Returns false with a sentence (GM_MESSAGE bytes) if the painter does not exist or cannot be loaded. No
+   other thread may open a canvas meanwhile. */
 bool gm_canvas_choose(const char *painter, char *message);
 
-/* Begins, in a thread of its own, what takes long of opening the first canvas for a file; and waits for its end, which
-   comes before that of the process. */
+/* The first starts a thread with the slow part of opening the first canvas for a file. The second waits for
+   it, before the process ends. */
 void gm_canvas_expect(void);
 void gm_canvas_settle(void);
 
-/* NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
+/* Returns NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);
 
-/* Paints the picture into rgb: height rows of width * 3 bytes, top row first. False when memory is short. */
+/* Paints the picture into rgb: height rows of width * 3 bytes, top row first. Returns false when out of
+   memory. */
 bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb);
 
-/* The panel of a state that a pixel is in, as gm_layout_locate. */
+/* Returns the state's panel at a pixel, as gm_layout_locate does. */
 const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
                                         double down, double *x, double *y);
 
-/* What paints, as gm_canvas_choose takes it up to a comma: "own", or "osmesa, OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256
-   bits), Mesa 22.3.6". */
+/* The name of the painter, up to a comma a word for gm_canvas_choose: "own", or "osmesa, OpenGL 4.5, llvmpipe
+   (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */
 const char *gm_canvas_backend(const struct gm_canvas *canvas);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangles into memory, row by row: what of a row lies in a triangle is a run of pixels, which get their coverages
-   first, and then their colours. Edges of two triangles with the same ends are computed from these in the same
-   order, so that nothing is left out between the two. */
+/* Triangles in memory, row by row: a row of a triangle is a run of pixels, which get their coverages first,
+   and then their colours. Edges of two triangles with the same ends are computed from these in the same
+   order, so that no pixel between the two is left out. */
 #include "render/pixels/rasteriser.h"
 
 #include <math.h>
@@ -12,22 +12,22 @@
 
 enum {
     MAPS = 2,
-    SHADES = 16 * 255 + 1, /* of a map */
-    RUN = 256,             /* pixels at a time */
+    SHADES = 16 * 255 + 1, /* shades of a map */
+    RUN = 256,             /* most pixels at a time */
 };
 
 static const uint32_t inside = UINT32_C(1) << 31;
 
-/* Where a call's triangles go, and how. */
+/* The destination and the state of a call's triangles. */
 struct target {
     const struct gm_rasteriser *rasteriser;
     const struct gm_draw_call *call;
     const struct gm_atlas *atlas;
     unsigned char *rgba;
-    int left, top, right, bottom; /* nothing outside of these is touched */
+    int left, top, right, bottom; /* only these pixels may change */
 };
 
-/* ---- pixels: four bytes, of which the order does not matter here ---- */
+/* ---- pixels: four bytes, in any order ---- */
 
 static uint32_t pixel_of(const uint8_t bytes[4])
 {
@@ -36,7 +36,7 @@ static uint32_t pixel_of(const uint8_t bytes[4])
     return pixel;
 }
 
-/* Between two colours, by alpha of 255: each byte rounded to the nearest. */
+/* Mixes two colours by alpha of 255, each byte rounded to the nearest. */
 static uint32_t mixed(uint32_t under, uint32_t over, uint32_t alpha)
 {
     const uint32_t pairs = 0x00ff00ff, half = 0x00800080;
@@ -50,12 +50,12 @@ static uint32_t mixed(uint32_t under, uint32_t over, uint32_t alpha)
 /* ---- a triangle's values as planes over the pixels ---- */
 
 struct corner {
-    double x, y; /* from the middle of the first pixel */
+    double x, y; /* relative to the middle of the first pixel */
     const struct gm_vertex *vertex;
 };
 
 struct plane {
-    float start, right; /* at the first pixel of a run, and from each to the next */
+    float start, right; /* the value at the first pixel of a run, and its change per pixel */
 };
 
 struct planes {
@@ -64,10 +64,10 @@ struct planes {
 
 struct triangle {
     struct corner corner[3];
-    double area; /* twice, with its sign */
+    double area; /* twice the area, with its sign */
 };
 
-/* A double this large has no digits below 1/256. */
+/* Rounds to 1/256: a double this large has no digits below that. */
 static double snapped(float place)
 {
     const double large = 0x1.8p44;
@@ -101,7 +101,7 @@ static struct planes planes_of(const struct triangle *triangle, int x, int y)
 
 /* ---- runs of pixels of one row ---- */
 
-/* Of alpha, as far as the ink covers each pixel. */
+/* Sets covers to alpha times the ink's coverage of each pixel. */
 static void cover(const struct planes *planes, int count, bool wholly, float alpha, uint8_t *covers)
 {
     for (int i = 0; i < count; i++) {
@@ -127,7 +127,7 @@ static void cover_letters(const struct gm_atlas *atlas, const struct planes *pla
     }
 }
 
-/* Leaves out the pixels that the call's stencil keeps, and writes down what it is to remember. */
+/* Leaves out the pixels that the call's stencil keeps, and updates the stencil. */
 static void sift(const struct gm_draw_call *call, uint32_t *groups, int count, uint8_t *covers)
 {
     for (int i = 0; i < count; i++) {
@@ -181,7 +181,7 @@ static void put_field(const struct target *target, const struct planes *planes,
     }
 }
 
-/* At most RUN pixels of a row from x on. */
+/* Draws at most RUN pixels of a row from x on. */
 static void put_run(const struct target *target, const struct triangle *triangle, int x, int y, int count)
 {
     const struct gm_draw_call *call = target->call;
@@ -219,7 +219,7 @@ static void put_run(const struct target *target, const struct triangle *triangle
 
 /* ---- triangles ---- */
 
-/* The first whole number that is not below a place, from low to high. */
+/* Returns the first whole number that is not below a place, clamped to low and high. */
 static int first_from(double place, int low, int high)
 {
     if (!(place > low)) {
@@ -242,7 +242,7 @@ static double slope_of(const struct corner *from, const struct corner *to)
     return (to->x - from->x) / (to->y - from->y);
 }
 
-/* Corners by height: one edge goes from the first to the last, the others by the one between them. */
+/* Draws a triangle. Corners by height: one edge goes from the first to the last, the others meet between. */
 static void put_triangle(const struct target *target, struct corner a, struct corner b, struct corner c)
 {
     struct triangle triangle = {.corner = {a, b, c},
@@ -315,7 +315,7 @@ static bool make_colours(struct gm_rasteriser *rasteriser)
     return rasteriser->colours != NULL;
 }
 
-/* What the calls of a batch need beside the pixels. */
+/* Makes the groups and colours for the batch; false when out of memory. */
 static bool prepare(struct gm_rasteriser *rasteriser, const struct gm_batch *batch)
 {
     const size_t size = sizeof *rasteriser->groups * (size_t)rasteriser->width * (size_t)rasteriser->height;

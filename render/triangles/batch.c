@@ -44,7 +44,7 @@ void gm_batch_once(struct gm_batch *batch)
     batch->once++;
 }
 
-/* Room for `more` further elements. The block stays where it is when memory is short. */
+/* Makes room for `more` elements. When out of memory it returns false, and the block stays valid. */
 static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t count, size_t more,
                  size_t size)
 {
@@ -65,7 +65,7 @@ static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t 
     return true;
 }
 
-/* The call for the present state, a new one if the last differs. */
+/* Returns the call for the current state, a new one if the last differs, or NULL. */
 static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
 {
     if (batch->call_count > 0 && !indexed) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a pen draws, as strokes and triangles of a batch. */
+/* A pen that draws strokes and triangles of a batch. */
 #include "render/triangles/triangles.h"
 
 #include <math.h>
@@ -40,10 +40,10 @@ static void draw_line(struct gm_brush *brush, const struct gm_polyline *line, co
     }
 }
 
-/* Strokes thinner than a pixel are a pixel wide and fainter. What is translucent and would overlap itself at
-   joints is painted in two passes, each pixel once: whole pixels first, then the fading edges where nothing
-   was painted. A stroke without whole pixels cannot be: the faintest edge that comes first would keep its
-   pixel, and what zigzags closely would vanish. */
+/* Strokes thinner than a pixel are a pixel wide and fainter. A translucent stroke that would overlap itself
+   at joints is painted in two passes, each pixel once: whole pixels first, then the fading edges on pixels
+   not painted yet. A stroke without whole pixels is not: the first and faintest edge would keep its pixel,
+   and a close zigzag would vanish. */
 static void line(void *self, const struct gm_polyline *line, const struct gm_stroke *stroke)
 {
     struct gm_brush *brush = self;
@@ -97,7 +97,7 @@ static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
     gm_batch_end(batch, 0);
 }
 
-/* Baselines stand on whole pixels; letters find their place along them to a quarter. */
+/* Baselines are on whole pixels, letters along them at quarters of a pixel. */
 static void text(void *self, const struct gm_writing *writing, const char *text)
 {
     struct gm_brush *brush = self;
@@ -113,7 +113,7 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
     }
 }
 
-/* ---- meshes, images and colour bars: values reach every pixel before they become colours ---- */
+/* ---- meshes, images and colour bars: values are interpolated before they become colours ---- */
 
 static struct gm_vertex vertex(double x, double y, double across, double along, double alpha,
                                enum gm_colour_map map)

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-/* How far beyond half its width a stroke's triangles reach, for the fading edge. */
+/* Pixels of a stroke's triangles beyond half its width, for the fading edge. */
 static const float fringe = 0.75f;
 
-/* Sharper turns than this cosine are not mitred. */
+/* Turns with a smaller cosine are not mitred. */
 static const float sharpest = 0.35f;
 
 struct gm_rgba gm_rgba_of(struct gm_ink ink, double faint)
@@ -29,7 +29,7 @@ static float dot(struct gm_point a, struct gm_point b)
     return a.x * b.x + a.y * b.y;
 }
 
-/* The direction of a segment, and its length. */
+/* Returns the direction of a segment, and its length. */
 static struct gm_point direction(struct gm_point from, struct gm_point to, float *length)
 {
     const struct gm_point way = minus(to, from);
@@ -60,7 +60,7 @@ static struct joint joint_at(const struct gm_polyline *line, size_t i, float rea
     joint.before = direction(p[(i + n - 1) % n], p[i], &length);
     joint.after = direction(p[i], p[(i + 1) % n], &next);
     const float cosine = dot(joint.before, joint.after);
-    /* The inner side of the mitre must not eat up half of a neighbouring segment. */
+    /* The inner side of the mitre must not take up half of a neighbouring segment. */
     const float inner = reach * reach * (1.0f - cosine), shorter = 0.5f * fminf(length, next);
     joint.mitred = cosine > sharpest && inner <= shorter * shorter * (1.0f + cosine);
     return joint;
@@ -76,7 +76,8 @@ size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
     return breaks;
 }
 
-/* The two sides of the strip at a point; `slant` is along the normal of one direction or between two. */
+/* Writes the two sides of the strip at a point; `slant` is along the normal of one direction or between
+   two. */
 static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float along,
                       float half, struct gm_rgba ink)
 {
@@ -92,7 +93,7 @@ static struct gm_point normal(struct gm_point way)
     return (struct gm_point){-way.y, way.x};
 }
 
-/* From a mitred joint's two normals to the vector whose projection on either is 1. */
+/* Returns the vector whose projection on both normals of a mitred joint is 1. */
 static struct gm_point mitre(struct joint joint)
 {
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
@@ -105,7 +106,7 @@ static struct gm_point beyond(struct gm_point p, struct gm_point way, float dist
     return (struct gm_point){p.x + distance * way.x, p.y + distance * way.y};
 }
 
-/* A run of mitred segments from point `first` over `segments` segments, round at both ends. */
+/* Draws `segments` mitred segments from point `first` on, round at both ends. */
 static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size_t first, size_t segments,
                     float half, struct gm_rgba ink)
 {
@@ -130,7 +131,7 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
     gm_batch_end(batch, 0);
 }
 
-/* A closed line all of whose joints are mitred. */
+/* Draws a closed line with mitred joints only. */
 static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_rgba ink)
 {
     const float reach = half + fringe;
@@ -204,7 +205,7 @@ void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, f
     gm_batch_end(batch, 0);
 }
 
-/* Convex: every turn has one sign, and they add up to one round, so that x rises and falls once. */
+/* Returns true if all turns have one sign and add up to one round, so that x rises and falls once. */
 static bool convex(const struct gm_polyline *line)
 {
     const size_t n = line->count;
@@ -244,14 +245,14 @@ static float perimeter_of(const struct gm_polyline *line)
     return gm_polyline_length(&closed);
 }
 
-/* The corners in the order 0, 1, n-1, 2, n-2, ...: as a strip they cover a convex polygon once, and the
+/* Returns corner i in the order 0, 1, n-1, 2, n-2, ...: as a strip they cover a convex polygon once, and the
    inside of any polygon an odd number of times. */
 static size_t zigzag(size_t i, size_t n)
 {
     return i == 0 ? 0 : i % 2 == 1 ? (i + 1) / 2 : n - i / 2;
 }
 
-/* Moves a corner along the bisector by `distance` from both of its sides. */
+/* Returns a corner moved along the bisector by `distance` from both of its sides. */
 static struct gm_point shifted(const struct gm_polyline *line, size_t i, float distance)
 {
     const struct joint joint = joint_at(line, i, 0.0f);
@@ -264,7 +265,7 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
 static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
                         struct gm_rgba ink)
 {
-    /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
+    /* The fading rim comes first, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
     struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
     if (!ring) {
@@ -327,7 +328,7 @@ void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, str
         return;
     }
     const float area = area_of(line);
-    /* Where the rim would be most of it, half a pixel inwards is already beyond the middle. */
+    /* Half a pixel inwards is beyond the middle of a thin polygon. */
     const bool thick = fabsf(area) > 2.0f * perimeter_of(line);
     if (convex(line) && thick) {
         fill_convex(batch, line, area > 0.0f ? -1.0f : 1.0f, ink);

@@ -8,7 +8,7 @@
 #include "render/gl/library.h"
 #include "render/message.h"
 
-enum { TAKEN = 16 << 20 /* bytes of the address space, by Cairo and what it loads */ };
+enum { TAKEN = 16 << 20 /* bytes of address space that Cairo and its libraries take */ };
 
 struct gm_cairo gm_cairo;
 
@@ -33,7 +33,7 @@ bool gm_cairo_open(char *message)
     pthread_once(&once, open_once);
     if (!opened) {
         gm_refuse(message, "a PDF needs Cairo, but %s", reason);
-        errno = gm_address_space_has(TAKEN) ? ENOENT : ENOMEM; /* the loader tells it in words alone */
+        errno = gm_address_space_has(TAKEN) ? ENOENT : ENOMEM; /* the loader gives only a text */
     }
     return opened;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cairo, opened when the first PDF is written: with what it needs of X it is a quarter of all that the program would
-   load at every start. */
+/* Cairo, opened when the first PDF is written: with its parts of X it is a quarter of all that the program
+   would load at every start. */
 #ifndef GM_RENDER_VECTOR_CAIRO_H
 #define GM_RENDER_VECTOR_CAIRO_H
 
@@ -9,7 +9,7 @@
 #include <cairo-ft.h>
 #include <cairo-pdf.h>
 
-/* What is used of it: cairo_clip is gm_cairo.clip. */
+/* The functions in use: cairo_clip is gm_cairo.clip. */
 /* clang-format off */
 #define GM_CAIRO_FUNCTIONS(F) \
     F(clip) F(close_path) F(create) F(destroy) F(fill) F(font_face_destroy) F(font_options_create) \
@@ -32,7 +32,7 @@ struct gm_cairo {
 
 extern struct gm_cairo gm_cairo;
 
-/* False if there is none, with one sentence in message and errno: ENOENT or ENOMEM. */
+/* Returns false without Cairo, with one sentence in message and errno: ENOENT or ENOMEM. */
 bool gm_cairo_open(char *message);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of colours as pixels: values are interpolated as OpenGL does it, linearly in triangles, bilinearly
+/* Fields of colours as pixels: values are interpolated as in OpenGL, linearly in triangles, bilinearly
    between the cells' middles in images. */
 #include "render/vector/vector.h"
 
@@ -18,7 +18,7 @@ void gm_field_image_close(struct gm_field_image *field)
     field->pixels = NULL;
 }
 
-/* Towards zero, and within the bounds; NaN is the lower one. */
+/* Rounds towards zero, within the bounds; NaN becomes the lower one. */
 static int clamp(double value, int low, int high)
 {
     return value > low ? (value < high ? (int)value : high) : low;
@@ -32,10 +32,10 @@ static void put(struct gm_field_image *field, int x, int y, const struct gm_mark
 }
 
 struct corner {
-    double x, y, value; /* in pixels of the field */
+    double x, y, value; /* x and y in pixels of the field */
 };
 
-/* Every pixel whose middle lies in the triangle, or on an edge of it. */
+/* Paints every pixel whose middle is in the triangle, or on an edge of it. */
 static void paint_triangle(struct gm_field_image *field, const struct gm_mark *mark, const struct corner c[3])
 {
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
@@ -116,8 +116,8 @@ static bool paint(struct gm_field_image *field, const struct gm_axes *axes, cons
     return true;
 }
 
-/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing that
-   lies under the field's edge shines through half of it. */
+/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing under
+   the field's edge shines through half of it. */
 static void keep_whole_pixels(struct gm_field_image *field, const struct gm_field_image *whole, int fine)
 {
     for (int y = 0; y < field->rows; y++) {

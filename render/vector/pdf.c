@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pen that writes PDF, by Cairo, which finds no font of its own: letters are those of the same file as
-   those of the PNG, and stand where its layout puts them. */
+/* The pen that writes PDF, with Cairo. Letters come from the same font file as in a PNG, and are placed by
+   its layout. */
 #include "render/vector/cairo.h"
 #include "render/vector/vector.h"
 
@@ -164,7 +164,7 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 
 /* ---- letters ---- */
 
-/* The font of a file; NULL when memory is short. */
+/* Returns the font of a file; NULL when out of memory. */
 static cairo_font_face_t *font_of(const char *file)
 {
     FcPattern *pattern = FcPatternCreate();
@@ -178,7 +178,7 @@ static cairo_font_face_t *font_of(const char *file)
     return font;
 }
 
-/* Letter by letter, where the widths of the layout put them; as text, so that it can be found and copied. */
+/* Places each letter by the widths of the layout, as text, so that it can be found and copied. */
 static void text(void *self, const struct gm_writing *writing, const char *text)
 {
     struct gm_pdf *pdf = self;
@@ -221,7 +221,7 @@ static const struct gm_pen pen = {.clip = clip,
 
 /* ---- the page ---- */
 
-/* A file as it grows in memory. */
+/* A file in memory. */
 struct bytes {
     char *at;
     size_t size, capacity;
@@ -244,7 +244,7 @@ static cairo_status_t take_bytes(void *closure, const unsigned char *data, unsig
     return CAIRO_STATUS_SUCCESS;
 }
 
-/* What the file tells of itself: how it was made, in its subject. */
+/* Sets the metadata: the subject has the texts that reproduce the file. */
 static void set_metadata(cairo_surface_t *surface, const char *title, const struct gm_png_text *texts,
                          size_t count)
 {
@@ -287,7 +287,7 @@ static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, stru
     }
 }
 
-/* The whole file in memory, malloc'ed; NULL when that is short. */
+/* Returns the whole file, which the caller frees; NULL when out of memory. */
 static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture,
                        const struct gm_png_text *texts, size_t count, size_t *size)
 {

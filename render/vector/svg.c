@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pen that writes SVG. Places are written in hundredths of a pixel: lines as differences of the rounded
-   places, so that errors do not add up. Neighbours of one look share their attributes, and opaque lines one
+/* The pen that writes SVG. Places are in hundredths of a pixel; lines are differences of the rounded places,
+   so that errors do not add up. Neighbours of one look share their attributes, and opaque lines share a
    path. */
 #include "render/vector/vector.h"
 
@@ -23,12 +23,12 @@ struct gm_svg {
     FILE *out;
     struct gm_painter painter;
     int clip[4];
-    bool clipped; /* within a group that is cut to it */
+    bool clipped; /* true inside a group with this clip */
     int clips[MOST_CLIPS][4];
     size_t clip_count;
-    /* what is open: shapes of one look */
+    /* the open element: shapes of one look */
     enum shape shape;
-    struct gm_stroke stroke; /* of discs the width, of all the ink */
+    struct gm_stroke stroke; /* discs use the width, all shapes the ink */
     bool ramps[2];           /* gradients that are defined */
     size_t fields;
     bool short_of_memory;
@@ -42,7 +42,7 @@ static long hundredths(double value)
     return lround(100.0 * fmin(fmax(value, -far), far));
 }
 
-/* A number without what is not needed: "12.5", "-.25". No locale has a say in it. */
+/* Writes a number in its shortest form, in any locale: "12.5", "-.25". */
 static void put_hundredths(FILE *out, long value)
 {
     const long whole = labs(value) / 100, part = labs(value) % 100;
@@ -57,7 +57,7 @@ static void put_hundredths(FILE *out, long value)
     }
 }
 
-/* The same behind another number, with a blank where it would run into that one. */
+/* Writes a number after another one, with a blank if they would merge. */
 static void put_next(FILE *out, long value)
 {
     if (value >= 0) {
@@ -83,7 +83,7 @@ static void put_ink(FILE *out, const char *name, struct gm_ink ink)
     }
 }
 
-/* XML has no way to write most control characters: what is not shown becomes the sign for that. */
+/* XML cannot contain most control characters: characters that are not shown become U+FFFD. */
 static void put_text(FILE *out, const char *text)
 {
     static const char unknown[] = "\xef\xbf\xbd";
@@ -138,7 +138,7 @@ static void put_clip(struct gm_svg *svg)
     }
     if (k == known) {
         k = svg->clip_count++;
-        if (k < MOST_CLIPS) { /* the others are defined each time */
+        if (k < MOST_CLIPS) { /* further clips are defined each time */
             memcpy(svg->clips[k], clip, sizeof svg->clip);
         }
         fprintf(svg->out,
@@ -167,7 +167,7 @@ static void clip(void *self, int left, int top, int width, int height)
     }
 }
 
-/* Opens what shapes of that look stand in, unless it is open. */
+/* Opens the element for shapes of that look, unless it is open. */
 static void begin_shapes(struct gm_svg *svg, enum shape shape, const struct gm_stroke *stroke)
 {
     if (svg->shape == shape && same_stroke(&svg->stroke, stroke)) {
@@ -348,7 +348,7 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 
 /* ---- letters ---- */
 
-/* Of other fonts, those that are about as wide. */
+/* Writes the family, then other fonts of about its width. */
 static void put_family(struct gm_svg *svg, enum gm_font font)
 {
     fprintf(svg->out, " font-family=\"'%s', %s\"", gm_glyphs_family(svg->painter.glyphs, font),

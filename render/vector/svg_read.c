@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an SVG of ours tells of itself: the texts of its metadata, as svg.c writes them. */
+/* Reading the texts in the metadata of an SVG, as svg.c writes them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static void unescape(char *text)
     *to = '\0';
 }
 
-/* The text of a key between two places; malloc'ed, NULL if there is none or memory is short. */
+/* Returns the text of a key between two places, which the caller frees; NULL without it. */
 static char *text_of(const char *from, const char *to, const char *key)
 {
     char front[128];
