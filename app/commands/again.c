@@ -129,21 +129,20 @@ static int chart_again(const struct gm_options *options, const char *command)
     struct gm_arguments *words = gm_arguments_in(options->arena);
     gm_arena_need(options->arena, gm_arguments_split(words, command));
     const struct gm_command_row *chart = words->count > 0 ? chart_of(words->words[0]) : NULL;
-    struct gm_options again = {0};
-    int status = GM_EXIT_FILE;
-    if (chart && gm_options_parse(&again, chart->bit, words->count, words->words, 1, message)) {
-        again.out = options->out || options->output ? options->out : ".";
-        again.output = options->output;
-        again.format = options->format;
-        again.name = output_name(options, "");
-        again.arena = options->arena;
-        again.end = options->end;
-        status = chart->function(&again);
-    } else {
-        gm_complain("%s cannot be made again: %s", options->arguments.words[0], message);
+    /* the chart's command may leave by the arena */
+    struct gm_options *again = gm_arena_take(options->arena, 1, sizeof *again);
+    gm_arena_keep(options->arena, again, gm_options_close);
+    if (chart && gm_options_parse(again, chart->bit, words->count, words->words, 1, message)) {
+        again->out = options->out || options->output ? options->out : ".";
+        again->output = options->output;
+        again->format = options->format;
+        again->name = output_name(options, "");
+        again->arena = options->arena;
+        again->end = options->end;
+        return chart->function(again);
     }
-    gm_options_close(&again);
-    return status;
+    gm_complain("%s cannot be made again: %s", options->arguments.words[0], message);
+    return GM_EXIT_FILE;
 }
 
 /* The painter of the stored PNG is used by default. */

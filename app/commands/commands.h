@@ -55,7 +55,7 @@ struct gm_options {
    both cases. */
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
-void gm_options_close(struct gm_options *options);
+void gm_options_close(void *options);
 
 /* Returns true if a picture goes to standard output; nothing else may then be written there. */
 bool gm_options_take_stdout(const struct gm_options *options);

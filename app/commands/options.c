@@ -495,8 +495,9 @@ bool gm_options_take_stdout(const struct gm_options *options)
     return options->output && strcmp(options->output, "-") == 0;
 }
 
-void gm_options_close(struct gm_options *options)
+void gm_options_close(void *self)
 {
+    struct gm_options *options = self;
     gm_arguments_close(&options->arguments);
 }
 
