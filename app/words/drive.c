@@ -65,7 +65,7 @@ int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
     return end < step ? end : step;
 }
 
-/* The clock is read after every long step, but only once per `unasked` seconds of short ones: reading it
+/* The clock is read after every slow step, but only once per `unasked` seconds of short ones: reading it
    takes longer than a short step. A step too short to be measured counts as `shortest` seconds. */
 static const double unasked = 20e-6, shortest = 20e-9;
 
