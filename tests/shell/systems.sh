@@ -255,14 +255,16 @@ refused 1 'names of scenes' list nothing
 # every one of them runs, is drawn, and is made again without its file
 for file in "$systems"/*.system; do
     name=$(basename "$file" .system)
-    "$geomint" run "$name" steps=20 --json >out 2>err || fail "run $name: $(cat err)"
+    step= # at the usual one Verlet loses a part of the energy of stiff springs
+    [ "$name" = stiff ] && step=dt=0.005
+    "$geomint" run "$name" ${step:+"$step"} steps=20 --json >out 2>err || fail "run $name: $(cat err)"
     python3 -c '
 import json
 run = json.load(open("out"))
 assert run["status"] == "ok" and run["steps"] == 20, run
 for key, value in run["observables"].items():
-    # what the rotor keeps between its kicks is no energy of both; Verlet loses that of stiff springs by its step
-    limit = 1 if run["scene"] in ("kicked-rotor", "stiff") else 0.05
+    # the rotor conserves an energy between its kicks alone
+    limit = 1 if run["scene"] == "kicked-rotor" else 0.05
     assert value is None or not key.endswith("_error") or value < limit, (key, value)
 ' || fail "run $name"
 done
