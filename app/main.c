@@ -9,13 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
+#include "app/words/names.h"
+#include "core/aliases.h"
 #include "core/arena.h"
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "render/address_space.h"
@@ -40,45 +44,78 @@ static bool is_one_of(const char *word, const char *const *words)
 
 static void help_command(const struct gm_command_row *command)
 {
-    printf("  geomint %s %s\n      %s\n", command->name, command->synopsis, command->help);
+    enum { OPTION = 28 };
+    gm_print_wrapped(command->synopsis, printf("geomint %s ", command->name), 4);
+    gm_print_wrapped(command->help, printf("  "), 2);
     for (size_t i = 0; i < gm_option_count; i++) {
         const struct gm_option *option = &gm_option_rows[i];
         if (option->commands & command->bit) {
-            char left[40];
-            snprintf(left, sizeof left, "%s %s", option->name, option->value);
-            printf("      %-20s %s\n", left, option->help);
+            gm_print_wrapped(option->help, printf("  %s %s  ", option->name, option->value), OPTION);
         }
+    }
+}
+
+/* Lines that do not go to a terminal are as wide as an ordinary one, unless COLUMNS gives the width. */
+static void set_width(void)
+{
+    if (!isatty(STDOUT_FILENO)) {
+        setenv("COLUMNS", "80", 0);
     }
 }
 
 static int help_of(const struct gm_command_row *command)
 {
+    set_width();
     help_command(command);
     return gm_finish(GM_EXIT_OK);
 }
 
+/* Reports an unknown first word, with what it probably means: a command, a scene, or scenes that contain it. */
 static int unknown_command(const char *word)
 {
-    const char *near = gm_nearest(word, gm_command_count + gm_scene_count(), first_word, NULL);
+    char near[GM_NEAR_NAMES] = "", folder[GM_MESSAGE];
+    const struct gm_near *row;
+    for (size_t i = 0; (row = gm_near_find(GM_NEAR_COMMAND, word, i)); i++) {
+        const size_t used = strlen(near);
+        snprintf(near + used, sizeof near - used, "%s%s", i > 0 ? " or " : "", row->meant);
+    }
+    const char *nearest = gm_nearest(word, gm_command_count + gm_scene_count(), first_word, NULL);
+    if (!near[0] && nearest) {
+        snprintf(near, sizeof near, "%s", nearest);
+    } else if (!near[0]) {
+        gm_system_near(word, near, folder);
+    }
     return gm_give_up(GM_EXIT_USAGE, "there is no command or scene \"%.60s\"%s%s", word,
-                      near ? "; did you mean " : "; see geomint --help", near ? near : "");
+                      near[0] ? "; did you mean " : "; see geomint --help", near);
 }
 
-static int help(void)
+/* `all`: with the options of every command. */
+static int help(bool all)
 {
-    printf("geomint %s: see what a geometric integrator keeps and what an ordinary one destroys.\n\n"
-           "  geomint [tui [SCENE] [key=value ...]]\n",
-           GM_VERSION);
+    enum { COMMAND = 18 };
+    static const char *const notes[] = {
+        "geomint COMMAND --help explains the options of a command, geomint --help --all those of all commands.",
+        "key=value sets a parameter (geomint list SCENE shows them), and scheme=a,b,c the schemes. Every key takes "
+        "a list. The lanes are the product of the lists; zip=yes pairs them, and overlay=yes draws all lanes in "
+        "one panel. Numbers are typed as 1e-3 or pi/60. Ranges are 0..0.9:10, or 1e-4..1e-1:log7 by equal factors.",
+        "Exit status: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 5 not enough memory, "
+        "130 interrupted."};
+    set_width();
+    gm_print_wrapped("see what a geometric integrator conserves and what an ordinary one destroys",
+                     printf("geomint %s: ", GM_VERSION), 2);
+    printf("\n");
     for (size_t i = 0; i < gm_command_count; i++) {
-        help_command(&gm_commands[i]);
+        if (all) {
+            help_command(&gm_commands[i]);
+        } else {
+            gm_print_wrapped(gm_commands[i].help, printf("  %s ", gm_commands[i].name), COMMAND);
+        }
     }
-    printf(
-        "  geomint --version (-V) | --help (-h), geomint COMMAND --help (-h)\n\n"
-        "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
-        "a list, and lanes are the product of the lists (zip=yes pairs them, overlay=yes puts all\n"
-        "into one panel). Numbers are typed as 1e-3, pi/60; ranges as 0..0.9:10, or 1e-4..1e-1:log7 by equal factors.\n"
-        "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim,\n"
-        "      5 not enough memory, 130 interrupted.\n");
+    gm_print_wrapped("version and libraries", printf("  --version, -V "), COMMAND);
+    for (size_t i = 0; i < GM_COUNT(notes); i++) {
+        printf("\n");
+        gm_print_wrapped(notes[i], 0, 0);
+    }
     return gm_finish(GM_EXIT_OK);
 }
 
@@ -138,8 +175,9 @@ static int run(int argc, char *argv[])
     int first = 1;
     if (argc > 1) {
         if (is_one_of(argv[1], (const char *const[]){"--help", "-h", "help", NULL})) {
-            if (argc == 2) {
-                return help();
+            const bool all = argc == 3 && strcmp(argv[2], "--all") == 0;
+            if (argc == 2 || all) {
+                return help(all);
             }
             command = gm_command_find(argv[2]);
             return command ? help_of(command) : unknown_command(argv[2]);

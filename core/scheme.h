@@ -69,7 +69,6 @@ struct gm_step_limit {
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
-    const char *alias[2];  /* other names; NULL: no more */
     const char *title;     /* "RK4", as pictures write it */
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* source of the scheme */

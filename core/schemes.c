@@ -5,7 +5,9 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "core/aliases.h"
 #include "core/expression/nearest.h"
 
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
@@ -44,35 +46,6 @@ const struct gm_scheme *gm_scheme_at(size_t index)
     return NULL;
 }
 
-const char *gm_scheme_known_as(const char *word)
-{
-    static const char *const names[][2] = {
-        {"leapfrog", "verlet"},
-        {"velocity-verlet", "verlet"},
-        {"stormer-verlet", "verlet"},
-        {"kick-drift-kick", "verlet"},
-        {"position-verlet", "verlet-position"},
-        {"drift-kick-drift", "verlet-position"},
-        {"euler", "explicit-euler"},
-        {"forward-euler", "explicit-euler"},
-        {"backward-euler", "implicit-euler"},
-        {"semi-implicit-euler", "symplectic-euler"},
-        {"euler-cromer", "symplectic-euler"},
-        {"implicit-midpoint", "midpoint"},
-        {"implicit-trapezoidal", "trapezoidal"},
-        {"crank-nicolson", "trapezoidal"},
-        {"heun", "rk2"},
-        {"runge-kutta", "rk4"},
-        {"preissmann", "box"},
-    };
-    for (size_t i = 0; i < GM_COUNT(names); i++) {
-        if (strcmp(names[i][0], word) == 0) {
-            return names[i][1];
-        }
-    }
-    return NULL;
-}
-
 static const char *name_at(size_t i, const void *data)
 {
     return (void)data, gm_scheme_at(i)->name;
@@ -80,8 +53,8 @@ static const char *name_at(size_t i, const void *data)
 
 const char *gm_scheme_near(const char *word)
 {
-    const char *known = gm_scheme_known_as(word);
-    return known ? known : gm_nearest(word, gm_scheme_count(), name_at, NULL);
+    const struct gm_near *near = gm_near_find(GM_NEAR_SCHEME, word, 0);
+    return near ? near->meant : gm_nearest(word, gm_scheme_count(), name_at, NULL);
 }
 
 /* The user-defined schemes, which any thread may add. */
@@ -122,40 +95,38 @@ static const struct gm_scheme *find_brought(const char *name, const struct gm_pr
     return found;
 }
 
-static bool is_called(const struct gm_scheme *scheme, const char *name)
+/* The first scheme of the program with that name, by a comparison of strings, that fits; problem NULL: the
+   first one. */
+static const struct gm_scheme *find_row(const char *name, int (*compare)(const char *a, const char *b),
+                                        const struct gm_problem *problem)
 {
-    bool called = strcmp(scheme->name, name) == 0;
-    for (size_t i = 0; i < GM_COUNT(scheme->alias) && scheme->alias[i]; i++) {
-        called |= strcmp(scheme->alias[i], name) == 0;
+    const struct gm_scheme *scheme;
+    for (size_t i = 0; (scheme = gm_scheme_at(i)); i++) {
+        if (compare(scheme->name, name) == 0 && (!problem || gm_scheme_fits(scheme, problem))) {
+            return scheme;
+        }
     }
-    return called;
+    return NULL;
 }
 
 const struct gm_scheme *gm_scheme_find(const char *name)
 {
-    const struct gm_scheme *scheme;
-    for (size_t i = 0; (scheme = gm_scheme_at(i)); i++) {
-        if (is_called(scheme, name)) {
-            return scheme;
-        }
-    }
-    return find_brought(name, NULL);
+    const struct gm_scheme *scheme = find_row(name, strcmp, NULL);
+    scheme = scheme ? scheme : find_brought(name, NULL);
+    const char *meaning = scheme ? NULL : gm_alias_meaning(name);
+    scheme = meaning ? find_row(meaning, strcmp, NULL) : scheme;
+    return scheme ? scheme : find_row(name, strcasecmp, NULL);
 }
 
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem)
 {
-    const struct gm_scheme *found = gm_scheme_find(name);
-    if (found && found->word) {
-        const struct gm_scheme *fitting = find_brought(name, problem);
-        return fitting ? fitting : found;
+    const struct gm_scheme *found = gm_scheme_find(name), *fitting = NULL;
+    if (found) {
+        fitting = found->word ? find_brought(name, problem) : find_row(found->name, strcmp, problem);
     }
-    for (size_t i = 0; found && i < gm_scheme_count() && !gm_scheme_fits(found, problem); i++) {
-        const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (strcmp(scheme->name, found->name) == 0 && gm_scheme_fits(scheme, problem)) {
-            return scheme;
-        }
-    }
-    return found;
+    const char *meaning = found && !fitting ? gm_alias_meaning(name) : NULL;
+    fitting = meaning ? find_row(meaning, strcmp, problem) : fitting;
+    return fitting ? fitting : found;
 }
 
 /* Schemes that a user wrote are compared with none. */

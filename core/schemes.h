@@ -8,18 +8,17 @@
 
 size_t gm_scheme_count(void);
 const struct gm_scheme *gm_scheme_at(size_t index);
-/* The scheme with that name or word, or NULL; the last of several user-defined schemes with one name. */
+/* The scheme with that name or word, else with that alias or with the name in another letter case, or NULL; the
+   last of several user-defined schemes with one name. */
 const struct gm_scheme *gm_scheme_find(const char *name);
-/* The row of that name that fits the problem, if one name has rows for several facets; without such a row,
-   one that does not fit; NULL without a scheme of that name. */
+/* The row of that name that fits the problem, if one name has rows for several facets, else the fitting scheme
+   with that alias; without one, a scheme that does not fit; NULL without a scheme of that name. */
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
 
 /* The scheme of another name that makes the same steps on this problem; NULL: not known. */
 const struct gm_scheme *gm_scheme_same_as(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
-/* The name of a scheme that other programs call `word`, or NULL. */
-const char *gm_scheme_known_as(const char *word);
-/* The name of gm_scheme_known_as, else the nearest; NULL if none is near. */
+/* The name of the scheme that an unknown word probably means; NULL if none is near. */
 const char *gm_scheme_near(const char *word);
 
 /* Adds a user-defined scheme, which is then found by its name or its word. It must never be freed. Returns

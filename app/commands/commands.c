@@ -26,7 +26,7 @@ const struct gm_command_row *gm_command_find(const char *word)
             return &gm_commands[i];
         }
     }
-    return gm_scene_find(word) || gm_system_is(word) ? &gm_commands[0] : NULL;
+    return gm_scene_called(word) || gm_system_is(word) ? &gm_commands[0] : NULL;
 }
 
 void gm_command_end(const struct gm_options *options, int status, const char *format, ...)

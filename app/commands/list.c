@@ -13,6 +13,7 @@
 #include "app/words/names.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
+#include "core/aliases.h"
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
@@ -100,6 +101,15 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
             snprintf(text, sizeof text, "%s; %s%s%s", scheme->family->title, scheme->reference,
                      equations ? "; derivative of a step: " : "", equations ? gm_tangent_word(scheme) : "");
             gm_print_wrapped(text, printf("  "), 2);
+            const char *alias;
+            size_t used = 0;
+            for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)) && used < sizeof text; i++) {
+                used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
+                                         i == 0 ? "also called " : ", ", alias);
+            }
+            if (used > 0) {
+                gm_print_wrapped(text, printf("  "), 2);
+            }
         }
         return;
     }
@@ -128,7 +138,7 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
     gm_print_wrapped(claims ? text : "claims: none", 0, 8);
 }
 
-/* A scheme with all that have its name, for other kinds of problems; NULL: all schemes of the program. */
+/* The page of a scheme and of all that have its name, for other kinds of problems; NULL: a list of all schemes. */
 static int list_schemes_like(const struct gm_scheme *like, const struct gm_options *options)
 {
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
@@ -141,8 +151,10 @@ static int list_schemes_like(const struct gm_scheme *like, const struct gm_optio
             schemes[count++] = gm_scheme_at(i);
         }
     }
+    struct gm_options longer = *options;
+    longer.longer |= like != NULL;
     for (size_t i = 0; i < count; i++) {
-        list_scheme(schemes[i], options, true, NULL);
+        list_scheme(schemes[i], &longer, true, NULL);
     }
     if (!options->json) {
         print_legend(schemes, count);
@@ -393,12 +405,12 @@ static int list_markdown(const char *what)
 
 static int refuse_name(const char *word)
 {
-    char near[GM_NEAR], folder[GM_MESSAGE] = "";
+    char near[GM_NEAR_NAMES], folder[GM_MESSAGE] = "";
     const char *list = gm_nearest(word, GM_COUNT(lists), list_name, NULL);
     const char *found = list                                 ? list
                         : gm_system_near(word, near, folder) ? near
                         : folder[0]                          ? NULL
-                                                             : gm_scheme_near(word);
+                                                             : gm_scheme_meant(NULL, word);
     if (!found && folder[0]) {
         return gm_give_up(GM_EXIT_FILE, "%s", folder);
     }
@@ -483,7 +495,7 @@ int gm_command_list(const struct gm_options *options)
     if (list) {
         return list->print ? list->print(options) : list_files(list, options);
     }
-    const struct gm_scene *scene = gm_scene_find(what);
+    const struct gm_scene *scene = gm_scene_called(what);
     const bool room = !scene && gm_file_find(GM_FILE_ROOM, what, &file),
                from_file = room || (scene && (find_file(GM_FILE_SYSTEM, what, &file) ||
                                               find_file(GM_FILE_ROOM, what, &file)));

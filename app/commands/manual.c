@@ -7,6 +7,7 @@
 #include "app/commands/reference/reference.h"
 #include "app/output/say.h"
 #include "app/words/words.h"
+#include "core/aliases.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 
@@ -77,7 +78,7 @@ static void put_commands(void)
         printf("%s", options ? ".RE\n" : "");
     }
     put_term("--help, -h", "");
-    put_line("commands and options; behind a command, its own");
+    put_line("the commands; after a command, its options; with --all, the options of all commands");
     put_term("--version, -V", "");
     put_line("version and libraries");
 }
@@ -136,7 +137,13 @@ static void put_schemes(void)
             printf(", order %d", scheme->order);
         }
         printf("%s", letters[0] ? ", " : "");
-        put_line(letters);
+        put(letters);
+        const char *alias;
+        for (size_t k = 0; (alias = gm_alias_of(scheme->name, k)); k++) {
+            printf("%s", k == 0 ? "; also called " : ", ");
+            put(alias);
+        }
+        printf("\n");
     }
 }
 

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "app/words/system.h"
+#include "app/words/words.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "render/cells/text.h"
@@ -39,14 +41,14 @@ enum kind {
 const struct gm_option gm_option_rows[] = {
     {"--json", FLAG,
      GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_BACKWARD | GM_WORK_PRECISION | GM_FIGURES, AT(json),
-     "", "one JSON object a line"},
+     "", "one JSON object per line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
     {"--source", FLAG, GM_LIST, AT(source), "",
      "the text of a system's, a room's, a scheme's or a tour's file"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
-    {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, of all steps the value of largest magnitude"},
+    {"--max", FLAG, GM_RUN, AT(maximum), "", "also NAME_max, the value of largest magnitude over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
     {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
     {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
@@ -55,62 +57,63 @@ const struct gm_option gm_option_rows[] = {
      "a row at the steps next to multiples of T in model time"},
     {"--save", TEXT, GM_RUN, AT(save), "FILE", "write the states to FILE: .npz, .csv, .pvd or .xdmf"},
     {"--save-tracks", TEXT, GM_RUN, AT(tracks), "FILE", "write trails, sections ... to FILE.npz"},
-    {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE", "keep the state in FILE, to be gone on with"},
-    {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "go on from a checkpoint"},
+    {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE",
+     "write the state to FILE, from which --continue resumes"},
+    {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "resume from a checkpoint"},
     {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
-    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames a second of the movie (30)"},
-    {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
+    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames per second of the movie (30)"},
+    {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time per second of the movie"},
     {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--output", TEXT, PRINTS, AT(output), "FILE",
      "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
     {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
-     "format of pictures whose names do not tell it (png)"},
+     "format of pictures whose names have no ending (png)"},
     {"--painter", TEXT, GM_PAINTS, AT(painter), "auto|osmesa|egl|own",
-     "what paints pixels: OSMesa, where it is, and own in the terminal (auto)"},
+     "what paints pixels: OSMesa if it is installed, own in the terminal (auto)"},
     {"--title", TITLE, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.title), "TEXT",
-     "title of the picture instead of its own"},
+     "title of the picture"},
     {"--size", SIZE, PAINTS, AT(look.width), "WxH", "pixels (1280x720), or lengths: 16x9cm, 160x90mm"},
-    {"--dpi", DPI, PAINTS, AT(look.dpi), "N", "pixels an inch (of lengths 300, else 96)"},
+    {"--dpi", DPI, PAINTS, AT(look.dpi), "N", "pixels per inch (96; 300 for a size in lengths)"},
     {"--scale", SCALE, PAINTS, AT(look.scale), "S", "letters and lines S times as large (1)"},
     {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
      "colours for paper or for a screen"},
-    {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
+    {"--changes", TEXT, GM_RENDER, AT(changes), "LIST",
+     "LANE:STEP:KEY=VALUE,...: changes during the run (key y)"},
     {"--graphics", TEXT, EXPLORES, AT(terminal.graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, EXPLORES, AT(terminal.colours), "HOWMANY", "truecolor, 256, 16 or none"},
     {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
-    {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
-    {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one a core)"},
+    {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv",
+     "write the rows to FILE.csv; the same command resumes"},
+    {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one per core)"},
     {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS",
-     "rows of the table with this status, or with a warning, are made anew"},
+     "recompute the rows with this status, or with a warning"},
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
-     "even where these are more than a million runs or 1e11 steps"},
-    {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv",
-     "join the shares' tables, and name the rows that are missing"},
-    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
-    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N",
-     "only the I-th of N shares of the runs, in a table of its own"},
+     "also with more than a million runs or 1e11 steps"},
+    {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv", "join the shards' tables, and list the missing rows"},
+    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shards of the frames"},
+    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N", "only the I-th of N shards of the runs, in its own table"},
     {"--engine", ENGINE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
-     "auto|interpreted|native", "what advances systems of one's own: compiled loops, where they pay (auto)"},
-    {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove them"},
+     "auto|interpreted|native", "what advances user-defined systems (auto: compiled code, if it is faster)"},
+    {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove the compiled code"},
     {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
      "exit 2 if a lane ends in a numerical failure (run: or with a warning)"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--measure", TEXT, GM_RUN, AT(measure), "KEY,...",
-     "the observables that are told (all but those that are computed only when asked for)"},
+     "the printed observables (all except those computed on request)"},
     {"--measure", TEXT, GM_SWEEP, AT(measure), "KEY,...", "the observables of the table (all)"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
     {"--judge", TEXT, GM_STABILITY, AT(judge), "bounded|accurate[=E]",
-     "which steps stay bounded, or have an error of at most E, 0.1 unless given (bounded)"},
+     "steps that stay bounded, or whose error is at most E (bounded; E = 0.1)"},
     {"--on", TEXT, GM_CERTIFY, AT(on), "SYSTEM",
-     "measure on this system: a scene's name, a file, or system with formulas behind the scheme"},
+     "measure on this system: a scene, a file, or system with formulas after the scheme"},
     {"--polish", TEXT, GM_CERTIFY, AT(polish), "OUT.scheme",
      "write the scheme with decimals that satisfy the order conditions"},
-    {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
+    {"--list", FLAG, GM_TOUR, AT(listing), "", "list the tours, or the steps of one"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "smaller pictures; long runs are coarser and not judged"},
 };
 enum { ROWS = GM_COUNT(gm_option_rows) };
@@ -308,18 +311,28 @@ static const char *name_at(size_t i, const void *data)
     return gm_option_rows[i].commands & *command ? gm_option_rows[i].name + strlen("--") : "";
 }
 
-/* Reports an unknown option, with the one that was probably meant, or all options of the command. */
-static void refuse_option(char *message, const char *word, enum gm_command command)
+/* Reports an unknown option, with the key=value or the option that was probably meant, or all options of the
+   command. `next`: the word after it, or NULL. */
+static void refuse_option(char *message, const char *word, const char *next, const struct gm_options *options,
+                          enum gm_command command)
 {
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
-    const bool elsewhere = find(word, strcspn(word, "="), command);
-    const char *near = elsewhere ? NULL : gm_nearest(name + strlen("--"), ROWS, name_at, &command);
-    size_t used = (size_t)snprintf(message, GM_MESSAGE, "%s option %.60s%s%s",
-                                   elsewhere ? "this command has no" : "there is no", name,
+    char name[64], meant[128] = "";
+    const size_t length = strcspn(word, "=");
+    snprintf(name, sizeof name, "%.*s", (int)length, word);
+    const bool elsewhere = find(word, length, command);
+    const struct gm_scene *scene =
+        options->arguments.count > 0 ? gm_scene_called(options->arguments.words[0]) : NULL;
+    if (scene && !elsewhere) {
+        gm_words_assignment(scene, name + strlen("--"), word[length] ? word + length + 1 : next, meant,
+                            sizeof meant);
+    }
+    const bool search = !elsewhere && !meant[0];
+    const char *near = search ? gm_nearest(name + strlen("--"), ROWS, name_at, &command) : NULL;
+    size_t used = (size_t)snprintf(message, GM_MESSAGE, "%s option %.60s%s%s%s",
+                                   elsewhere ? "this command has no" : "there is no", name, meant,
                                    near ? "; did you mean --" : "", near ? near : "");
     const char *between = elsewhere ? "; it has " : "; there are ";
-    for (size_t i = 0; i < ROWS && !near && used < GM_MESSAGE; i++) {
+    for (size_t i = 0; i < ROWS && !near && !meant[0] && used < GM_MESSAGE; i++) {
         if (gm_option_rows[i].commands & command) {
             used +=
                 (size_t)snprintf(message + used, GM_MESSAGE - used, "%s%s", between, gm_option_rows[i].name);
@@ -465,7 +478,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         const char *equals = strchr(word, '=');
         const struct gm_option *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
         if (!row || !(row->commands & command)) {
-            refuse_option(message, word, command);
+            refuse_option(message, word, i + 1 < argc ? argv[i + 1] : NULL, options, command);
             return false;
         }
         const char *value = "";

@@ -63,10 +63,17 @@ static double observe_told(const struct outcome *outcome, size_t i)
     return gm_lane_observe(outcome->drive.lane, outcome->outputs->chosen.numbers[i]);
 }
 
+/* Returns true if it has a meaning for this run, or was given by --measure. */
+static bool is_meant(const struct outcome *outcome, size_t i)
+{
+    return outcome->outputs->options->measure ||
+           gm_lane_measures(outcome->drive.lane, outcome->outputs->chosen.numbers[i]);
+}
+
 /* The reason for its missing value, or NULL. */
 static const char *missing(const struct outcome *outcome, size_t i)
 {
-    return isnan(outcome->values[i])
+    return isnan(outcome->values[i]) && is_meant(outcome, i)
                ? gm_lane_missing(outcome->drive.lane, outcome->outputs->chosen.numbers[i])
                : NULL;
 }
@@ -189,6 +196,9 @@ static void print_text(const struct outcome *outcome)
            "solves", gm_run_per_member(run, run->solves), width, "seconds", outcome->drive.seconds);
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         const char *reason = missing(outcome, i);
+        if (!is_meant(outcome, i)) {
+            continue;
+        }
         if (reason) {
             printf("  %-*s none: %s\n", width, told(outcome, i)->key, reason);
         } else {
@@ -199,6 +209,9 @@ static void print_text(const struct outcome *outcome)
         const char *key = told(outcome, i)->key;
         const int left = width - (int)strlen(key);
         const bool none = isnan(outcome->maxima[i]) && missing(outcome, i);
+        if (!is_meant(outcome, i)) {
+            continue;
+        }
         printf(none ? "  %s%-*s none\n" : "  %s%-*s %.10g\n", key, left > 0 ? left : 0, "_max",
                outcome->maxima[i]);
     }

@@ -142,7 +142,8 @@ struct gm_shot {
     struct gm_picture *picture;
     size_t lane_count, selected;
     struct gm_shot_lane lanes[GM_MOST_LANES];
-    size_t observable_count;
+    size_t observable_count, measured_count;
+    bool measured[GM_SHOT_OBSERVABLES]; /* true for an observable with a meaning in the first lane */
     size_t parameter_count;
     struct gm_shot_parameter parameters[GM_SHOT_PARAMETERS];
     size_t scheme_count;

@@ -122,6 +122,11 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     if (shot->observable_count > GM_SHOT_OBSERVABLES) {
         shot->observable_count = GM_SHOT_OBSERVABLES;
     }
+    shot->measured_count = 0;
+    for (size_t k = 0; k < shot->observable_count; k++) {
+        shot->measured[k] = session->count > 0 && gm_lane_measures(session->lanes[0], k);
+        shot->measured_count += shot->measured[k];
+    }
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_lane *lane = session->lanes[i];
         struct gm_shot_lane *copy = &shot->lanes[i];

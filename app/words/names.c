@@ -8,6 +8,7 @@
 
 #include "app/base/arguments.h"
 #include "app/base/files.h"
+#include "core/aliases.h"
 #include "core/expression/nearest.h"
 #include "core/schemes.h"
 #include "scenes/common/scene.h"
@@ -137,10 +138,99 @@ void gm_chosen_close(struct gm_chosen *chosen)
     *chosen = (struct gm_chosen){0};
 }
 
-static void add_to(const struct gm_listed *listed, const void *names)
+/* ---- unknown words ---- */
+
+const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word)
+{
+    const struct gm_scheme *scheme = gm_scheme_find(word);
+    struct defaults defaults;
+    if (!scheme || scheme->word) {
+        return word;
+    }
+    if (strcmp(scheme->name, word) != 0) {
+        return gm_file_is(GM_FILE_SCHEME, word) ? word : scheme->name;
+    }
+    if (gm_alias_meaning(word) && open_defaults(&defaults, scene)) {
+        const struct gm_scheme *fitting = gm_scheme_find_for(word, &defaults.problem);
+        scheme = gm_scheme_fits(fitting, &defaults.problem) ? fitting : scheme;
+        close_defaults(&defaults);
+    }
+    return scheme->name;
+}
+
+/* Returns true if a text contains a word of at least three letters, in any case. */
+static bool contains(const char *text, const char *word)
+{
+    return strlen(word) > 2 && strcasestr(text, word);
+}
+
+static bool is_known_as(const struct gm_scheme *scheme, const char *word)
+{
+    bool known = contains(scheme->name, word) || contains(scheme->title, word);
+    const char *alias;
+    for (size_t i = 0; !known && (alias = gm_alias_of(scheme->name, i)); i++) {
+        known = contains(alias, word);
+    }
+    return known;
+}
+
+static const char *scheme_name(size_t i, const void *schemes)
+{
+    return ((const struct gm_scheme *const *)schemes)[i]->name;
+}
+
+const char *gm_scheme_meant(const struct gm_scene *scene, const char *word)
+{
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
+    const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
+    size_t count = 0;
+    if (row && gm_scheme_find(row->meant)) {
+        return row->meant;
+    }
+    for (size_t i = 0; !scene && i < gm_scheme_count() && i < GM_FITTING_SCHEMES; i++) {
+        schemes[count++] = gm_scheme_at(i);
+    }
+    count = scene ? gm_fitting_elsewhere(scene, schemes) : count;
+    const char *near = gm_nearest(word, count, scheme_name, schemes);
+    for (size_t i = 0; !near && i < count; i++) {
+        near = is_known_as(schemes[i], word) ? schemes[i]->name : NULL;
+    }
+    return near;
+}
+
+bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message)
+{
+    const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
+    const char *meant = gm_scheme_meant(scene, word);
+    char words[256] = "schemes";
+    if (row && meant == row->meant) {
+        return gm_refuse(message, "%.40s is not here; %s", word, row->why);
+    }
+    if (scene) {
+        gm_arguments_tell_scene(scene, words, sizeof words);
+    }
+    return gm_refuse(message, "there is no scheme \"%.60s\"%s%s", word,
+                     meant ? "; did you mean " : "; see geomint list ", meant ? meant : words);
+}
+
+/* Names of scenes and files for an unknown word. */
+struct names {
+    const char *word;
+    struct gm_arguments list, containing; /* all of them, and those whose name or title contains the word */
+};
+
+static void add_name(struct names *names, const char *name, const char *title)
 {
     /* one that memory was too short for is not proposed */
-    gm_arguments_add(*(struct gm_arguments *const *)names, listed->name);
+    gm_arguments_add(&names->list, name);
+    if (contains(name, names->word) || contains(title, names->word)) {
+        gm_arguments_add(&names->containing, name);
+    }
+}
+
+static void add_file(const struct gm_listed *listed, const void *names)
+{
+    add_name(*(struct names *const *)names, listed->name, listed->title);
 }
 
 static const char *name_at(size_t i, const void *names)
@@ -148,18 +238,43 @@ static const char *name_at(size_t i, const void *names)
     return ((const struct gm_arguments *)names)->words[i];
 }
 
-bool gm_system_near(const char *word, char near[GM_NEAR], char *message)
+/* Adds the first scene that has the word as a value, as "disc system=pendulum". */
+static void add_value(struct names *names)
 {
-    struct gm_arguments names = {0}, *list = &names;
-    message[0] = '\0';
+    for (size_t i = 0; i < gm_scene_count() && names->containing.count == 0; i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        for (size_t k = 0; k < scene->parameter_count && names->containing.count == 0; k++) {
+            const struct gm_parameter *row = &scene->parameters[k];
+            for (size_t c = 0; row->choices && row->choices[c]; c++) {
+                char text[GM_NEAR_NAMES];
+                snprintf(text, sizeof text, "%s %s=%s", scene->name, row->key, row->choices[c]);
+                if (strcmp(row->choices[c], names->word) == 0) {
+                    gm_arguments_add(&names->containing, text);
+                }
+            }
+        }
+    }
+}
+
+bool gm_system_near(const char *word, char near[GM_NEAR_NAMES], char *message)
+{
+    enum { MOST = 5 };
+    struct names names = {.word = word}, *all = &names;
+    message[0] = near[0] = '\0';
+    add_value(&names);
     for (size_t i = 0; i < gm_scene_count(); i++) {
-        gm_arguments_add(&names, gm_scene_name(i));
+        add_name(&names, gm_scene_name(i), gm_scene_title(i));
     }
     for (enum gm_file_kind kind = GM_FILE_SYSTEM; kind <= GM_FILE_ROOM; kind++) {
-        gm_files_each(kind, add_to, &list, message);
+        gm_files_each(kind, add_file, &all, message);
     }
-    const char *found = gm_nearest(word, (size_t)names.count, name_at, &names);
-    snprintf(near, GM_NEAR, "%s", found ? found : "");
-    gm_arguments_close(&names);
+    const char *found = gm_nearest(word, (size_t)names.list.count, name_at, &names.list);
+    snprintf(near, GM_NEAR_NAMES, "%s", found ? found : "");
+    for (int i = 0; !found && i < names.containing.count && i < MOST; i++) {
+        const size_t used = strlen(near);
+        snprintf(near + used, GM_NEAR_NAMES - used, "%s%s", i > 0 ? ", " : "", names.containing.words[i]);
+    }
+    gm_arguments_close(&names.list);
+    gm_arguments_close(&names.containing);
     return near[0] != '\0';
 }

@@ -42,12 +42,21 @@ void gm_chosen_close(struct gm_chosen *chosen);
 /* Refuses an observable that is not there, with the nearest that is. Returns false. */
 bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *message);
 
-/* Names of scenes, systems and rooms. */
+/* The meaning of words. */
 
-/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word. Returns
-   false if none is near; the message then names a folder of the environment that could not be opened, ""
-   if all could. */
-enum { GM_NEAR = 64 };
-bool gm_system_near(const char *word, char near[GM_NEAR], char *message);
+/* The own name of the scheme that a word means for a scene; the word itself if it is a file or unknown. */
+const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word);
+
+/* The name of the scheme that an unknown word probably means, among those that fit the scene (NULL: among all),
+   or NULL. */
+const char *gm_scheme_meant(const struct gm_scene *scene, const char *word);
+/* Refuses an unknown scheme, with what the word probably means. Returns false. */
+bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message);
+
+/* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word, else those that
+   contain it. Returns false if none is near; the message then names a folder of the environment that could
+   not be opened, "" if all could. */
+enum { GM_NEAR_NAMES = 256 };
+bool gm_system_near(const char *word, char near[GM_NEAR_NAMES], char *message);
 
 #endif

@@ -19,11 +19,6 @@
 #include "core/schemes.h"
 #include "scenes/common/symbol.h"
 
-static const char *scheme_name(size_t i, const void *data)
-{
-    return ((const struct gm_scheme *const *)data)[i]->name;
-}
-
 bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text, char *message)
 {
     _Alignas(max_align_t) char place[GM_TEXT_SIZE];
@@ -61,23 +56,13 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
 
 static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, const char *name, char *message)
 {
-    const struct gm_scene *scene = request->scene;
     bool unreadable = false;
     spec->scheme = gm_scheme_named(name, &unreadable, message);
     if (!spec->scheme && message[0]) {
         request->refusal = unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
         return false;
     }
-    if (!spec->scheme) {
-        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
-        const char *near = gm_scheme_known_as(name);
-        near = near ? near : gm_nearest(name, gm_fitting_elsewhere(scene, fitting), scheme_name, fitting);
-        char words[256];
-        gm_arguments_tell_scene(scene, words, sizeof words);
-        return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,
-                         near ? "; did you mean " : "; see geomint list ", near ? near : words);
-    }
-    return true;
+    return spec->scheme || gm_scheme_refuse(request->scene, name, message);
 }
 
 /* Applies value `index` of a list to a lane; some common keys are not the lane's. */
@@ -296,7 +281,7 @@ static bool find_schemes(struct gm_request *request, char *message)
 {
     const struct gm_scene *scene = request->scene;
     const struct gm_scheme *unfit = NULL;
-    const char *lacks = NULL, *known = NULL;
+    const char *lacks = NULL;
     for (size_t i = 0; i < request->count && !unfit; i++) {
         struct gm_problem problem = {0};
         if (is_repeated(request, i)) {
@@ -315,8 +300,6 @@ static bool find_schemes(struct gm_request *request, char *message)
                 spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
                 unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
                 lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
-                known = unfit ? gm_scheme_known_as(unfit->name) : NULL;
-                known = known && gm_scheme_fits(gm_scheme_find(known), &problem) ? known : NULL;
             }
         }
         if (scene->close) {
@@ -325,10 +308,9 @@ static bool find_schemes(struct gm_request *request, char *message)
     }
     char words[256];
     gm_arguments_tell_scene(scene, words, sizeof words);
-    return !unfit || gm_refuse(message, "scheme %s does not fit scene %s%s%s; %s%s%s", unfit->name,
-                               scene->name, lacks ? ": it needs " : "", lacks ? lacks : "",
-                               known ? "did you mean " : "geomint list ", known ? known : words,
-                               known ? "" : " names those that do");
+    return !unfit ||
+           gm_refuse(message, "scheme %s does not fit scene %s%s%s; geomint list %s names those that do",
+                     unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
 }
 
 /* Evaluations per model time over the first steps; NAN with a sentence if it cannot be measured. */
@@ -489,7 +471,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
 
 const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message)
 {
-    const struct gm_scene *scene = gm_scene_find(words[0]);
+    const struct gm_scene *scene = gm_scene_called(words[0]);
     *status = GM_EXIT_USAGE;
     if (scene && scene->parameter_count == 0) { /* there was no memory to open its file */
         *status = GM_EXIT_MEMORY;
@@ -502,9 +484,9 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_typed_is_formula(words[0])) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
     } else if (!scene) {
-        char near[GM_NEAR], folder[GM_MESSAGE];
+        char near[GM_NEAR_NAMES], folder[GM_MESSAGE];
         if (gm_system_near(words[0], near, folder)) {
-            gm_refuse(message, "there is no scene \"%.40s\"; did you mean %.200s", words[0], near);
+            gm_refuse(message, "there is no scene \"%.40s\"; did you mean %s", words[0], near);
         } else if (folder[0]) {
             *status = GM_EXIT_FILE;
             gm_refuse(message, "there is no scene \"%.40s\": %.400s", words[0], folder);

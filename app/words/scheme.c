@@ -9,6 +9,7 @@
 
 #include "app/base/files.h"
 #include "app/base/interrupt.h"
+#include "app/words/names.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
 #include "core/memory.h"
@@ -202,6 +203,9 @@ const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char
     const bool plain = gm_text_is_plain(name);
     message[0] = '\0';
     const struct gm_scheme *scheme = plain && !is_path(name) ? gm_scheme_find(name) : NULL;
+    if (scheme && !scheme->word && strcmp(scheme->name, name) != 0 && gm_file_is(GM_FILE_SCHEME, name)) {
+        scheme = NULL; /* a file has precedence over an alias */
+    }
     if (!plain) {
         gm_refuse(message, "the scheme's name holds a character that cannot be shown");
     } else if (!scheme && gm_file_find(GM_FILE_SCHEME, name, &file)) {
@@ -223,9 +227,7 @@ const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *me
     const unsigned long refusals = gm_memory_refusals();
     const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
     if (!scheme && !message[0]) {
-        const char *near = gm_scheme_near(name);
-        gm_refuse(message, "there is no scheme \"%.60s\"%s%s", name,
-                  near ? "; did you mean " : "; see geomint list schemes", near ? near : "");
+        gm_scheme_refuse(NULL, name, message);
     }
     *status = scheme                             ? GM_EXIT_OK
               : gm_memory_refusals() != refusals ? GM_EXIT_MEMORY
@@ -269,7 +271,7 @@ bool gm_scheme_check(const char *name, size_t *at, char *message)
     *at = 0;
     if (is_path(name) || !is_user(name) || !gm_text_is_plain(name)) {
         made = gm_scheme_named(name, &unreadable, message);
-        return made || (!message[0] && gm_refuse(message, "there is no scheme \"%.60s\"", name));
+        return made || (!message[0] && gm_scheme_refuse(NULL, name, message));
     }
     if (open_source(&reading, name, NULL)) {
         made = gm_user_scheme_open(&reading.source, &reading.fault);

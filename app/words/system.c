@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "app/base/arguments.h"
@@ -117,6 +118,16 @@ bool gm_system_is(const char *word)
 {
     return strcmp(word, gm_system_typed) == 0 || find_made(all_texts, word) ||
            gm_file_is(GM_FILE_ROOM, word) || gm_file_is(GM_FILE_SYSTEM, word);
+}
+
+const struct gm_scene *gm_scene_called(const char *word)
+{
+    const struct gm_scene *scene = gm_scene_find(word);
+    for (size_t i = 0; !scene && i < gm_scene_count(); i++) {
+        const bool called = strcasecmp(gm_scene_name(i), word) == 0 && !gm_system_is(word);
+        scene = called ? gm_scene_at(i) : NULL;
+    }
+    return scene;
 }
 
 /* The file's name, without characters unusual in names. */

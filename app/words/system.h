@@ -27,6 +27,8 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 /* Returns true if the first word means a system: a file's, or `system` with a formula after it; or a room
    of a file, which is opened the same way. */
 bool gm_system_is(const char *word);
+/* The scene of that name, in any letter case if no file has the name; or NULL. */
+const struct gm_scene *gm_scene_called(const char *word);
 /* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
    words. */
 const char *const *gm_system_keys(const char *word);

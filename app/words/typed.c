@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/words/names.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/words.h"
@@ -192,7 +193,7 @@ static bool read_line(struct gm_request *request, struct gm_system_trial *trial,
     *request = (struct gm_request){0};
     bool good = read_words(&words, line, &shift) || gm_refuse(message, "not enough memory");
     const struct gm_scene *scene = NULL;
-    if (good && !gm_scene_find(words.words[0]) && gm_system_is(words.words[0])) {
+    if (good && !gm_scene_called(words.words[0]) && gm_system_is(words.words[0])) {
         good = gm_system_try(trial, words.count, words.words, message);
         scene = trial->scene;
         place = trial->place;
@@ -264,7 +265,10 @@ const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault 
     *fault = (struct gm_typed_fault){.at = -1};
     const struct gm_scheme *scheme = name ? gm_scheme_named(name, &unreadable, message) : NULL;
     if (!scheme) {
-        fail(fault, message[0] ? message : "there is no such scheme");
+        if (name && !message[0]) {
+            gm_scheme_refuse(NULL, name, message);
+        }
+        fail(fault, name ? message : "not enough memory");
     }
     free(name);
     return scheme;

@@ -10,6 +10,7 @@
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/words/words.h"
+#include "core/basics.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
 #include "render/message.h"
@@ -425,6 +426,36 @@ static struct gm_word_place place_of(const struct gm_typed_file *file, const cha
     return (struct gm_word_place){-1, 0};
 }
 
+/* Writes the names of H that have values as coordinates and momenta, " coordinates=x momenta=y", if none of them
+   is a default one and they make pairs; else "". A momentum begins with p, or is in the second half. */
+static void put_pairs(const struct typing *typing, char *text, size_t size)
+{
+    size_t count = 0, with_p = 0;
+    const struct name *names[MOST_NAMES];
+    text[0] = '\0';
+    for (size_t i = 0; i < typing->names.count; i++) {
+        const struct name *name = &typing->names.list[i];
+        if (holds(&typing->parts, name->text, name->length)) {
+            return;
+        }
+        if (holds(&typing->given, name->text, name->length)) {
+            names[count++] = name;
+            with_p += name->text[0] == 'p';
+        }
+    }
+    for (int momenta = 0; momenta < 2 && typing->has[FORMULA_H] && count > 0 && count % 2 == 0; momenta++) {
+        const char *before = momenta ? " momenta=" : " coordinates=";
+        for (size_t i = 0; i < count; i++) {
+            const bool is_momentum = 2 * with_p == count ? names[i]->text[0] == 'p' : i >= count / 2;
+            const size_t used = strlen(text);
+            if (is_momentum == (momenta > 0)) {
+                snprintf(text + used, size - used, "%s%.*s", before, (int)names[i]->length, names[i]->text);
+                before = ",";
+            }
+        }
+    }
+}
+
 /* Checks that every name is given: the components at the start, all others as parameters. */
 static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
 {
@@ -452,10 +483,77 @@ static bool are_given(const struct typing *typing, struct gm_word_place *place, 
         *place = typing->wrong;
         word_fault(typing->file->words[place->word], place->offset, typing->fault.sentence, message);
     } else if (missing[0]) {
-        gm_refuse(message, "the formula needs values that are not given: %s%s", missing,
-                  file_momenta ? "; without coordinates= a momentum is p, not p_q" : "");
+        char pairs[160];
+        put_pairs(typing, pairs, sizeof pairs);
+        gm_refuse(message, "the formula needs values that are not given: %s%s%s%s", missing,
+                  file_momenta ? "; without coordinates= a momentum is p, not p_q" : "",
+                  pairs[0] ? "; for other names type" : "", pairs);
     }
     return !missing[0];
+}
+
+/* ---- words of another form ---- */
+
+/* Writes "H = p^2/2, q = 1" as words, "H='p^2/2' q=1". Returns their number, 0 for another text. */
+static size_t put_assignments(const char *text, FILE *stream)
+{
+    size_t count = 0;
+    for (const char *at = text; *at; count++) {
+        at += strspn(at, " ");
+        const size_t length = gm_word_first(at), name = gm_name_length(at, length);
+        const char *end = at + length, *value = at + name + strspn(at + name, " ");
+        if (name == 0 || *value != '=') {
+            return 0;
+        }
+        value += 1 + strspn(value + 1, " ");
+        while (end > value && end[-1] == ' ') {
+            end--;
+        }
+        const bool plain = strspn(value, "0123456789.+-eE") >= (size_t)(end - value);
+        fprintf(stream, "%s%.*s=%s%.*s%s", count > 0 ? " " : "", (int)name, at, plain ? "" : "'",
+                (int)(end - value), value, plain ? "" : "'");
+        at += length + (at[length] != '\0');
+    }
+    return count;
+}
+
+/* Writes "x'=y" as a word, "rate='x = y'". Returns 1, or 0 for another word. */
+static size_t put_rate(const char *word, const char *before, FILE *stream)
+{
+    const size_t name = gm_name_length(word, strlen(word)), equals = name + strspn(word + name, "' ");
+    if (name == 0 || word[name] != '\'' || word[equals] != '=') {
+        return 0;
+    }
+    const char *value = word + equals + 1;
+    fprintf(stream, "%srate='%.*s = %s'", before, (int)name, word, value + strspn(value, " "));
+    return 1;
+}
+
+/* Refuses words without a formula, with the words that were probably meant. Returns false. */
+static bool refuse_words(const struct gm_typed_file *file, char *message)
+{
+    static const char *const numbers[] = {"one word", "two words", "three words", "four words", "five words"};
+    char *text = NULL;
+    size_t size = 0, words = 0, rates = 0;
+    FILE *stream = open_memstream(&text, &size);
+    for (int i = 1; stream && i < file->count && words == 0; i++) {
+        const size_t name = strcspn(file->words[i], " =");
+        words = file->words[i][name] == ' ' && rates == 0 ? put_assignments(file->words[i], stream) : 0;
+        rates += put_rate(file->words[i], rates > 0 ? " " : "", stream);
+    }
+    const bool written = stream && fclose(stream) == 0;
+    if (written && words > 0) {
+        gm_refuse(message, "a formula and each value are words of their own, here %s: %.300s",
+                  words <= GM_COUNT(numbers) ? numbers[words - 1] : "these", text);
+    } else if (written && rates > 0) {
+        gm_refuse(message, "a derivative is typed as a rate: %.300s", text);
+    } else {
+        gm_refuse(message,
+                  "scene system needs a formula: H='p^2/2 + q^4/4', or L=, or rate='x = -x' for each "
+                  "component");
+    }
+    free(text);
+    return false;
 }
 
 /* Writes the lines of the system, and notes the names with a value at the start. */
@@ -477,9 +575,7 @@ static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place 
         }
     }
     if (!typing->has[FORMULA_H] && !typing->has[FORMULA_L] && !typing->has[FORMULA_RATE]) {
-        return gm_refuse(message,
-                         "scene system needs a formula: H='p^2/2 + q^4/4', or L=, or rate='x = -x' for each "
-                         "component");
+        return refuse_words(typing->file, message);
     }
     if (typing->usual) {
         put_usual_coordinates(typing, stream);

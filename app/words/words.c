@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/words/names.h"
+#include "core/aliases.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/parameter.h"
@@ -180,6 +182,17 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     return piece->text != NULL;
 }
 
+/* Gives a piece another text, or its own. Returns false when out of memory. */
+static bool set_text(struct gm_word_piece *piece, const char *text)
+{
+    char *copy = strdup(text);
+    if (copy) {
+        free(piece->text);
+        piece->text = copy;
+    }
+    return copy != NULL;
+}
+
 const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key)
 {
     const struct gm_parameter *row = gm_scene_parameter(scene, key);
@@ -335,11 +348,41 @@ static bool is_whole(const struct gm_parameter *row, const char *value)
     return row && row->names && !choices;
 }
 
-static bool read_word(struct gm_words *words, const struct gm_scene *scene, const char *word, char *message)
+/* The key that an unknown one probably means, or NULL. */
+static const char *key_meant(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_near *row;
+    for (size_t i = 0; (row = gm_near_find(GM_NEAR_KEY, key, i)); i++) {
+        if (known_key(scene, row->meant)) {
+            return row->meant;
+        }
+    }
+    const size_t names = gm_common_key_count + scene->parameter_count + gm_settings_parameter_count;
+    return gm_nearest(key, names, key_name, scene);
+}
+
+void gm_words_assignment(const struct gm_scene *scene, const char *key, const char *value, char *text,
+                         size_t size)
+{
+    const bool known = known_key(scene, key), named = gm_near_find(GM_NEAR_KEY, key, 0);
+    const char *meant = known ? key : named ? key_meant(scene, key) : NULL;
+    text[0] = '\0';
+    if (meant) {
+        snprintf(text, size, "; did you mean %.40s=%.40s", meant, value ? value : "");
+    } else if (gm_scheme_find(key)) {
+        snprintf(text, size, "; did you mean scheme=%.40s", key);
+    }
+}
+
+/* `next`: the word after it, or NULL. */
+static bool read_word(struct gm_words *words, const struct gm_scene *scene, const char *word,
+                      const char *next, char *message)
 {
     const char *equals = strchr(word, '=');
     if (!equals || equals == word) {
-        return gm_refuse(message, "\"%.60s\" is not of the form key=value", word);
+        char meant[128];
+        gm_words_assignment(scene, word, next && !strchr(next, '=') ? next : NULL, meant, sizeof meant);
+        return gm_refuse(message, "\"%.60s\" is not of the form key=value%s", word, meant);
     }
     if (has_orders(word)) {
         return gm_refuse(message, "\"%.60s\" holds a character that cannot be shown", word);
@@ -354,8 +397,7 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
     }
     words->count++;
     if (!known_key(scene, list->key)) {
-        const size_t names = gm_common_key_count + scene->parameter_count + gm_settings_parameter_count;
-        const char *near = gm_nearest(list->key, names, key_name, scene);
+        const char *near = key_meant(scene, list->key);
         char typed[256];
         gm_arguments_tell_scene(scene, typed, sizeof typed);
         return gm_refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
@@ -521,19 +563,27 @@ static bool check_choices(const struct gm_words *words, char *message)
     return true;
 }
 
-bool gm_words_separate(struct gm_words *words)
+/* Gives every scheme its own name. Returns false when out of memory. */
+static bool name_schemes(struct gm_words *words, const struct gm_scene *scene)
 {
-    char *no = strdup("no");
-    for (size_t i = 0; no && i < words->count; i++) {
+    bool good = true;
+    for (size_t i = 0; i < words->count; i++) {
         struct gm_word *word = &words->list[i];
-        if (strcmp(word->key, "overlay") == 0) {
-            free(word->pieces[0].text);
-            word->pieces[0].text = no;
-            return true;
+        for (size_t k = 0; strcmp(word->key, "scheme") == 0 && k < word->piece_count; k++) {
+            good = set_text(&word->pieces[k], gm_scheme_own_name(scene, word->pieces[k].text)) && good;
         }
     }
-    free(no);
-    return no != NULL;
+    return good;
+}
+
+bool gm_words_separate(struct gm_words *words)
+{
+    bool good = true;
+    for (size_t i = 0; i < words->count; i++) {
+        struct gm_word *word = &words->list[i];
+        good = (strcmp(word->key, "overlay") != 0 || set_text(&word->pieces[0], "no")) && good;
+    }
+    return good;
 }
 
 bool gm_words_chosen(const struct gm_words *words, const char *key)
@@ -549,11 +599,12 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
     memset(words, 0, sizeof *words);
     gm_refuse(message, "not enough memory");
     for (int i = 0; i < count; i++) {
-        if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], message)) {
+        const char *next = i + 1 < count ? typed[i + 1] : NULL;
+        if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], next, message)) {
             return false;
         }
     }
-    if (!check_choices(words, message) ||
+    if (!name_schemes(words, scene) || !check_choices(words, message) ||
         !prefer(words, preference ? preference->schemes : scene->schemes, schemes, message)) {
         return false;
     }

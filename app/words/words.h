@@ -59,6 +59,10 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
                    size_t schemes, char *message);
 void gm_words_close(struct gm_words *words);
 
+/* Writes "; did you mean KEY=VALUE" for a word that is a key, or what people call it, or a scheme; else "". */
+void gm_words_assignment(const struct gm_scene *scene, const char *key, const char *value, char *text,
+                         size_t size);
+
 /* Fills an empty list with a scene's words, "SCENE key=value": the typed words, and those of the text
    `usual` that they neither replace nor disable. Returns false when out of memory. */
 bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,

@@ -122,6 +122,11 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
     return row->why ? row->why(&view) : row->missing;
 }
 
+bool gm_lane_measures(const struct gm_lane *lane, size_t observable)
+{
+    return lane->problem.m > 1 || !gm_scene_observable_at(lane->scene, observable)->of_members;
+}
+
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);

@@ -64,6 +64,9 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 /* The reason why a computed observable is NaN; NULL without one. */
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 
+/* Returns true if an observable has a meaning in this lane. */
+bool gm_lane_measures(const struct gm_lane *lane, size_t observable);
+
 /* The divisor of an error in this lane. */
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The command line: what it prints, its exit statuses, and bad input. command_line.sh GEOMINT
 set -u
-meshes=$(cd "$(dirname "$0")/../reference/meshes" && pwd) || exit 1
+source=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
+meshes=$source/tests/reference/meshes
 . "$(dirname "$0")/answers.sh"
 
 # the four words of a painter, by the option and by the variable, for whatever paints; for nothing else
@@ -33,7 +34,7 @@ refused 1 'no option --state; it has --every, --frames' render disc --state
 # beginnings and abbreviations before slips; what is far from everything is not guessed at
 refused 1 'did you mean eccentricity$' run kepler ecc=0.5
 refused 1 'did you mean eccentricity$' run kepler ecty=0.5
-refused 1 'did you mean explicit-euler$' run disc scheme=euler
+refused 1 'did you mean explicit-euler$' run disc scheme=explicit-eulr
 refused 1 'did you mean kepler$' keplar
 refused 1 'did you mean --theme$' render disc --thm
 refused 1 '"nope"; see geomint --help$' nope
@@ -135,10 +136,8 @@ refused 1 'acute triangles' run room columns=6 # rows are what the lips need
 status 0 sweep cavity columns=8,16 steps=0 --measure triangles
 [ "$(grep -c ',ok,' out)" = 2 ] || fail "a sweep over columns: $(cat out)"
 # names that others use
-refused 1 'did you mean symplectic-euler$' run kepler scheme=semi-implicit-euler
-refused 1 'it needs wave equations; did you mean verlet$' run kepler scheme=leapfrog
-refused 1 'did you mean rk2$' run kepler scheme=heun
-refused 1 'did you mean explicit-euler$' certify forward-euler
+refused 1 'scheme box does not fit scene kepler: it needs .*; geomint list kepler names those that do$' run kepler scheme=box
+status 0 certify forward-euler
 # a word of options opens the explorer too
 status 1 tui --theme light
 cp err tui.err
@@ -442,7 +441,7 @@ done
 
 # a scheme is listed by its name, by another name of it, and by a word; all schemes of a name are
 status 0 list gauss4
-grep -q '^gauss4  .* 4  .*Gauss 4$' out || fail "list gauss4: $(cat out)"
+grep -q '^gauss4  .* 4  .*Gauss 4, for ordinary' out && grep -q 'a = \[1/4, ' out && grep -q ' gl4$' out || fail "list gauss4: $(cat out)"
 status 0 list gauss-box2 --json
 [ "$(grep -c '^{"scheme":"box",' out)" = 2 ] || fail "list gauss-box2: $(cat out)"
 status 0 list 'composition(verlet; 0.5, 0.5)' --json
@@ -509,8 +508,21 @@ for word in -h help; do
     status 0 $word
     cmp -s help out || fail "geomint $word is not geomint --help"
 done
+# a line for each command, and the options of one or of all commands
+[ "$(wc -l <help)" -le 45 ] || fail "--help has $(wc -l <help) lines"
+for columns in 80 60; do
+    COLUMNS=$columns "$geomint" --help >out
+    [ "$(wc -L <out)" -le $columns ] || fail "--help has $(wc -L <out) columns, not $columns"
+done
+[ "$(wc -L <help)" -le 80 ] || fail "--help has $(wc -L <help) columns"
+[ "$(grep -c '^  [a-z-]*  ' help)" = "$(grep -c '^GM_COMMAND' "$source/app/commands/commands.def")" ] ||
+    fail '--help does not have a line for each command'
+grep -q -e --csv help && fail '--help has the options of commands'
+status 0 --help --all
+grep -q -e --csv out && grep -q -e --graphics out || fail '--help --all lacks options'
 status 0 run --help
 cp out help
+grep -q -e '--csv FILE ' help || fail 'run --help lacks its options'
 status 0 run disc -h
 cmp -s help out || fail 'geomint run disc -h is not geomint run --help'
 "$geomint" help run >out || fail 'geomint help run'

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/aliases.h"
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/field/families/families.h"
@@ -536,8 +537,31 @@ static void names_find_the_row_that_fits(void **unused)
     assert_null(gm_scheme_find_for("symplectic-oyler", &gm_problem_product));
     assert_false(gm_scheme_fits(gm_scheme_find_for("verlet", &gm_problem_product), &gm_problem_product));
     assert_ptr_equal(gm_scheme_find("midpoint-yoshida4"), gm_scheme_find("rk4sym"));
+    /* in any letter case; a scheme of that name has precedence where it fits */
+    assert_ptr_equal(gm_scheme_find("Velocity-Verlet"), gm_scheme_find("verlet"));
+    assert_ptr_equal(gm_scheme_find("RK4"), gm_scheme_find("rk4"));
+    assert_string_equal(gm_scheme_find("leapfrog")->name, "leapfrog");
+    assert_string_equal(gm_scheme_find_for("leapfrog", &gm_problem_pendulum)->name, "verlet");
+    assert_string_equal(gm_scheme_find_for("leapfrog", &gm_problem_product)->name, "leapfrog");
     assert_true(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_product));
     assert_false(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_pendulum));
+}
+
+/* An alias has one meaning, and hides no scheme that fits where the meaning does. */
+static void aliases_are_unambiguous(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < gm_alias_count; i++) {
+        const struct gm_alias *alias = &gm_aliases[i];
+        for (size_t k = 0; k < i; k++) {
+            assert_string_not_equal(alias->typed, gm_aliases[k].typed);
+        }
+        const struct gm_scheme *meant = gm_scheme_find(alias->scheme), *named = gm_scheme_find(alias->typed);
+        if (meant) { /* a build without GSL lacks some */
+            assert_string_equal(meant->name, alias->scheme);
+            assert_true(named == meant || named->family->kind != meant->family->kind);
+        }
+    }
 }
 
 /* Leapfrog with a little friction, which no law survives. */
@@ -738,6 +762,7 @@ int main(int argc, char *argv[])
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
         cmocka_unit_test(names_find_the_row_that_fits),
+        cmocka_unit_test(aliases_are_unambiguous),
         cmocka_unit_test(a_name_of_another_method),
         cmocka_unit_test(a_wave_with_friction),
         cmocka_unit_test(the_law_of_another_scheme),

@@ -13,6 +13,7 @@
 #include "app/words/system.h"
 #include "app/words/typed.h"
 #include "app/words/typed_file.h"
+#include "app/words/words.h"
 #include "core/basics.h"
 #include "core/run.h"
 
@@ -173,6 +174,53 @@ static void saved(void **unused)
     free(now);
 }
 
+/* Writes the schemes of a request, each once, in the order of its lanes. Returns their number. */
+static size_t schemes_of(const struct gm_request *request, const struct gm_scheme **schemes)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < request->count; i++) {
+        size_t k = 0;
+        while (k < count && schemes[k] != request->lanes[i].scheme) {
+            k++;
+        }
+        schemes[k] = request->lanes[i].scheme;
+        count += k == count;
+    }
+    return count;
+}
+
+/* A key that is given replaces the default values of that key alone: the schemes of the default lanes stay, for
+   every key of every scene. */
+static void default_lanes(void **unused)
+{
+    (void)unused;
+    size_t tried = 0;
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        char word[2 * GM_TEXT_SIZE], message[GM_MESSAGE], *words[] = {(char *)scene->name, word};
+        struct gm_request usual, given;
+        const struct gm_scheme *schemes[2][GM_MOST_REQUESTED];
+        assert_true(gm_request_parse(&usual, 1, words, GM_RENDER_SCHEMES, message));
+        const size_t count = schemes_of(&usual, schemes[0]);
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            const char *key = scene->parameters[k].key;
+            snprintf(word, sizeof word, "%s=%s", key, scene->parameters[k].standard);
+            if (!gm_request_parse(&given, 2, words, GM_RENDER_SCHEMES, message)) {
+                assert_non_null(strstr(message, "has no effect here")); /* with the default values */
+                continue;
+            }
+            const bool listed = scene->lanes && strstr(scene->lanes, key);
+            assert_true(listed || given.count == usual.count);
+            assert_int_equal(schemes_of(&given, schemes[1]), count);
+            assert_memory_equal(schemes[0], schemes[1], count * sizeof schemes[0][0]);
+            gm_request_close(&given);
+            tried++;
+        }
+        gm_request_close(&usual);
+    }
+    assert_true(tried > 200);
+}
+
 /* A typed word replaces that of its key among a scene's own lanes, and no other. */
 static void lanes(void **unused)
 {
@@ -223,8 +271,9 @@ static void lanes(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words),    cmocka_unit_test(places), cmocka_unit_test(schemes),
-        cmocka_unit_test(formulas), cmocka_unit_test(saved),  cmocka_unit_test(lanes),
+        cmocka_unit_test(words),         cmocka_unit_test(places), cmocka_unit_test(schemes),
+        cmocka_unit_test(formulas),      cmocka_unit_test(saved),  cmocka_unit_test(lanes),
+        cmocka_unit_test(default_lanes),
     };
     return cmocka_run_group_tests_name("typed", tests, NULL, NULL);
 }

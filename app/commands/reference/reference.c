@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "app/words/names.h"
+#include "core/aliases.h"
 #include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
@@ -167,10 +168,11 @@ static void put_scheme(size_t index, const bool *fits)
 {
     const struct gm_scheme *scheme = gm_scheme_at(index);
     printf("### %s: `%s`\n\n", scheme->title, scheme->name);
-    for (size_t i = 0; i < GM_COUNT(scheme->alias) && scheme->alias[i]; i++) {
-        printf("%s`%s`", i == 0 ? "Also called " : ", ", scheme->alias[i]);
+    const char *alias;
+    for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)); i++) {
+        printf("%s`%s`", i == 0 ? "Also called " : ", ", alias);
     }
-    printf("%s", scheme->alias[0] ? ". " : "");
+    printf("%s", gm_alias_of(scheme->name, 0) ? ". " : "");
     if (scheme->order > 0) {
         printf("Order %d. ", scheme->order);
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/explorer/surface/surface.h"
+#include "core/aliases.h"
 
 enum { PAGE = 10 };
 
@@ -26,13 +27,12 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
     size_t count = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {
         const struct gm_scheme *scheme = shot->schemes[i];
-        const char *texts[] = {scheme->name,
-                               scheme->title,
-                               scheme->family->title,
-                               scheme->reference ? scheme->reference : "",
-                               scheme->alias[0],
-                               scheme->alias[1],
-                               NULL};
+        enum { ALIASES = 8 };
+        const char *texts[4 + ALIASES + 1] = {scheme->name, scheme->title, scheme->family->title,
+                                              scheme->reference ? scheme->reference : ""};
+        for (size_t k = 0; k < ALIASES; k++) {
+            texts[4 + k] = gm_alias_of(scheme->name, k);
+        }
         const int rank = gm_search_rank(face->typed, texts);
         if (rank < 0) {
             continue;

@@ -39,7 +39,7 @@ static int count_unused(const struct gm_shot *shot)
 /* Returns the rows of observables: the scene's, and after a reversal of time the way back. */
 static int observable_rows(const struct gm_shot *shot)
 {
-    return (int)shot->observable_count + shot->turned;
+    return (int)shot->measured_count + shot->turned;
 }
 
 /* Returns the plan for one section. */
@@ -477,6 +477,9 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     for (size_t k = 0; k < shot->observable_count && row + each <= end; k++) {
         const struct gm_observable *observable = &shot->scene->observables[k];
         double low = 0, high = 0;
+        if (!shot->measured[k]) {
+            continue;
+        }
         observable_name(observable, text, sizeof text);
         draw_numbers(sheet, row, shot, &columns, text, value_of, k);
         bool graphs = plan->sparks && spark_range(shot, k, &low, &high);

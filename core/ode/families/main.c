@@ -139,7 +139,6 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
     fputs(splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
     fputs(scheme->nystrom ? " | GM_NEEDS_NYSTROM" : "", out);
     put_text(out, "title", scheme, GM_SCHEME_WORD_TITLE);
-    put_text(out, "alias[0]", scheme, GM_SCHEME_WORD_ALIAS);
     put_text(out, "formula", scheme, GM_SCHEME_WORD_FORMULA);
     put_text(out, "reference", scheme, GM_SCHEME_WORD_REFERENCE);
     fputs(")\n", out);

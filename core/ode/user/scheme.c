@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/aliases.h"
 #include "core/arena.h"
 #include "core/expression/reader.h"
 #include "core/ode/families/composition.h"
@@ -593,10 +594,15 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
         return scheme;
     }
     const struct gm_scheme *scheme = gm_scheme_find(name);
-    if (!scheme || scheme->family->kind != &gm_kind_ode) {
-        const char *near = scheme ? gm_scheme_known_as(name) : gm_scheme_near(name);
+    const bool elsewhere = scheme && scheme->family->kind != &gm_kind_ode;
+    const char *meaning = elsewhere ? gm_alias_meaning(name) : NULL;
+    if (meaning) {
+        return gm_scheme_find(meaning);
+    }
+    if (!scheme || elsewhere) {
+        const char *near = scheme ? NULL : gm_scheme_near(name);
         fail(making, span.begin,
-             scheme ? "%.40s is no scheme for ordinary differential equations%s%s"
+             scheme ? "%.40s is not a scheme for ordinary differential equations%s%s"
                     : "there is no scheme \"%.40s\"%s%s",
              name, near ? "; did you mean " : "", near ? near : "");
     }

@@ -468,12 +468,12 @@ static bool add_area(struct gm_system_scene *system_scene)
     return system->n != 2 ||
            (add_observable(system_scene,
                            (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                               .why = why_no_area),
+                                                               .why = why_no_area, .of_members = true),
                            GM_NO_NODE, GM_NO_NODE) &&
             (system->kind > GM_LAGRANGIAN || is_forced(system) ||
              add_observable(system_scene,
                             (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
-                                                                     .why = why_no_area),
+                                                                     .why = why_no_area, .of_members = true),
                             GM_NO_NODE, GM_NO_NODE)));
 }
 

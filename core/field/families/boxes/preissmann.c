@@ -203,7 +203,6 @@ static double form(const struct gm_law *law)
 static const struct gm_scheme schemes[] = {
     {
         .name = "box",
-        .alias = {"gauss-box2", "gauss-box"},
         .title = "box",
         .formula = "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         .reference = "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "

@@ -69,7 +69,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 static const struct gm_scheme schemes[] = {
     {
         .name = "discrete-moser-veselov2",
-        .alias = {"discrete-moser-veselov"},
         .title = "discrete Moser-Veselov",
         .formula = "½sh(1 + |c|²) y₀ = I c + c × I c,  y₁ = y₀ − 4/(sh) c × I c/(1 + |c|²)",
         .reference =
