@@ -28,6 +28,7 @@ struct gm_parameter {
     size_t offset;          /* offset of the value in the owner's struct */
     const char *standard;   /* the default, as it would be typed ("pi/12") */
     double lowest, highest; /* inclusive range of a real or an integer */
+    double least;           /* smallest positive value, if 0 has a meaning of its own; 0: none */
     bool logarithmic;       /* a slider moves by factors */
     bool live;              /* a change acts on the current state; otherwise the run starts again */
     bool looks;             /* no step depends on it: it is constant in a run */

@@ -128,6 +128,10 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     if (run->factor_solves > 0) {
         gm_row_count(&row, "factor_solves", gm_run_per_member(run, run->factor_solves));
     }
+    if (run->scheme->family->by_tolerance) {
+        gm_row_count(&row, "own_steps", gm_run_per_member(run, run->own_steps));
+        gm_row_count(&row, "rejected", gm_run_per_member(run, run->rejected));
+    }
     printf(",\"seconds\":%.6g", outcome->drive.seconds);
     struct gm_row observables = gm_row_open(&row, "observables", '}');
     for (size_t i = 0; i < count; i++) {
@@ -562,11 +566,16 @@ static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
     }
     outcome->drive.seconds = outcome->paused.seconds;
     take_maxima(outcome);
-    if (!begin_rows(outcome, steps, message) || !drive_lane(outcome, steps, message)) {
+    const bool keeps = outcome->outputs->options->checkpoint != NULL;
+    if (!begin_rows(outcome, steps, message) || !drive_lane(outcome, keeps ? steps - 1 : steps, message)) {
+        return false;
+    }
+    const bool rests = gm_drive_rest(&outcome->drive) != 0; /* a checkpoint has whole steps only */
+    if (!rests && !drive_lane(outcome, steps, message)) {
         return false;
     }
     outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
-    return (!outcome->outputs->options->checkpoint || keep_state(outcome, message)) &&
+    return (!keeps || keep_state(outcome, message)) && (!rests || make_steps(outcome, steps, message)) &&
            end_rows(outcome, message);
 }
 
