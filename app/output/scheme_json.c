@@ -20,7 +20,7 @@ void gm_scheme_put(FILE *stream, const struct gm_scheme *scheme)
     struct gm_row claims = gm_row_open(&row, "claims", ']');
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (scheme->claims >> bit & 1) {
-            gm_row_text(&claims, NULL, gm_claim_word(bit));
+            gm_row_text(&claims, NULL, gm_claim_key(bit));
         }
     }
     gm_row_close(&claims);
@@ -81,7 +81,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->claimed || measure->measured || measure->undecided) {
-            struct gm_row claim = gm_row_open(&properties, gm_claim_word(bit), '}');
+            struct gm_row claim = gm_row_open(&properties, gm_claim_key(bit), '}');
             gm_row_flag(&claim, "claimed", measure->claimed);
             gm_row_flag(&claim, "measured", measure->measured);
             /* null: it was not measured, or a step of the measurement failed */
@@ -115,7 +115,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->measured || (measure->reason && GM_CERTIFIED_ON_SYSTEMS >> bit & 1)) {
-            gm_row_number(&measured, gm_claim_word(bit), measure->measured ? measure->defect : NAN, 17);
+            gm_row_number(&measured, gm_claim_key(bit), measure->measured ? measure->defect : NAN, 17);
         }
     }
     gm_row_close(&measured);

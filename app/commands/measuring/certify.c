@@ -81,7 +81,7 @@ static void print_certificate(const struct gm_certificate *certificate)
                               : measure->undecided           ? "inconclusive"
                               : reason                       ? "not measured"
                                                              : "BROKEN: it could not be measured";
-        printf("  %s %-28s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
+        printf("  %s %-30s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
         if (measure->measured && isfinite(measure->defect)) {
             printf(" defect %.1e (%s)", measure->defect, measure->problem);
         } else if (measure->measured) {
