@@ -83,8 +83,7 @@ static int brief(struct gm_span span)
     return (int)(length < 40 ? length : 40);
 }
 
-/* -- words and lines
-   ----------------------------------------------------------------------------------------- */
+/* ---- words and lines ---- */
 
 const char *gm_written_kind_name(enum gm_written_kind kind)
 {
@@ -281,8 +280,7 @@ static bool check_lines(struct reading *reading, struct gm_span span)
     return true;
 }
 
-/* -- numbers
-   ------------------------------------------------------------------------------------------------- */
+/* ---- numbers ---- */
 
 /* Puts it behind the others, of which there are *count; false: out of memory. */
 static bool gather(struct gm_decimal **all, size_t *count, struct gm_decimal decimal)
@@ -592,8 +590,7 @@ static bool compute(struct reading *reading)
     return good;
 }
 
-/* -- what has to fit
-   --------------------------------------------------------------------------------------- */
+/* ---- what has to fit ---- */
 
 static const struct gm_written_number *entry_of(const struct gm_written_line *a, int i, int j)
 {

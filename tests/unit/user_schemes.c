@@ -95,19 +95,19 @@ static char *typed(const struct gm_scheme *scheme)
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     if (scheme->family == &gm_family_explicit) {
-        const struct gm_explicit_tableau *row = gm_explicit_tableau_of(scheme->coefficients);
+        const struct gm_tableau *row = scheme->coefficients;
         fputs("explicit(", out);
-        put_rows(out, row->stages, row->stages, row->a[0], GM_EXPLICIT_STAGES);
+        put_rows(out, row->stages, row->stages, row->a[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, row->stages, row->b, 0);
         fputs(")", out);
     } else if (scheme->family == &gm_family_implicit) {
-        const struct gm_implicit_row *row = scheme->coefficients;
+        const struct gm_tableau *row = scheme->coefficients;
         if (row->composition->steps > 1) {
             put_composition(out, "midpoint", row->composition);
         } else {
             fputs("runge-kutta(", out);
-            put_rows(out, row->stages, row->stages, row->a[0], GM_IMPLICIT_STAGES);
+            put_rows(out, row->stages, row->stages, row->a[0], GM_TABLEAU_STAGES);
             fputs("; ", out);
             put_rows(out, 1, row->stages, row->b, 0);
             fputs(")", out);
@@ -116,11 +116,11 @@ static char *typed(const struct gm_scheme *scheme)
         const struct gm_partitioned_row *row = scheme->coefficients;
         const int stages = (int)row->stages;
         fputs("partitioned(", out);
-        put_rows(out, stages, stages, row->a[0], GM_PARTITIONED_STAGES);
+        put_rows(out, stages, stages, row->a[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, stages, row->b, 0);
         fputs("; ", out);
-        put_rows(out, stages, stages, row->c[0], GM_PARTITIONED_STAGES);
+        put_rows(out, stages, stages, row->c[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, stages, row->d, 0);
         fputs(")", out);

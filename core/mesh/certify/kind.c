@@ -7,11 +7,10 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/mesh/certify/law.h"
-#include "core/mesh/certify/quantities.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
