@@ -374,7 +374,7 @@ wrong 'wrong.room:5:21: slip is 1, or 0 where the wall holds the air' 'wall: pil
 wrong 'wrong.room:5:20: the vorticity is not finite at (0, 0)' 'start: vorticity = 1/(x - x)'
 wrong 'wrong.room:5:7: side: is of a rectangle' 'side: in; x = 0'
 wrong 'wrong.room:5:1: a room has no line zzzzzzz:; geomint list office --source prints a room' 'zzzzzzz: 1'
-wrong 'wrong.room:7:1: this line is the same for every word' 'choice: a = b of b, c\nwhen: a = c\nuntil: 3'
+wrong 'wrong.room:7:1: this line cannot depend on a choice' 'choice: a = b of b, c\nwhen: a = c\nuntil: 3'
 refused 1 '^geomint: curves of the group door have a line already: door$' \
     run room "mesh=$meshes/hole.msh" inlet=door outlet=door steps=1
 
