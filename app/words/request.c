@@ -33,7 +33,7 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     alone.offset = 0;
     switch (gm_parameter_set(owner ? row : &alone, owner ? owner : place, text)) {
     case GM_PARSED:
-        return true;
+        return !row->admits || row->admits(row, text, message);
     case GM_NOT_UNDERSTOOD:
         if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             char choices[GM_MESSAGE / 2] = "no, yes";
