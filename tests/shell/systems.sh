@@ -392,6 +392,14 @@ done
 a_field 'parameter: alpha = 3\nV: alpha*u^2'
 refused 1 'alpha is a key of moving meshes' run own.system scheme=uniform-gauss4
 status 0 run own.system
+# keys of the ring are names of formulas, and the words of a choice are fields of one kind
+a_field 'V: u^2\nrequire: 11 - half_length; the ring is too long: {half_length}'
+status 0 run own.system
+refused 1 'the ring is too long: 12' run own.system half_length=12
+a_field 'V: u^2\nstability: until=1; half_length 5, 10; lost energy_error'
+refused 1 'stability: a field needs a unit and steps' run own.system
+printf 'choice: kind = a of a, b; two\nfield: u\nwhen: kind = a\nV: u^2\nstart: u = 0, u_t = 0\nwhen: kind = b\nrate: u = -u_x\nstart: u = 0\n' >own.system
+refused 1 'choice: kind=b is another equation, and other words are of one kind' run own.system
 # what has corners in parameters alone is smooth
 a_field 'parameter: k = 1\nV: abs(k)*u^2'
 status 0 run own.system k=-3

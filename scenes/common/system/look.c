@@ -98,6 +98,9 @@ void gm_system_put_parameters(const struct gm_system_lane *lane, double *variabl
             variables[lane->owner->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
         }
     }
+    if (gm_system_is_field(&lane->owner->system)) {
+        variables[lane->owner->system.velocities - 1] = (double)lane->grid.points;
+    }
 }
 
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables)

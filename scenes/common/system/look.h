@@ -38,7 +38,8 @@ struct gm_sight {
 };
 
 enum {
-    GM_SYSTEM_ROWS = 2 /* dt and until; the system's own follow, then members, spread, shape and show */
+    GM_SYSTEM_ROWS = 2, /* dt and until; the system's own follow, then members, spread, shape and show */
+    GM_SYSTEM_TIMES     /* dt, until and steps */
 };
 /* the rows after the system's own */
 enum {
@@ -60,7 +61,7 @@ enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_MEMBERS, GM_TRAC
 enum {
     GM_MOST_CONDITIONS = 8,
     GM_MOST_SIGHTS = 64,
-    GM_MOST_PREFERRED = 12,
+    GM_MOST_PREFERRED = 32,
     GM_MOST_SURFACES = 8,
     GM_MOST_OVER_TIME = 8
 };
@@ -75,7 +76,7 @@ struct gm_system_scene {
     const struct gm_hook *hook;           /* NULL: the file names none */
     struct gm_parameter *rows, *common;   /* all rows, and those after the system's own */
     size_t *variables;                    /* for each row the number of its variable, or GM_NO_VARIABLE */
-    size_t row_count;                     /* the end of the system's own rows */
+    size_t row_count, common_count;       /* the end of the system's own rows; of common ones */
     struct gm_system_scene *first, *next; /* systems of one file (variants.h); NULL: it is alone */
     const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* the words of choices, NULL-terminated */
     const char *lacks;                                            /* the reason for missing rows */
@@ -92,7 +93,7 @@ struct gm_system_scene {
     struct gm_tape where; /* the function that is 0 in the section, or its period, and positive conditions */
     size_t conditions;
     bool has_section, stroboscopic, turns; /* `turns`: the function is an angle */
-    struct gm_tape stop, exact, timing[3];
+    struct gm_tape stop, exact, timing[GM_SYSTEM_TIMES];
     struct gm_tape surfaces;  /* half axes at the start, three per surface */
     struct gm_tape *of_items; /* for each of the system's items that is a text, a requirement or a level */
     size_t disc[2];           /* the components that members differ in */
@@ -107,6 +108,15 @@ struct gm_system_scene {
     struct gm_system_lane *initial;
 };
 
+/* The grid of a field; half its length is among the values. */
+struct gm_line_keys {
+    long points;
+    int space; /* enum gm_derivatives */
+    int walls;
+    double alpha; /* only on a moving mesh */
+    int density;  /* enum gm_mesh_density */
+};
+
 /* A lane's parameters. */
 struct gm_system_lane {
     struct gm_timing timing;
@@ -116,6 +126,7 @@ struct gm_system_lane {
     int shape, portrait;
     char show[GM_TEXT_SIZE], trails[GM_TEXT_SIZE], window[GM_TEXT_SIZE];
     struct gm_camera camera;
+    struct gm_line_keys grid;
     double values[]; /* values of the rows after dt and until; then a byte per row, 1 if it was given */
 };
 
