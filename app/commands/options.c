@@ -82,6 +82,12 @@ const struct gm_option gm_option_rows[] = {
     {"--graphics", TEXT, EXPLORES, AT(terminal.graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, EXPLORES, AT(terminal.colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--shot", TEXT, GM_TUI | GM_TOUR, AT(terminal.shot), "FILE",
+     "draw the screen into FILE, without a terminal: .txt, .svg or .png"},
+    {"--screen", TEXT, GM_TUI | GM_TOUR, AT(terminal.screen), "COLUMNSxROWS",
+     "size of the screen of --shot, 20x6 to 400x120 (80x24)"},
+    {"--keys", TEXT, GM_TUI | GM_TOUR, AT(terminal.keys), "'WORD ...'",
+     "keys before --shot: 2s lets 2 s pass, ENTER, ESC, UP ..., or text to type"},
     {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
@@ -397,6 +403,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
                  {"--output", options->output},
                  {"--movie", options->movie},
                  {"--polish", options->polish},
+                 {"--shot", options->terminal.shot},
                  {"--checkpoint", options->checkpoint}};
     enum { FILES = GM_COUNT(files), CHECKPOINT = FILES - 1 };
     for (size_t i = 0; i < FILES; i++) {

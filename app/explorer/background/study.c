@@ -246,6 +246,11 @@ void gm_study_close(struct gm_study *study)
     free_study(study);
 }
 
+bool gm_study_is_busy(struct gm_study *study)
+{
+    return gm_job_is_busy(&study->job);
+}
+
 struct gm_study_look *gm_study_take(struct gm_study *study)
 {
     struct gm_study_look *look = NULL;

@@ -223,5 +223,5 @@ enum gm_key_result gm_key_press(const struct gm_keystroke *press)
             }
         }
     }
-    return GM_KEY_DONE; /* the key only dismisses a message */
+    return GM_KEY_UNKNOWN;
 }

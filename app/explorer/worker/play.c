@@ -16,7 +16,7 @@ static const double AHEAD_NEWS = 0.25;
 /* seconds of stepping between two looks for orders; waking more often gains nothing */
 static const double SLICE = 0.008;
 /* seconds between two restarts, at least */
-static const double RESTART_PAUSE = 1.0 / 30;
+static const double RESTART_PAUSE = 0.033;
 /* initial wall time of the scene's time span, in seconds */
 static const double FIRST_SECONDS = 6;
 
