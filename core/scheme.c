@@ -108,11 +108,12 @@ const struct gm_parameter gm_settings_parameters[] = {
         .key = "tolerance",
         .unit = "",
         .help =
-            "error that a GSL stepper allows within a time step; 0: a fixed step (multistep methods: 1e-8)",
+            "error allowed in a step of dopri5 (0: 1e-6), or of a GSL stepper within dt (0: fixed step; multistep: 1e-8)",
         .type = GM_REAL,
         .offset = offsetof(struct gm_settings, tolerance),
         .standard = "0",
         .lowest = 0,
+        .least = 1e-15,
         .highest = 1,
     },
     {
@@ -142,7 +143,7 @@ const struct gm_parameter *gm_setting_find(const char *key)
 const struct gm_parameter *const gm_settings_of_sums[] = {&gm_settings_parameters[0], NULL};
 const struct gm_parameter *const gm_settings_of_tao[] = {&gm_settings_parameters[1], NULL};
 const struct gm_parameter *const gm_settings_of_variational_time[] = {&gm_settings_parameters[2], NULL};
-const struct gm_parameter *const gm_settings_of_gsl[] = {&gm_settings_parameters[3], NULL};
+const struct gm_parameter *const gm_settings_of_tolerance[] = {&gm_settings_parameters[3], NULL};
 const struct gm_parameter *const gm_settings_of_newmark[] = {&gm_settings_parameters[4], NULL};
 
 bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *row)

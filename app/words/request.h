@@ -15,7 +15,7 @@ struct gm_lane_spec {
     void *parameters; /* the scene's own struct */
     struct gm_settings settings;
     const struct gm_scheme *scheme;
-    int64_t steps; /* number of steps from start to until */
+    int64_t steps; /* number of steps from start to until; the last one may be shortened */
     double until;  /* the requested end, in model time; NAN if steps= gives it */
     double end;    /* the time of the last step; for an adaptive scheme the end to reach */
 };
@@ -41,6 +41,10 @@ struct gm_request {
     char refused[48]; /* the key that was refused, or "" */
     char *arguments;  /* the words it was read from, with the schemes' names; NULL: derived if needed */
 };
+
+/* Returns true if the last step of a run with this scheme is shortened to end at the requested until: one of
+   fixed size for ordinary differential equations. */
+bool gm_ends_exactly(const struct gm_scheme *scheme);
 
 /* The number of a scene's preferred schemes that a command uses if no scheme is given. */
 enum { GM_RUN_SCHEMES = 1, GM_RENDER_SCHEMES = 3 };

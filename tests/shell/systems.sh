@@ -734,6 +734,40 @@ refused 1 'azimuth' render space.system azimuth=x -o space.png
 refused 1 'the size of a surface is -1' render space.system a=-1 -o space.png
 refused 1 'a plane is shown' render space.system show=x:y azimuth=3 -o space.png
 refused 1 'azimuth' render duffing azimuth=3 -o space.png
+# names over time, trails, the phase portrait
+refused 1 'show=t: needs a name; the names are x, y' run lotka-volterra show=t:
+refused 1 'there is no "angular_momentu"; did you mean angular_momentum; the names are q1, q2, p1, p2, energy' \
+    run kepler show=t:angular_momentu
+refused 1 'has 9 names; a graph has at most 8' run lorenz show=t:x+y+z+x+y+z+x+y+z
+refused 1 'a graph has at most 8 names, and this system has 36 components' run outer-planets show=t:all
+refused 1 'show=sideways is none of: all, t:all, x:y, t:NAME' run lotka-volterra show=sideways
+refused 1 'trails=-1 is not yes, no or a time above 0' run vortices trails=-1
+refused 1 'portrait needs a plane: this system has 4 components' run kepler portrait=yes
+refused 1 'portrait needs a field that does not depend on t' run duffing portrait=yes
+refused 1 'portrait needs a plane: this system has constraints' run cartesian-pendulum portrait=yes
+refused 1 'window=1,0,0,1 is empty' run lotka-volterra portrait=yes --window 1,0,0,1
+refused 1 'window=nan is not four finite numbers' run lotka-volterra portrait=yes --window nan
+refused 1 'the rate of x is not finite at the start' run system rate='x = sqrt(-1 - x^2)' rate='y = x' x=1 y=0 portrait=yes
+damped() {
+    status 0 run system rate='x = y' rate='y = -sin(x) - 0.3*y' x=1 y=0 steps=5 portrait=yes "$@"
+}
+damped --window -4,4,-3,3 --json
+python3 - <<'END' || fail "equilibria: $(cat out)"
+import json
+saddle, focus, other = json.load(open('out'))['equilibria']
+assert saddle['kind'] == other['kind'] == 'saddle' and focus['kind'] == 'stable focus'
+assert abs(saddle['at'][0] + 3.141592653589793) < 1e-12 and abs(other['at'][0] - 3.141592653589793) < 1e-12
+assert abs(saddle['eigenvalues'][0][0] - 0.8611874) < 1e-7 and abs(saddle['eigenvalues'][1][0] + 1.161187) < 1e-6
+assert abs(focus['eigenvalues'][0][0] + 0.15) < 1e-12 and abs(focus['eigenvalues'][0][1] - 0.9886859) < 1e-6
+END
+damped --window 4,5,1,2 --json
+grep -qF '"equilibria":[]' out || fail "a window without equilibria: $(cat out)"
+damped --window 4,5,1,2
+grep -q 'equilibrium  *none in the window' out || fail "a window without equilibria: $(cat out)"
+status 0 run system rate='x = sqrt(1.5 - x)' rate='y = x' x=1 y=0 dt=0.01 steps=1 portrait=yes --window 2,3,0,1 --json
+grep -qF '"equilibria":"the field is nowhere finite in the window"' out || fail "a field without values: $(cat out)"
+"$geomint" render lotka-volterra show=t:x+y portrait=no trails=1 until=1 -o time.png 2>/dev/null &&
+    "$geomint" again time.png -o again.png 2>/dev/null && cmp -s time.png again.png || fail 'again, over time'
 sed 's/; a$/; x/' space.system >moves.system
 refused 1 'moves.system:8:10: a surface stands still' run moves.system
 "$geomint" render space.system scheme=rk4 azimuth=20 elevation=-5 zoom=2 turn=3 -o space.png 2>/dev/null &&

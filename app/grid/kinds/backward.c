@@ -145,7 +145,8 @@ static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_mo
     double first[GM_POWERS], terms[GM_POWERS];
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
-    const int64_t steps = cell->spec->steps, looks = steps < LOOKS ? steps : LOOKS;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
+    const int64_t steps = gm_run_steps_at(lane->run, until), looks = steps < LOOKS ? steps : LOOKS;
     look(lane, energy, y, first);
     for (int64_t i = 0; i <= looks && lane->run->status == GM_OK; i++) {
         const int64_t step = looks == steps ? i : (int64_t)((double)steps * (double)i / (double)looks);
