@@ -18,8 +18,6 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 
-enum { STAGES = GM_TABLEAU_STAGES };
-
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 {
     const double matrix[9] = {0};
@@ -95,7 +93,7 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
 static double complex stability_function(const struct gm_tableau *tableau, double complex z)
 {
     const int stages = tableau->stages;
-    double complex matrix[STAGES * STAGES], k[STAGES], sum = 1;
+    double complex matrix[GM_TABLEAU_STAGES * GM_TABLEAU_STAGES], k[GM_TABLEAU_STAGES], sum = 1;
     for (int i = 0; i < stages; i++) {
         k[i] = 1;
         for (int j = 0; j < stages; j++) {

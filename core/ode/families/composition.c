@@ -124,6 +124,7 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     struct gm_task substep = *task;
     substep.steps = 1;
+    substep.carry = workspace->projected ? NULL : task->carry; /* a projected state is not a sum */
     for (; progress.done < task->steps; progress.done++) {
         for (int i = 0; i < substeps->count; i++) {
             const struct gm_scheme *scheme = substeps->at[i].scheme;
@@ -133,8 +134,8 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
             substep.dt = substeps->at[i].fraction * task->dt;
             substep.workspace = workspace->workspaces[i];
             substep.out = there ? workspace->state : task->out;
-            substep.carry_out = !task->carry ? NULL : there ? workspace->carry : task->carry_out;
-            if (task->carry) { /* a scheme without compensation leaves it unchanged */
+            substep.carry_out = !substep.carry ? NULL : there ? workspace->carry : task->carry_out;
+            if (substep.carry) { /* a scheme without compensation leaves it unchanged */
                 memcpy(substep.carry_out, substep.carry, bytes);
             }
             const struct gm_progress made =
@@ -157,7 +158,7 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
     }
     if (substep.y != task->out) {
         memcpy(task->out, substep.y, bytes);
-        if (task->carry) {
+        if (substep.carry) {
             memcpy(task->carry_out, substep.carry, bytes);
         }
     }

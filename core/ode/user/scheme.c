@@ -107,11 +107,6 @@ static struct own *open_user(const struct making *making, size_t coefficients)
     return self;
 }
 
-static char *keep_text(const struct making *making, char *text)
-{
-    return gm_arena_keep(making->arena, text, free);
-}
-
 /* ---- tableaus ---- */
 
 /* A tableau of `stages` stages with entry(i, j), and weights as its row i = stages. */
@@ -529,7 +524,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
 {
     const struct gm_span span = line->value;
     const char *text = making->source->text;
-    const char *name = keep_text(making, gm_span_words(text, span));
+    const char *name = gm_arena_keep(making->arena, gm_span_words(text, span), free);
     char sentence[GM_FAULT_SENTENCE] = "";
     if (gm_written_is_word(text + span.begin, span.end - span.begin)) {
         return &make(making, span, name, NULL)->row;
@@ -676,12 +671,15 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
         words[word] = schemes[word] ? gm_scheme_word(schemes[word]) : NULL;
     }
     row->name = gm_arena_print(making->arena, "%s", name);
-    row->title = own_title->said ? keep_text(making, gm_span_words(written->text, own_title->value))
-                 : title         ? gm_arena_print(making->arena, "%s", title)
-                                 : title_of(making, written, schemes);
-    row->formula = row->word = keep_text(making, gm_written_word(written, row->title, words));
-    row->reference =
-        reference->said ? keep_text(making, gm_span_words(written->text, reference->value)) : "brought along";
+    row->title = own_title->said
+                     ? gm_arena_keep(making->arena, gm_span_words(written->text, own_title->value), free)
+                 : title ? gm_arena_print(making->arena, "%s", title)
+                         : title_of(making, written, schemes);
+    row->formula = row->word =
+        gm_arena_keep(making->arena, gm_written_word(written, row->title, words), free);
+    row->reference = reference->said
+                         ? gm_arena_keep(making->arena, gm_span_words(written->text, reference->value), free)
+                         : "brought along";
 }
 
 /* Fills order and claims that the text does not give from theory; without theory the order is that of the
