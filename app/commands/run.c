@@ -532,10 +532,11 @@ static bool begin_rows(struct outcome *outcome, int64_t steps, char *message)
     if (outputs->save) {
         const int64_t end = gm_drive_end(&outcome->drive, steps);
         char *meta = meta_of(outcome);
-        const bool begun =
-            gm_save_begin(outputs->save, outcome->drive.index, run, rows,
-                          gm_rows_expected(&outputs->rows, run, end), meta ? strlen(meta) : 0, message);
+        const struct gm_save_size size = {.rows = rows,
+                                          .expected = gm_rows_expected(&outputs->rows, run, end),
+                                          .meta = meta ? strlen(meta) : 0};
         free(meta);
+        const bool begun = gm_save_begin(outputs->save, outcome->drive.index, run, &size, message);
         if (!begun) {
             return false;
         }

@@ -134,10 +134,10 @@ struct gm_study_row {
        measurement. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
 
-    /* ---- kinds without cells, NULL for the others; on a failure `open` leaves the body of the grid's
+    /* ---- kinds without cells, NULL for the others; on a failure the first two leave the body of the grid's
        arena, with a sentence ---- */
     void (*open)(struct gm_grid *grid);
-    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
+    void (*measure)(struct gm_grid *grid);
     void (*write)(const struct gm_grid *grid, FILE *table);
 
     /* ---- kinds with cells, when they are opened, in the body of the grid's arena ---- */
@@ -150,7 +150,7 @@ struct gm_study_row {
     /* Fills axes, lines and cells; `words` are all, among them those typed. */
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
-    /* ---- of gm_cells_measure; `prepare` in a body ---- */
+    /* ---- of gm_cells_measure, in a body of the arena ---- */
     bool alone; /* timed runs, one after the other; a lane that cannot be opened ends only its line */
     /* Makes the reference of the runs; NULL: none. */
     void (*prepare)(struct gm_grid *grid);

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <libdeflate.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,12 +66,15 @@ void gm_pause_close(struct gm_pause *pause)
 
 /* ---- a record ---- */
 
+/* Before the packed lane there are the fields of struct gm_paused in their order, and the caller's numbers. */
+enum { FIELDS = offsetof(struct gm_paused, numbers) };
+
 static size_t head_size(const struct gm_pause *pause)
 {
-    return 3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(int64_t) + pause->numbers * sizeof(double);
+    return FIELDS + pause->numbers * sizeof(double);
 }
 
-/* One function writes and reads the fields before the packed lane. */
+/* One function writes and reads. */
 static unsigned char *pass(unsigned char *at, void *data, size_t size, bool write)
 {
     memcpy(write ? at : data, write ? data : at, size);
@@ -79,11 +83,7 @@ static unsigned char *pass(unsigned char *at, void *data, size_t size, bool writ
 
 static void pass_head(const struct gm_pause *pause, unsigned char *at, struct gm_paused *paused, bool write)
 {
-    at = pass(at, &paused->seconds, sizeof paused->seconds, write);
-    at = pass(at, &paused->rows, sizeof paused->rows, write);
-    at = pass(at, &paused->saved, sizeof paused->saved, write);
-    at = pass(at, &paused->last_row, sizeof paused->last_row, write);
-    at = pass(at, paused->spacing, sizeof paused->spacing, write);
+    at = pass(at, paused, FIELDS, write);
     if (pause->numbers > 0) {
         pass(at, paused->numbers, pause->numbers * sizeof(double), write);
     }
@@ -300,7 +300,7 @@ bool gm_pause_has_rows(const struct gm_pause *pause)
     for (size_t i = 0; pause && i < pause->count; i++) {
         uint64_t rows = 0;
         if (pause->records[i].bytes) {
-            memcpy(&rows, pause->records[i].bytes + sizeof(double), sizeof rows);
+            memcpy(&rows, pause->records[i].bytes + offsetof(struct gm_paused, rows), sizeof rows);
         }
         any |= rows > 0;
     }

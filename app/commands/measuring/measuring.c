@@ -3,6 +3,7 @@
    studies, everything but the printing. */
 #include "app/commands/measuring/measuring.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -49,6 +50,15 @@ int gm_command_chart(const struct gm_options *options, const char *command, stru
     }
     gm_printer_report(&chart->print, chart->write ? chart->csv : "");
     return GM_EXIT_OK;
+}
+
+void gm_print_number(const char *format, int width, double value)
+{
+    if (isfinite(value)) {
+        printf(format, value);
+    } else {
+        printf(" %*s", width, "-");
+    }
 }
 
 static void print_json(const struct gm_grid *grid, const struct gm_study_printer *printer)

@@ -19,6 +19,9 @@ struct gm_study_printer {
                     const struct gm_grid_line *line); /* NULL */
 };
 
+/* Prints a cell of a table, with a dash as wide as the number for one that is not finite. */
+__attribute__((format(printf, 1, 0))) void gm_print_number(const char *format, int width, double value);
+
 /* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
    exit status. */
 int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,

@@ -174,41 +174,21 @@ static void write_region(const void *data, FILE *csv)
     }
 }
 
-static void print_region(const struct region *region, double left, double up, double part, double apart)
-{
-    const bool plane = region->test == GM_TEST_PLANE;
-    struct gm_row row = gm_row_begin(stdout);
-    gm_row_put(&row, "scheme %s, test %s, reach %.17g", region->scheme->name,
-               plane ? "y' = z y" : "q'' = -w^2 q", region->reach);
-    if (plane) {
-        gm_row_put(&row, "real_limit %.17g, imaginary_limit %.17g, stable_part %.17g, difference %.17g", left,
-                   up, part, apart);
-    } else {
-        gm_row_put(&row, "limit %.17g", region->limit);
-    }
-    printf("}\n");
-}
-
+/* The limits of a region, its part of the picture, and the largest difference from the stability function; NAN:
+   nothing was compared. */
 static void print_limits(const struct region *region, bool json)
 {
-    if (json && region->test == GM_TEST_OSCILLATOR) {
-        print_region(region, NAN, NAN, NAN, NAN);
-        return;
-    }
-    if (region->test == GM_TEST_OSCILLATOR) {
-        printf("%s: stable on the oscillator up to h ω = %.4g%s\n", region->scheme->name, region->limit,
-               region->limit == region->reach ? " at least" : "");
-        return;
-    }
-    const double left = gm_linear_limit(region->scheme, -1, 0, region->reach, steps_of(region->scheme));
-    const double up = gm_linear_limit(region->scheme, 0, 1, region->reach, steps_of(region->scheme));
-    double apart = 0;
-    size_t inside = 0, compared = 0;
-    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+    const struct gm_scheme *scheme = region->scheme;
+    const bool plane = region->test == GM_TEST_PLANE;
+    const double reach = region->reach;
+    const double left = plane ? gm_linear_limit(scheme, -1, 0, reach, steps_of(scheme)) : NAN;
+    const double up = plane ? gm_linear_limit(scheme, 0, 1, reach, steps_of(scheme)) : region->limit;
+    double apart = NAN;
+    size_t inside = 0;
+    for (size_t i = 0; plane && i < (size_t)SIDE * SIDE; i++) {
         inside += stable(region->measured[i]);
         if (isfinite(region->known[i]) && isfinite(region->measured[i]) && region->known[i] < 1e3) {
             apart = fmax(apart, fabs(region->known[i] - region->measured[i]));
-            compared++;
         }
     }
     const double part = (double)inside / (SIDE * SIDE);
@@ -216,14 +196,26 @@ static void print_limits(const struct region *region, bool json)
         return;
     }
     if (json) {
-        print_region(region, left, up, part, compared > 0 ? apart : NAN);
-        return;
-    }
-    printf("%s: stable for real z from -%.4g%s, for imaginary z up to %.4g%s; %.1f %% of the picture\n",
-           region->scheme->name, left, left == region->reach ? " and below" : "", up,
-           up == region->reach ? " and beyond" : "", 100 * part);
-    if (compared > 0) {
-        printf("largest difference from the stability function of its coefficients: %.1e\n", apart);
+        struct gm_row row = gm_row_begin(stdout);
+        gm_row_put(&row, "scheme %s, test %s, reach %.17g", scheme->name, plane ? "y' = z y" : "q'' = -w^2 q",
+                   reach);
+        if (plane) {
+            gm_row_put(&row, "real_limit %.17g, imaginary_limit %.17g, stable_part %.17g, difference %.17g",
+                       left, up, part, apart);
+        } else {
+            gm_row_put(&row, "limit %.17g", up);
+        }
+        printf("}\n");
+    } else if (!plane) {
+        printf("%s: stable on the oscillator up to h ω = %.4g%s\n", scheme->name, up,
+               up == reach ? " at least" : "");
+    } else {
+        printf("%s: stable for real z from -%.4g%s, for imaginary z up to %.4g%s; %.1f %% of the picture\n",
+               scheme->name, left, left == reach ? " and below" : "", up, up == reach ? " and beyond" : "",
+               100 * part);
+        if (!isnan(apart)) {
+            printf("largest difference from the stability function of its coefficients: %.1e\n", apart);
+        }
     }
 }
 

@@ -7,15 +7,6 @@
 #include "app/commands/measuring/measuring.h"
 #include "app/grid/grid.h"
 
-static void print_cell(double value)
-{
-    if (isfinite(value)) {
-        printf(" %11.3g", value);
-    } else {
-        printf(" %11s", "-");
-    }
-}
-
 static void print_table(const struct gm_grid *grid)
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
@@ -37,10 +28,10 @@ static void print_table(const struct gm_grid *grid)
         double least = INFINITY;
         printf("%-26s", line->scheme->name);
         for (size_t k = 0; k < 3; k++) {
-            print_cell(1e3 * gm_work_price(line, grid->errors[k], GM_COST_SECONDS));
+            gm_print_number(" %11.3g", 11, 1e3 * gm_work_price(line, grid->errors[k], GM_COST_SECONDS));
         }
         for (size_t k = 0; k < 3; k++) {
-            print_cell(gm_work_second_price(grid, line, grid->errors[k]));
+            gm_print_number(" %11.3g", 11, gm_work_second_price(grid, line, grid->errors[k]));
         }
         enum gm_status last = GM_OK;
         for (size_t k = 0; k < line->count; k++) {

@@ -41,9 +41,17 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
     return false;
 }
 
+static void measure(struct gm_arena *arena, void *data)
+{
+    struct gm_grid *grid = data;
+    (void)arena;
+    (grid->row->measure ? grid->row->measure : gm_cells_measure)(grid);
+}
+
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
 {
-    return (grid->row->measure ? grid->row->measure : gm_cells_measure)(grid, listener, message);
+    grid->listener = listener;
+    return gm_arena_run(grid->arena, measure, grid) || gm_refuse(message, "%s", gm_arena_reason(grid->arena));
 }
 
 void gm_grid_close(void *self)

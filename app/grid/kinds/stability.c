@@ -197,21 +197,16 @@ enum { MOST_EDGES = 64 };
 
 static struct gm_style style_of(const struct gm_grid_cell *cell)
 {
-    if (!cell->tried) {
-        return (struct gm_style){.role = gm_lane_role(2), .alpha = 0};
-    }
-    switch (cell->verdict) {
-    case GM_LOST:
-        return (struct gm_style){.role = gm_lane_role(0), .alpha = 0.55};
-    case GM_GAINED:
-        return (struct gm_style){.role = gm_lane_role(1), .alpha = 0.6};
-    case GM_WRONG:
-        return (struct gm_style){.role = gm_lane_role(3), .alpha = 0.4};
-    case GM_FAILED:
+    static const struct {
+        size_t lane;
+        double alpha;
+    } colours[] = {
+        [GM_BOUNDED] = {2, 0.22}, [GM_LOST] = {0, 0.55}, [GM_GAINED] = {1, 0.6}, [GM_WRONG] = {3, 0.4}};
+    if (cell->tried && cell->verdict == GM_FAILED) {
         return (struct gm_style){.role = GM_SECONDARY, .alpha = cell->status == GM_BLOW_UP ? 0.85 : 0.5};
-    default:
-        return (struct gm_style){.role = gm_lane_role(2), .alpha = 0.22};
     }
+    return (struct gm_style){.role = gm_lane_role(colours[cell->verdict].lane),
+                             .alpha = cell->tried ? colours[cell->verdict].alpha : 0};
 }
 
 static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line, struct gm_picture *picture)
