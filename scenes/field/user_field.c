@@ -280,7 +280,8 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 
 static void record_shown(const struct gm_view *view, double *entry)
 {
-    gm_surface_record_shown(view, ((const struct gm_system_lane *)view->parameters)->show, gm_field_u, entry);
+    gm_surface_record_shown(view, ((const struct gm_system_lane *)view->parameters)->grid.show, gm_field_u,
+                            entry);
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -303,13 +304,13 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .low = crosses ? -most - margin : ends[0] - margin,
         .high = crosses ? most + margin : ends[1] + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
-        .show = lane->show,
+        .show = lane->grid.show,
     };
     const char *beyond = "";
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
         const struct gm_entries *rows = &lanes[i]->entries[0];
-        if (lanes[i]->problem.line.walls && lane->show == GM_SHOW_FIELD) {
+        if (lanes[i]->problem.line.walls && lane->grid.show == GM_SHOW_FIELD) {
             /* a kink that comes back from a wall leads to other values than it came from */
             hold(&look.low, &look.high, 5 * most, rows->values, rows->count * rows->width);
         }
@@ -333,6 +334,7 @@ static void draw_mesh(const struct gm_lane *const *lanes, size_t count, struct g
     const struct user_field *field = owner_of(lanes[0]->parameters);
     const size_t nodes = gm_user_mesh_order(&field->wave);
     struct gm_mesh_look look = {
+        .show = (enum gm_mesh_view)((const struct gm_system_lane *)lanes[0]->parameters)->grid.show,
         .front = gm_picture_text(picture, "means of V by %zu of Gauss’s points", nodes),
         .name = field->of_file.system.variables[0].name,
         .scale = GM_LINEAR,
@@ -352,7 +354,7 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
                          *const shown[] = {"field", "energy-law", "momentum-law", NULL};
 #define LANE struct gm_system_lane
 #define RING(least) GM_POINTS(LANE, grid.points, "", least, "of the grid")
-#define SHOW GM_LAW_ROW(LANE, show, shown)
+#define SHOW GM_LAW_ROW(LANE, grid.show, shown)
 #define BOUNDARY                                                                                             \
     GM_CHOICE_ROW(LANE, grid.walls, "boundary", "ring", boundaries,                                          \
                   "a ring, or walls that reflect: u_x = 0 at both ends")
@@ -467,7 +469,7 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
 static const struct gm_parameter mesh_rows[] = {
     GM_INTEGER_ROW(LANE, grid.points, "points", "", 1, 1e5, "nodes between the ends", .logarithmic = true),
     GM_CHOICE_ROW(
-        LANE, show, "show", "all", gm_mesh_views,
+        LANE, grid.show, "show", "all", gm_mesh_views,
         "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .live = true),
     GM_REAL_ROW(

@@ -110,6 +110,7 @@ struct gm_system_scene {
 
 /* The grid of a field; half its length is among the values. */
 struct gm_line_keys {
+    int show; /* the content of the surfaces: scenes/field/observed.h; on a moving mesh enum gm_mesh_view */
     long points;
     int space; /* enum gm_derivatives */
     int walls;
