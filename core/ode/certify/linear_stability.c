@@ -26,7 +26,7 @@ enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
     facets.volume = NULL;
     plane.facets = &facets;
     plane.parameters = matrix;
-    if (scheme->family->adaptive) {
+    if (scheme->family->adaptive || scheme->family->by_tolerance) {
         return GM_TEST_NONE;
     }
     return gm_scheme_fits(scheme, &plane)                   ? GM_TEST_PLANE
